@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs what is missing, builds, runs all tests.   tests/run.sh [--build-only] [--preset NAME] [ctest options]
+# TANDEM_STRESS=N multiplies the sizes of the stress tests (default 1, short).
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
+
+preset=release
+build_only=no
+while [ $# -gt 0 ]; do
+    case $1 in
+        --build-only) build_only=yes ;;
+        --preset) preset=${2:?--preset needs a name}; shift ;;
+        *) break ;;
+    esac
+    shift
+done
+
+install_missing_packages
+build_preset "$preset"
+if [ $build_only = yes ]; then exit 0; fi
+say "running the tests of preset $preset"
+ctest --preset "$preset" "$@"
