@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace tandem::plugin {
+
+enum class Reason {
+    not_found,      ///< no such file in any folder of the search path
+    not_loadable,   ///< the file is there, the dynamic linker refused it
+    missing_symbol, ///< the library is loaded and lacks a function that was asked for
+};
+
+/// what() is one line that names the file or the symbol.
+class Error : public std::runtime_error {
+  public:
+    Error(Reason reason, const std::string& what) : std::runtime_error(what), reason_(reason) {}
+    Reason reason() const noexcept { return reason_; }
+
+  private:
+    Reason reason_;
+};
+
+} // namespace tandem::plugin

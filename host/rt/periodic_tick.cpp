@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rt/periodic_tick.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+#include <stdexcept>
+#include <string>
+
+namespace tandem::rt {
+namespace {
+
+constexpr std::int64_t second_ns = 1'000'000'000;
+// A sleep is never longer, so that interrupt() works without a signal; periods up to this cost one system
+// call.
+constexpr std::int64_t longest_sleep_ns = 100'000'000;
+
+void sleep_until(std::int64_t when) {
+    const timespec at{static_cast<time_t>(when / second_ns), static_cast<long>(when % second_ns)};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
+    }
+}
+
+void relax() {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+}
+
+} // namespace
+
+std::int64_t monotonic_ns() noexcept {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * second_ns + now.tv_nsec;
+}
+
+PeriodicTick::PeriodicTick(const TickOptions& options)
+    : period_(options.period.count()), phase_(options.phase.count()), spin_(options.spin.count()),
+      aligned_(options.aligned) {
+    if (period_ <= 0)
+        throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
+                                    std::to_string(period_));
+}
+
+void PeriodicTick::plan_first(std::int64_t now) {
+    started_ = true;
+    next_ = now;
+    if (!aligned_) return;
+    const std::int64_t into_period = ((now - phase_) % period_ + period_) % period_;
+    next_ = now - into_period + period_;
+}
+
+std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
+    next_ += period_;
+    if (now <= next_) return 0;
+    overruns_.fetch_add(1, std::memory_order_relaxed);
+    const std::int64_t missed = (now - next_) / period_;
+    next_ += missed * period_;
+    skipped_.fetch_add(static_cast<std::uint64_t>(missed), std::memory_order_relaxed);
+    return static_cast<std::uint64_t>(missed);
+}
+
+void PeriodicTick::sleep_until_next() {
+    const std::int64_t poll_from = next_ - spin_;
+    std::int64_t now = monotonic_ns();
+    while (now < poll_from && !interrupted()) {
+        sleep_until(std::min(poll_from, now + longest_sleep_ns));
+        now = monotonic_ns();
+    }
+    while (now < next_ && !interrupted()) {
+        relax();
+        now = monotonic_ns();
+    }
+    const std::int64_t lateness = now - next_;
+    lateness_last_.store(lateness, std::memory_order_relaxed);
+    if (lateness > lateness_max_.load(std::memory_order_relaxed))
+        lateness_max_.store(lateness, std::memory_order_relaxed);
+}
+
+std::uint64_t PeriodicTick::wait() {
+    if (interrupted()) return 0;
+    const std::int64_t now = monotonic_ns();
+    std::uint64_t missed = 0;
+    if (started_)
+        missed = plan_next(now);
+    else
+        plan_first(now);
+    sleep_until_next();
+    if (!interrupted()) ticks_.fetch_add(1, std::memory_order_relaxed);
+    return missed;
+}
+
+TickStats PeriodicTick::stats() const {
+    return {ticks_.load(std::memory_order_relaxed), overruns_.load(std::memory_order_relaxed),
+            skipped_.load(std::memory_order_relaxed), lateness_last_.load(std::memory_order_relaxed),
+            lateness_max_.load(std::memory_order_relaxed)};
+}
+
+} // namespace tandem::rt

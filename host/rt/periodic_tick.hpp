@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// A periodic tick on CLOCK_MONOTONIC: the clock of every executor of both hosts.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
+namespace tandem::rt {
+
+struct TickOptions {
+    std::chrono::nanoseconds period;
+    std::chrono::nanoseconds phase{0};
+    /// Ticks fall on multiples of the period plus the phase, so that two hosts share one grid without
+    /// talking. Otherwise the grid starts at the first wait(), whose tick comes at once.
+    bool aligned = true;
+    /// The last stretch before a tick is polled instead of slept.
+    std::chrono::nanoseconds spin{0};
+};
+
+struct TickStats {
+    std::uint64_t ticks;    ///< waits that ended in a tick
+    std::uint64_t overruns; ///< ticks whose time had passed when wait() was called
+    std::uint64_t skipped;  ///< periods that never got a tick
+    std::int64_t lateness_ns_last;
+    std::int64_t lateness_ns_max;
+};
+
+class PeriodicTick {
+  public:
+    /// Throws std::invalid_argument unless period > 0.
+    explicit PeriodicTick(const TickOptions& options);
+
+    /// [tick-thread] Sleeps to the next tick and returns how many periods were skipped because the work
+    /// overran. A tick late by less than one period comes at once; older ones are dropped and the grid is
+    /// kept.
+    std::uint64_t wait();
+
+    /// [any-thread] Makes the wait under way, and all later ones, return within 100 ms without a tick.
+    void interrupt() noexcept { interrupted_.store(true, std::memory_order_relaxed); }
+    bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed); }
+
+    /// [tick-thread] The time the present tick was planned for, in ns of CLOCK_MONOTONIC.
+    std::int64_t planned_ns() const noexcept { return next_; }
+
+    /// [any-thread]
+    TickStats stats() const;
+
+  private:
+    void plan_first(std::int64_t now);
+    std::uint64_t plan_next(std::int64_t now);
+    void sleep_until_next();
+
+    const std::int64_t period_;
+    const std::int64_t phase_;
+    const std::int64_t spin_;
+    const bool aligned_;
+    bool started_ = false;
+    std::int64_t next_ = 0;
+    std::atomic<bool> interrupted_{false};
+    std::atomic<std::uint64_t> ticks_{0}, overruns_{0}, skipped_{0};
+    std::atomic<std::int64_t> lateness_last_{0}, lateness_max_{0};
+};
+
+/// Now, in ns of CLOCK_MONOTONIC.
+std::int64_t monotonic_ns() noexcept;
+
+} // namespace tandem::rt

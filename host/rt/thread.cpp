@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rt/thread.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+namespace tandem::rt {
+namespace {
+
+std::string why(int error) { return std::strerror(error); }
+
+void set_name(const std::string& name) {
+    if (!name.empty()) pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
+}
+
+std::optional<std::string> set_priority(const ThreadOptions& options) {
+    sched_param parameters{};
+    parameters.sched_priority = options.fifo_priority;
+    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+    if (error == 0) return std::nullopt;
+    return "thread " + options.name + " runs without SCHED_FIFO priority " +
+           std::to_string(options.fifo_priority) + ": " + why(error) +
+           "; grant CAP_SYS_NICE or an rtprio limit";
+}
+
+std::optional<std::string> pin(const ThreadOptions& options) {
+    int error = EINVAL;
+    if (options.cpu < CPU_SETSIZE) {
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        CPU_SET(static_cast<std::size_t>(options.cpu), &set);
+        error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+    }
+    if (error == 0) return std::nullopt;
+    return "thread " + options.name + " is not pinned to processor " + std::to_string(options.cpu) + ": " +
+           why(error) + "; choose one of `taskset -p $$`";
+}
+
+} // namespace
+
+std::vector<std::string> set_up_this_thread(const ThreadOptions& options) {
+    std::vector<std::string> notices;
+    set_name(options.name);
+    prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
+    if (options.fifo_priority > 0)
+        if (auto notice = set_priority(options)) notices.push_back(std::move(*notice));
+    if (options.cpu >= 0)
+        if (auto notice = pin(options)) notices.push_back(std::move(*notice));
+    return notices;
+}
+
+std::optional<std::string> lock_memory() {
+    if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return std::nullopt;
+    return "memory is not locked: " + why(errno) + "; grant CAP_IPC_LOCK or raise `ulimit -l`";
+}
+
+std::optional<std::string> hold_low_latency_idle() {
+    // The kernel honours the request as long as the file is open: it is meant to stay open until the end.
+    const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
+    const std::int32_t microseconds = 0;
+    if (file >= 0 && ::write(file, &microseconds, sizeof microseconds) == sizeof microseconds)
+        return std::nullopt;
+    const std::string reason = why(errno);
+    if (file >= 0) ::close(file);
+    return "processors may enter deep idle states: /dev/cpu_dma_latency: " + reason +
+           "; run as a user who may write it";
+}
+
+std::optional<std::string> end_with_parent() {
+    if (prctl(PR_SET_PDEATHSIG, static_cast<unsigned long>(SIGTERM), 0UL, 0UL, 0UL) != 0)
+        return "the parent's death will go unnoticed: " + why(errno);
+    if (getppid() != 1) return std::nullopt;
+    return std::string("the parent process is gone already");
+}
+
+} // namespace tandem::rt

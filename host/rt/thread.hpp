@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a thread or a process asks of the kernel for real time. Nothing here is needed for correctness: what
+// is refused comes back as a one-line notice for the log, and the program runs on without it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tandem::rt {
+
+struct ThreadOptions {
+    std::string name;      ///< at most 15 characters are shown
+    int fifo_priority = 0; ///< 1..99: SCHED_FIFO; 0: leave the scheduling class alone
+    int cpu = -1;          ///< pin to this processor; -1: leave the affinity alone
+};
+
+/// Applies the options to the calling thread, and a timer slack of 1 ns always. Returns a notice for each
+/// refusal.
+std::vector<std::string> set_up_this_thread(const ThreadOptions& options);
+
+/// Locks present and future memory of the process (mlockall). Returns a notice when not permitted.
+std::optional<std::string> lock_memory();
+
+/// Keeps the processors out of deep idle states until the process ends. Returns a notice when not permitted.
+std::optional<std::string> hold_low_latency_idle();
+
+/// Sends SIGTERM to this process when its parent dies. Returns a notice when refused or already orphaned.
+std::optional<std::string> end_with_parent();
+
+} // namespace tandem::rt

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rt/periodic_tick.hpp"
+
+#include <catch2/catch.hpp>
+#include <stdexcept>
+#include <thread>
+
+using namespace std::chrono_literals;
+using tandem::rt::monotonic_ns;
+using tandem::rt::PeriodicTick;
+
+TEST_CASE("an aligned tick is planned on a multiple of the period plus the phase, and never comes early") {
+    PeriodicTick tick({.period = 2ms, .phase = 500us});
+    for (int i = 0; i < 5; ++i) {
+        tick.wait();
+        CHECK(tick.planned_ns() % 2'000'000 == 500'000);
+        CHECK(monotonic_ns() >= tick.planned_ns());
+    }
+    CHECK(tick.stats().ticks == 5);
+}
+
+TEST_CASE("two aligned ticks of one period share a grid") {
+    PeriodicTick a({.period = 3ms}), b({.period = 3ms});
+    a.wait();
+    b.wait();
+    CHECK((b.planned_ns() - a.planned_ns()) % 3'000'000 == 0);
+}
+
+TEST_CASE("a tick that is not aligned comes at once and starts its own grid") {
+    PeriodicTick tick({.period = 10s, .aligned = false});
+    const auto before = monotonic_ns();
+    tick.wait();
+    CHECK(tick.planned_ns() >= before);
+    CHECK(tick.planned_ns() <= monotonic_ns());
+}
+
+TEST_CASE("work longer than several periods drops the missed ticks and keeps the grid") {
+    PeriodicTick tick({.period = 2ms});
+    tick.wait();
+    const auto first = tick.planned_ns();
+    std::this_thread::sleep_for(11ms);
+    const auto skipped = tick.wait();
+    CHECK(skipped >= 4);
+    CHECK((tick.planned_ns() - first) == static_cast<std::int64_t>(skipped + 1) * 2'000'000);
+    CHECK(tick.stats().overruns == 1);
+    CHECK(tick.stats().skipped == skipped);
+}
+
+TEST_CASE("a spinning tick does not come early either") {
+    PeriodicTick tick({.period = 2ms, .spin = 1ms});
+    tick.wait();
+    CHECK(monotonic_ns() >= tick.planned_ns());
+    CHECK(tick.stats().lateness_ns_last >= 0);
+}
+
+TEST_CASE("an interrupted tick ends a long wait without counting a tick") {
+    PeriodicTick tick({.period = 1h});
+    std::thread waiter([&] { tick.wait(); });
+    tick.interrupt();
+    waiter.join();
+    CHECK(tick.interrupted());
+    CHECK(tick.stats().ticks == 0);
+}
+
+TEST_CASE("a period of zero is refused") {
+    CHECK_THROWS_AS(PeriodicTick({.period = 0ns}), std::invalid_argument);
+}
