@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <ctime>
+
+namespace tandem::wire {
+
+/// RTM's `Time tm` as the message header carries it: seconds in the upper, nanoseconds in the lower half, so
+/// that it comes out bit for bit as it went in.
+constexpr std::uint64_t pack_time(std::uint32_t sec, std::uint32_t nsec) {
+    return std::uint64_t{sec} << 32 | nsec;
+}
+constexpr std::uint32_t seconds_of(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp >> 32); }
+constexpr std::uint32_t nanoseconds_of(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp); }
+
+/// Wall-clock time of now, the stamp of a message whose sender gives none.
+inline std::uint64_t stamp_now() {
+    timespec now{};
+    clock_gettime(CLOCK_REALTIME, &now);
+    return pack_time(static_cast<std::uint32_t>(now.tv_sec), static_cast<std::uint32_t>(now.tv_nsec));
+}
+
+} // namespace tandem::wire
