@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace tandem::wire {
 
@@ -23,6 +24,8 @@ concept CdrPrimitive = std::is_arithmetic_v<T> && sizeof(T) <= 8;
 class CdrWriter {
   public:
     explicit CdrWriter(std::span<std::byte> out) : out_(out) {}
+    /// Writes from the start of `out`, which grows as the message does and keeps its capacity.
+    explicit CdrWriter(std::vector<std::byte>& out) : grow_(&out) { out.clear(); }
 
     template <CdrPrimitive T>
     void put(T value) {
@@ -48,16 +51,21 @@ class CdrWriter {
         append(zeros, (0 - size_) & (alignment - 1));
     }
 
-    bool fits() const { return size_ <= out_.size(); }
+    bool fits() const { return grow_ || size_ <= out_.size(); }
     std::size_t size() const { return size_; }
 
   private:
     void append(const void* data, std::size_t bytes) {
-        if (bytes != 0 && size_ + bytes <= out_.size()) std::memcpy(out_.data() + size_, data, bytes);
+        const auto* from = static_cast<const std::byte*>(data);
+        if (grow_)
+            grow_->insert(grow_->end(), from, from + bytes);
+        else if (bytes != 0 && size_ + bytes <= out_.size())
+            std::memcpy(out_.data() + size_, from, bytes);
         size_ += bytes;
     }
 
     std::span<std::byte> out_;
+    std::vector<std::byte>* grow_ = nullptr;
     std::size_t size_ = 0;
 };
 

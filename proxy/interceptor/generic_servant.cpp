@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/generic_servant.hpp"
+
+#include "proxy/interceptor/transcoder.hpp"
+
+#include <omniORB4/callDescriptor.h>
+#include <omniORB4/callHandle.h>
+
+namespace tandem::interceptor {
+namespace {
+
+class Upcall final : public omniCallDescriptor {
+  public:
+    Upcall(const char* name, const CallTarget::Operation& operation, CallTarget& target)
+        : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, 0, nullptr, 0, 1),
+          operation_(operation), target_(target) {}
+
+    void unmarshalArguments(cdrStream& stream) override {
+        wire::CdrWriter writer(arguments_);
+        to_cdr(operation_.arguments, stream, writer);
+    }
+    void marshalReturnedValues(cdrStream& stream) override {
+        wire::CdrReader reader(results_);
+        from_cdr(operation_.result, reader, stream);
+    }
+
+  private:
+    static void run(omniCallDescriptor* descriptor, omniServant*) {
+        auto* self = static_cast<Upcall*>(descriptor);
+        self->results_ = self->target_.call(self->op(), self->operation_, self->arguments_);
+    }
+
+    const CallTarget::Operation& operation_;
+    CallTarget& target_;
+    std::vector<std::byte> arguments_, results_;
+};
+
+} // namespace
+
+GenericServant::GenericServant(std::string repository_id, CallTarget& target)
+    : repository_id_(std::move(repository_id)), target_(target) {}
+
+_CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
+    const char* name = handle.operation_name();
+    const auto* operation = target_.find(name);
+    if (!operation) return 0; // the ORB goes on with _is_a and its like, and else answers BAD_OPERATION
+    Upcall upcall(name, *operation, target_);
+    handle.upcall(this, upcall);
+    return 1;
+}
+
+_CORBA_Boolean GenericServant::_is_a(const char*) { return 1; }
+
+void* GenericServant::_ptrToInterface(const char* repository_id) {
+    // Only CORBA::Object: a pointer to a compiled skeleton cannot be had, so callers go through _dispatch().
+    return omni::strMatch(repository_id, CORBA::Object::_PD_repoId) ? reinterpret_cast<void*>(1) : nullptr;
+}
+
+const char* GenericServant::_mostDerivedRepoId() { return repository_id_.c_str(); }
+
+} // namespace tandem::interceptor

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/port_table.hpp"
+
+#include "proxy/link/error.hpp"
+#include "proxy/wire/cdr.hpp"
+
+#include <algorithm>
+
+namespace tandem::link {
+namespace {
+
+void put(wire::CdrWriter& out, const Port& port) {
+    out.put(static_cast<std::uint32_t>(port.kind));
+    for (const auto* text : {&port.name, &port.type, &port.signature, &port.instance}) out.put_string(*text);
+    out.put(static_cast<std::uint32_t>(port.operations.size()));
+    for (const auto& operation : port.operations) {
+        out.put_string(operation.name);
+        out.put_string(operation.signature);
+    }
+}
+
+void put(wire::CdrWriter& out, const PortTable& table) {
+    out.put_string(table.component);
+    out.put(static_cast<std::uint32_t>(table.ports.size()));
+    for (const Port& port : table.ports) put(out, port);
+}
+
+Port get_port(wire::CdrReader& in) {
+    Port port;
+    port.kind = static_cast<PortKind>(in.get<std::uint32_t>());
+    if (port.kind > PortKind::service_required)
+        throw LinkError("the partner's port table has a port of unknown kind");
+    for (auto* text : {&port.name, &port.type, &port.signature, &port.instance}) *text = in.get_string();
+    port.operations.resize(in.get_count(8));
+    for (auto& operation : port.operations) {
+        operation.name = in.get_string();
+        operation.signature = in.get_string();
+    }
+    return port;
+}
+
+} // namespace
+
+const Port* PortTable::find(std::string_view name) const {
+    const auto at =
+        std::find_if(ports.begin(), ports.end(), [&](const Port& port) { return port.name == name; });
+    return at == ports.end() ? nullptr : &*at;
+}
+
+std::vector<std::byte> encode(const PortTable& table) {
+    wire::CdrWriter measure({});
+    put(measure, table);
+    std::vector<std::byte> bytes(measure.size());
+    wire::CdrWriter writer(bytes);
+    put(writer, table);
+    return bytes;
+}
+
+PortTable decode_port_table(std::span<const std::byte> bytes) {
+    wire::CdrReader in(bytes);
+    PortTable table;
+    table.component = in.get_string();
+    table.ports.reserve(in.get_count(24));
+    for (std::size_t left = table.ports.capacity(); left > 0 && in.ok(); --left)
+        table.ports.push_back(get_port(in));
+    if (!in.ok())
+        throw LinkError("the partner's port table is damaged: it ends early or holds a malformed string");
+    return table;
+}
+
+} // namespace tandem::link

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tandem::link {
+
+/// What a port is to the component that has it.
+enum class PortKind : std::uint32_t { data_out, data_in, service_provided, service_required };
+
+struct ServiceOperation {
+    std::string name;
+    std::string signature; ///< `arguments:result`, see proxy/wire
+    bool operator==(const ServiceOperation&) const = default;
+};
+
+/// One port that a half shares with its partner, which grows a mirror of the same name.
+struct Port {
+    PortKind kind{};
+    std::string name;
+    std::string type;      ///< as its own model calls it, for messages: `IDL:RTC/TimedDouble:1.0`, `Chair`
+    std::string signature; ///< data ports: of the message, RTM's leading time included
+    std::string instance;  ///< service ports: name of the interface instance
+    std::vector<ServiceOperation> operations; ///< service ports: empty when the model cannot tell
+    bool operator==(const Port&) const = default;
+};
+
+struct PortTable {
+    std::string component; ///< whose ports these are
+    std::vector<Port> ports;
+    bool operator==(const PortTable&) const = default;
+
+    const Port* find(std::string_view name) const;
+};
+
+std::vector<std::byte> encode(const PortTable&);
+/// Throws LinkError when the bytes, which another process wrote, are no table.
+PortTable decode_port_table(std::span<const std::byte>);
+
+} // namespace tandem::link
