@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/wheelchair/core/control_body.hpp"
+
+#include <algorithm>
+
+namespace tandem::wheelchair {
+
+ControlBody::ControlBody(const Settings& settings)
+    : clock_(settings.simulated), poll_seconds_(settings.poll_seconds), trace_(settings.trace) {}
+
+/// Looks out for a new reference for at most poll_us. Ticks and references share one grid in real time, so a
+/// reference is read the moment it becomes visible: what is measured is the transport and not the phase of
+/// two timers.
+ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
+    const double give_up = monotonic_seconds() + poll_seconds_;
+    for (;;) {
+        const auto in = ports.references();
+        const double now = monotonic_seconds();
+        if (in.newest) reference_ = *in.newest;
+        if (in.newest || now >= give_up) return {in.count, now};
+    }
+}
+
+void ControlBody::tick(ControlPorts& ports) {
+    const Read read = read_reference(ports);
+    if (const auto in = ports.wheels(); in.newest) wheels_ = *in.newest;
+    const double t = clock_.at(tick_);
+    // Ages count from the first tick: what was sent while this component could not look is not late. A stamp
+    // from the future must not keep a message fresh.
+    if (tick_ == 0) first_tick_at_ = t;
+    const auto bounded = [&](auto message) {
+        message.stamp = std::min(std::max(message.stamp, first_tick_at_), t);
+        return message;
+    };
+    const Voltage voltage = law_.tick(t, bounded(reference_), bounded(wheels_));
+    ports.send({t, static_cast<double>(tick_), voltage});
+    trace_.append({monotonic_seconds(), static_cast<double>(tick_), t, reference_.sequence, reference_.stamp,
+                   read.at, static_cast<double>(read.count), wheels_.sequence, wheels_.stamp,
+                   law_.filtered_direction_deg(), static_cast<double>(law_.state()), voltage.left,
+                   voltage.right, voltage.brake ? 1.0 : 0.0});
+    ++tick_;
+}
+
+void ControlBody::deactivate(ControlPorts& ports) {
+    ports.send({clock_.at(tick_), static_cast<double>(tick_), Voltage{0.0, 0.0, true}});
+}
+
+} // namespace tandem::wheelchair
