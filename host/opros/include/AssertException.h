@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef ASSERTEXCEPTION_H_
+#define ASSERTEXCEPTION_H_
+
+#include <exception>
+#include <iostream>
+
+class AssertException : public std::exception {
+  public:
+    virtual const char* what() const noexcept { return "assertion failed"; }
+    void message() const { std::cerr << what() << std::endl; }
+};
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef IDATAPORTLINK_H_
+#define IDATAPORTLINK_H_
+
+#include <DataPort.h>
+#include <OPRoSTypes.h>
+#include <RemoteDataPort.h>
+
+/// From one output data port to any number of input data ports: made by the host.
+class IDataPortLink {
+  public:
+    virtual ~IDataPortLink() {}
+    virtual ReturnType push(opros_any& data) = 0;
+    virtual ReturnType setSource(DataPort* src) = 0;
+    virtual ReturnType addDestination(DataPort* dest) = 0;
+    virtual ReturnType addDestination(RemoteDataPort* dest) = 0;
+    virtual ReturnType removeDestination(DataPort* dest) = 0;
+    virtual ReturnType removeDestination(RemoteDataPort* dest) = 0;
+    virtual ReturnType clearDestination() = 0;
+    virtual ReturnType clearSource() = 0;
+};
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INPUTDATAPORT_H_
+#define INPUTDATAPORT_H_
+
+#include <InputDataPortInterface.h>
+
+#include <typeinfo>
+
+template <typename dataType> class InputDataPort : public InputDataPortInterface {
+  public:
+    InputDataPort() {}
+    InputDataPort(DataPortPolicy data_policy, unsigned int queue_limit)
+        : InputDataPortInterface(data_policy, queue_limit) {}
+    InputDataPort(const std::string& name) : InputDataPortInterface(name) {}
+    InputDataPort(const std::string& name, DataPortPolicy data_policy, unsigned int queue_limit)
+        : InputDataPortInterface(name, data_policy, queue_limit) {}
+
+    /// NULL when the data are of another type.
+    dataType* getContentPointer(opros_any& data) { return ANY_CASTING(dataType, &data); }
+    /// Throws std::bad_cast when the data are of another type.
+    dataType getContent(opros_any& data) {
+        dataType* content = ANY_CASTING(dataType, &data);
+        if (!content) throw std::bad_cast();
+        return *content;
+    }
+
+    virtual ReturnType push(opros_any& data) { return push_data(data); }
+    virtual ReturnType push(dataType& data) {
+        opros_any_view::of<dataType> view(data);
+        return push(static_cast<opros_any&>(view));
+    }
+    virtual ReturnType push(opros::archive::iarchive& in) {
+        opros_any value = sample();
+        if (!value.serializable()) return OPROS_UNSUPPORTED_METHOD;
+        value.decode(in);
+        return push(value);
+    }
+    virtual ReturnType pushData(unsigned char* data, int size) {
+        if (!m_arc) return OPROS_UNSUPPORTED_METHOD;
+        std::stringstream bytes(std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)));
+        opros::archive::iarchive* archive = m_arc->getInputArchive(&bytes);
+        const ReturnType result = push(*archive);
+        m_arc->release(archive);
+        return result;
+    }
+    virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
+    virtual bool checkType(DataPort* dst) {
+        opros_any value = sample();
+        return dst->checkType(value);
+    }
+    virtual opros_any sample() const { return opros_any(dataType()); }
+};
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef INPUTDATAPORTINTERFACE_H_
+#define INPUTDATAPORTINTERFACE_H_
+
+#include <ArchiveFactory.h>
+#include <DataPort.h>
+#include <DataPortSource.h>
+
+class InputDataPortImpl;
+
+/// The queue of an input data port. Any thread may push, pop, peek and ask.
+class InputDataPortInterface : public DataPort {
+  public:
+    InputDataPortInterface();
+    InputDataPortInterface(DataPortPolicy data_policy, unsigned int queue_limit);
+    explicit InputDataPortInterface(const std::string& name);
+    InputDataPortInterface(const std::string& name, DataPortPolicy data_policy, unsigned int queue_limit);
+    virtual ~InputDataPortInterface();
+
+    virtual DataPortRole getRole();
+    virtual opros_any* peek();
+    virtual opros_any* pop();
+    virtual int getSize();
+    virtual void setArchiveFactory(ArchiveFactory* darc);
+    virtual void reset();
+
+    /// Every pop(), peek() and getSize() looks at the sources too, under the port's queue policy: with FIFO as many
+    /// values are taken over as there is room for, with LAST all and the newest is kept. The port's type must be
+    /// serializable (OPROS_UNSUPPORTED_METHOD otherwise). The source must outlive its stay (ours).
+    virtual ReturnType addSource(DataPortSource* source);
+    /// On return the source is not in use and will not be used again (ours).
+    virtual ReturnType removeSource(DataPortSource* source);
+
+    virtual ReturnType push(opros_any& data) = 0;
+    virtual ReturnType pushData(unsigned char* data, int size) = 0;
+    virtual ReturnType push(opros::archive::iarchive& in) = 0;
+    virtual bool checkType(opros_any& data) = 0;
+    virtual bool checkType(DataPort* dst) = 0;
+
+  protected:
+    virtual ReturnType push_data(opros_any& data);
+
+    InputDataPortImpl* m_impl;
+    ArchiveFactory* m_arc;
+
+  private:
+    InputDataPortInterface(const InputDataPortInterface&);
+    InputDataPortInterface& operator=(const InputDataPortInterface&);
+};
+
+#endif

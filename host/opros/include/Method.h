@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef METHOD_H_
+#define METHOD_H_
+
+#include <ArchiveFactory.h>
+#include <Port.h>
+#include <ReturnType.h>
+
+#include <string>
+#include <typeinfo>
+#include <vector>
+
+#define METHOD_BLOCKING 1
+#define METHOD_NONBLOCKING 2
+
+/// A method of a service port.
+class Method {
+  public:
+    Method();
+    explicit Method(const std::string& name);
+    virtual ~Method();
+    virtual std::string& getName();
+    virtual std::string& getReturnType() = 0;
+    virtual int getArity() = 0;
+    virtual int getCallType() = 0;
+
+    /// Loads one default-constructed value of each argument type, in order, from the first archive, and one of the
+    /// result type, unless void, from the second: archives that record what they are asked for learn the
+    /// signature. False when a type cannot be archived (ours).
+    virtual bool describe(opros::archive::iarchive& arguments, opros::archive::iarchive& result);
+    /// The C++ types: the result, then the arguments, without const and reference. Empty when not known (ours).
+    virtual std::vector<const std::type_info*> types() const;
+    /// "double (std::string, int)", for messages (ours).
+    std::string signature();
+
+  protected:
+    std::string m_name;
+};
+
+#endif

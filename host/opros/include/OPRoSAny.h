@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// A value of any type, as ports pass it along. Ours: part of OPRoSTypes.h, which is what components include.
+#ifndef OPROS_ANY_H_
+#define OPROS_ANY_H_
+
+#include <archive/opros_archive.h>
+
+#include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+
+class opros_any {
+  public:
+    /// What an any holds, and all that can be done with it without knowing its type.
+    class holder_base {
+      public:
+        virtual ~holder_base() {}
+        virtual const std::type_info& rtti() const = 0;
+        virtual const std::string type() const = 0;
+        virtual const void* address() const = 0;
+        virtual holder_base* clone() const = 0;
+        virtual bool assign(const holder_base& other) = 0;
+        virtual bool serializable() const = 0;
+        virtual void encode(opros::archive::oarchive& ar) const = 0;
+        virtual void decode(opros::archive::iarchive& ar) = 0;
+    };
+
+    opros_any() : content(0) {}
+    template <typename dataType> opros_any(const dataType& value) : content(new holder<dataType>(value)) {}
+    opros_any(const opros_any& other) : content(other.content ? other.content->clone() : 0) {}
+    virtual ~opros_any() { delete content; }
+
+    opros_any& swap(opros_any& other) {
+        std::swap(content, other.content);
+        return *this;
+    }
+    template <typename dataType> opros_any& operator=(const dataType& value) {
+        opros_any(value).swap(*this);
+        return *this;
+    }
+    /// Copies into the value it has when the types are the same, so that the value's storage is used again.
+    opros_any& operator=(const opros_any& other) {
+        if (this == &other) return *this;
+        if (content && other.content && content->assign(*other.content)) return *this;
+        opros_any(other).swap(*this);
+        return *this;
+    }
+
+    bool empty() const { return !content; }
+    /// The type's name on ports (typeName); "void" when empty.
+    const std::string type() const { return content ? content->type() : std::string("void"); }
+
+    /// Whether encode() and decode() can work: the type has save and load in one of the known ways.
+    bool serializable() const { return content && content->serializable(); }
+    /// Writes the value; an empty any writes nothing. Throws archive_type_exception unless serializable().
+    void encode(opros::archive::oarchive& ar) const {
+        if (content) content->encode(ar);
+    }
+    /// Reads a value of the type it holds, in place. Throws as encode(), and what the archive throws.
+    void decode(opros::archive::iarchive& ar) {
+        if (content) content->decode(ar);
+    }
+
+    /// Whether it holds a dataType: the same C++ type, or one of the same name on ports.
+    template <typename dataType> bool holds() const {
+        if (!content) return false;
+        return content->rtti() == typeid(dataType) || content->type() == getTypeName<dataType>();
+    }
+
+  protected:
+    template <typename dataType> class holder;
+    explicit opros_any(holder_base* taken, int) : content(taken) {}
+    holder_base* content;
+
+    template <typename dataType> friend dataType* unsafe_opros_any_cast(opros_any*);
+    friend class opros_any_view;
+};
+
+namespace opros {
+namespace detail {
+
+// Types that cannot be archived are still good for ports inside one host.
+template <typename T, bool serializable> struct codec {
+    static void encode(archive::oarchive& ar, const T& value) { ar << value; }
+    static void decode(archive::iarchive& ar, T& value) { ar >> value; }
+};
+template <typename T> struct codec<T, false> {
+    static void encode(archive::oarchive&, const T&) { throw archive::archive_type_exception(); }
+    static void decode(archive::iarchive&, T&) { throw archive::archive_type_exception(); }
+};
+
+/// The part of a holder that depends on the type only, whether it has the value or refers to it.
+template <typename T> class typed_holder : public opros_any::holder_base {
+  public:
+    static const bool can_cross = archive::is_serializable<T>::value;
+    virtual const std::type_info& rtti() const { return typeid(T); }
+    virtual const std::string type() const { return getTypeName<T>(); }
+    virtual bool assign(const opros_any::holder_base& other) {
+        if (other.rtti() != typeid(T)) return false;
+        value() = *static_cast<const T*>(other.address());
+        return true;
+    }
+    virtual bool serializable() const { return can_cross; }
+    virtual void encode(archive::oarchive& ar) const {
+        codec<T, can_cross>::encode(ar, *static_cast<const T*>(address()));
+    }
+    virtual void decode(archive::iarchive& ar) { codec<T, can_cross>::decode(ar, value()); }
+
+  private:
+    T& value() { return *static_cast<T*>(const_cast<void*>(address())); }
+};
+
+} // namespace detail
+} // namespace opros
+
+template <typename dataType> class opros_any::holder : public opros::detail::typed_holder<dataType> {
+  public:
+    explicit holder(const dataType& value) : m_value(value) {}
+    virtual const void* address() const { return &m_value; }
+    virtual opros_any::holder_base* clone() const { return new holder(m_value); }
+
+  private:
+    dataType m_value;
+};
+
+/// An any that refers to a value of the caller's for the time of one call: pushing costs no copy and no allocation.
+class opros_any_view {
+  public:
+    template <typename dataType> class of : public opros_any {
+      public:
+        explicit of(const dataType& value) : opros_any(), m_reference(value) { content = &m_reference; }
+        ~of() { content = 0; }
+
+      private:
+        of(const of&);
+        of& operator=(const of&);
+        class reference : public opros::detail::typed_holder<dataType> {
+          public:
+            explicit reference(const dataType& value) : m_value(&value) {}
+            virtual const void* address() const { return m_value; }
+            virtual opros_any::holder_base* clone() const { return new opros_any::holder<dataType>(*m_value); }
+
+          private:
+            const dataType* m_value;
+        };
+        reference m_reference;
+    };
+};
+
+template <typename dataType> dataType* unsafe_opros_any_cast(opros_any* operand) {
+    return static_cast<dataType*>(const_cast<void*>(operand->content->address()));
+}
+template <typename dataType> const dataType* unsafe_opros_any_cast(const opros_any* operand) {
+    return unsafe_opros_any_cast<dataType>(const_cast<opros_any*>(operand));
+}
+/// NULL unless the operand holds a dataType.
+template <typename dataType> dataType* opros_any_cast(opros_any* operand) {
+    return operand && operand->holds<dataType>() ? unsafe_opros_any_cast<dataType>(operand) : 0;
+}
+template <typename dataType> const dataType* opros_any_cast(const opros_any* operand) {
+    return opros_any_cast<dataType>(const_cast<opros_any*>(operand));
+}
+/// Throws std::bad_cast unless the operand holds a dataType.
+template <typename dataType> dataType opros_any_cast(opros_any& operand) {
+    dataType* value = opros_any_cast<dataType>(&operand);
+    if (!value) throw std::bad_cast();
+    return *value;
+}
+
+#define SAFE_CASTING(a, b) (static_cast<a>(b))
+#define ANY_CASTING(a, b) (opros_any_cast<a>(b))
+#define UNSAFE_ANY_CASTING(a, b) (unsafe_opros_any_cast<a>(b))
+
+#endif

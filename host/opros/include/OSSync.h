@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef OS_SYNC_H_
+#define OS_SYNC_H_
+
+#include <OSSetting.h>
+
+class OSSync {
+  public:
+    virtual ~OSSync() {}
+    /// Waits at most this many milliseconds; 0: without bound.
+    virtual bool lock(unsigned long ms = 0) = 0;
+    virtual bool tryLock() = 0;
+    virtual bool unlock() = 0;
+};
+
+#endif

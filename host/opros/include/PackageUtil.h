@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef PACKAGEUTIL_H_
+#define PACKAGEUTIL_H_
+
+#include <Component.h>
+
+#include <string>
+
+/// The folder of the component's own files: res/ beside its profile.
+std::string opros_package_getResPath(Component* comp);
+
+#define GetResourcePath() (opros_package_getResPath(this))
+
+#endif

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef REMOTEDATAPORT_H_
+#define REMOTEDATAPORT_H_
+
+#include <ReturnType.h>
+
+class RemoteDataPort {
+  public:
+    virtual ~RemoteDataPort() {}
+    virtual ReturnType pushData(unsigned char* data, int size) = 0;
+};
+
+#endif

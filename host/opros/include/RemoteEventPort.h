@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef REMOTEEVENTPORT_H_
+#define REMOTEEVENTPORT_H_
+
+#include <ReturnType.h>
+
+class RemoteEventPort {
+  public:
+    virtual ~RemoteEventPort() {}
+    virtual ReturnType pushEvent(unsigned char* data, int size) = 0;
+};
+
+#endif

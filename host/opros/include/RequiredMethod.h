@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Methods that a component requires. Generated code makes one with makeRequiredMethod(), keeps it as a Method* and
+// calls it as a RequiredMethod<R> (see ProvidedMethod.h).
+#ifndef REQUIREDMETHOD_H_
+#define REQUIREDMETHOD_H_
+
+#include <ArgumentNumberException.h>
+#include <MethodInvokeException.h>
+#include <MethodTypes.h>
+#include <ProvidedMethod.h>
+#include <RequiredMethodInterface.h>
+
+template <typename RetType> class RequiredMethod : public RequiredMethodInterface {
+  public:
+    RequiredMethod(const std::string& name, int arity, int callType)
+        : RequiredMethodInterface(name), m_peer(0), m_con(0), m_arity(arity), m_callType(callType),
+          m_returnType(getTypeName<RetType>()) {}
+    virtual std::string& getReturnType() { return m_returnType; }
+    virtual int getArity() { return m_arity; }
+    virtual int getCallType() { return m_callType; }
+
+    virtual ReturnType Disconnect() {
+        m_peer = 0;
+        m_con = 0;
+        return OPROS_SUCCESS;
+    }
+    virtual ReturnType Connect(Method* peer) {
+        if (!peer || !same_types(*peer)) return OPROS_BAD_INPUT_PARAMETER;
+        m_peer = static_cast<ProvidedMethod<RetType>*>(static_cast<ProvidedMethodInterface*>(peer));
+        m_con = 0;
+        return OPROS_SUCCESS;
+    }
+    virtual ReturnType Connect(ServicePortConnector* peer) {
+        m_peer = 0;
+        m_con = peer;
+        return OPROS_SUCCESS;
+    }
+
+    /// Calls the peer in this thread, or asks the connector to. Throws MethodInvokeException without a peer, when
+    /// the connection fails, or when the arguments are not exactly of the peer's types.
+    template <typename... P> RetType operator()(const P&... arguments) {
+        if (m_peer) return (*m_peer)(arguments...);
+        if (!m_con) throw MethodInvokeException("required method " + m_name + " is not connected");
+        return request(std::is_void<RetType>(), arguments...);
+    }
+
+  protected:
+    ProvidedMethod<RetType>* m_peer;
+    ServicePortConnector* m_con;
+    const int m_arity;
+    const int m_callType;
+    std::string m_returnType;
+
+  private:
+    virtual bool accepts(const std::type_info* const*, int count) const { return count == m_arity; }
+
+    bool same_types(const Method& peer) const {
+        const std::vector<const std::type_info*> mine = types(), theirs = peer.types();
+        if (theirs.empty() || *theirs[0] != typeid(RetType)) return false;
+        if (mine.empty()) return static_cast<int>(theirs.size()) == m_arity + 1;
+        if (mine.size() != theirs.size()) return false;
+        for (std::size_t i = 0; i < mine.size(); ++i)
+            if (*mine[i] != *theirs[i]) return false;
+        return true;
+    }
+
+    template <typename... P> void send(opros_params& result, const P&... arguments) {
+        const std::type_info* const types[] = {&typeid(P)..., 0};
+        if (!accepts(types, static_cast<int>(sizeof...(P))))
+            throw MethodInvokeException("call of " + m_name + " with other types than it has: " + signature());
+        std::vector<opros_params> params;
+        params.reserve(sizeof...(P));
+        const int in_order[] = {0, (params.emplace_back(arguments), 0)...};
+        static_cast<void>(in_order);
+        const ReturnType code = m_con->requestService(m_name, params, result, m_callType);
+        if (code != OPROS_SUCCESS)
+            throw MethodInvokeException("call of " + m_name + " failed with code " + std::to_string(code));
+    }
+    template <typename... P> RetType request(std::true_type, const P&... arguments) {
+        opros_params none;
+        send(none, arguments...);
+    }
+    template <typename... P> RetType request(std::false_type, const P&... arguments) {
+        opros_params result;
+        result.setType(static_cast<RetType*>(0));
+        send(result, arguments...);
+        RetType* value = opros_params_cast<RetType>(&result);
+        if (!value) throw MethodInvokeException("call of " + m_name + " came back with a result of another type");
+        return *value;
+    }
+};
+
+namespace opros {
+namespace detail {
+
+/// A required method whose types are all known.
+template <typename R, typename... P> class typed_required_method : public RequiredMethod<R> {
+  public:
+    typed_required_method(const char* name, int callType)
+        : RequiredMethod<R>(name, static_cast<int>(sizeof...(P)), callType) {}
+    virtual bool describe(archive::iarchive& arguments, archive::iarchive& result) {
+        return describer<method_types<R, P...>::can_cross, bare<R>, P...>::describe(arguments, result);
+    }
+    virtual std::vector<const std::type_info*> types() const { return method_types<R, P...>::list(); }
+
+  private:
+    virtual bool accepts(const std::type_info* const* given, int count) const {
+        return method_types<R, P...>::match(given, count);
+    }
+};
+
+} // namespace detail
+} // namespace opros
+
+template <typename R, typename C, typename... P>
+Method* makeRequiredMethod(R (C::*)(P...), const char* name, const int& callType = METHOD_BLOCKING) {
+    return new opros::detail::typed_required_method<R, P...>(name, callType);
+}
+template <typename R, typename C, typename... P>
+Method* makeRequiredMethod(R (C::*)(P...) const, const char* name, const int& callType = METHOD_BLOCKING) {
+    return new opros::detail::typed_required_method<R, P...>(name, callType);
+}
+
+#endif

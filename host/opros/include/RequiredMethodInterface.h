@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef REQUIREDMETHODINTERFACE_H_
+#define REQUIREDMETHODINTERFACE_H_
+
+#include <Method.h>
+#include <ServicePortConnector.h>
+
+class RequiredMethodInterface : public Method {
+  public:
+    RequiredMethodInterface() {}
+    explicit RequiredMethodInterface(const std::string& name) : Method(name) {}
+    virtual ReturnType Disconnect() = 0;
+    /// OPROS_BAD_INPUT_PARAMETER when the peer's types are not those of this method.
+    virtual ReturnType Connect(Method* peer) = 0;
+    virtual ReturnType Connect(ServicePortConnector* peer) = 0;
+};
+
+#endif

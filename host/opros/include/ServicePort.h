@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef SERVICEPORT_H_
+#define SERVICEPORT_H_
+
+#include <ArchiveFactory.h>
+#include <Port.h>
+#include <ReturnType.h>
+
+class ServicePort : public Port {
+  public:
+    ServicePort();
+    explicit ServicePort(const std::string& name);
+    virtual ~ServicePort();
+    virtual ServicePortRole getRole() = 0;
+    virtual void reset() {}
+    /// Whether the port learns its methods when it is connected (ours, for bridges).
+    virtual bool isDynamic() const { return false; }
+};
+
+#endif

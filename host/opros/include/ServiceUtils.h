@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Included by exactly one source file of each component library: it defines the library's getVersion().
+#ifndef OPROS_SERVICE_UTILS_H
+#define OPROS_SERVICE_UTILS_H
+
+#include <EventCallBack.h>
+#include <PackageUtil.h>
+#include <SymbolService.h>
+
+const char* get_opros_version();
+
+#ifndef MAKE_STATIC_COMPONENT
+extern "C" {
+const char* getVersion() { return get_opros_version(); }
+}
+#endif
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Variables that a component shows to its host by name.
+#ifndef SYMBOLSERVICE_H_
+#define SYMBOLSERVICE_H_
+
+#include <Component.h>
+#include <InputDataPort.h>
+#include <InputEventPort.h>
+#include <OPRoSTypes.h>
+#include <OutputDataPort.h>
+#include <OutputEventPort.h>
+#include <ProvidedMethod.h>
+#include <ProvidedServicePort.h>
+#include <RequiredMethod.h>
+#include <RequiredServicePort.h>
+#include <archive/opros_archive.h>
+
+enum SymbolEncodingRule { OPROS_SYMBOL_ENCODING_STR = 0, OPROS_SYMBOL_ENCODING_BIN = 1 };
+
+class SymbolObject {
+  public:
+    virtual ~SymbolObject() {}
+    virtual void getValue(opros::archive::oarchive& ar) = 0;
+    virtual void setValue(opros::archive::iarchive& ar) = 0;
+};
+
+template <typename T> class SymbolAccessObject : public SymbolObject {
+  public:
+    explicit SymbolAccessObject(T* p) : m_p(p) {}
+    virtual void getValue(opros::archive::oarchive& ar) { ar << *m_p; }
+    virtual void setValue(opros::archive::iarchive& ar) { ar >> *m_p; }
+
+  private:
+    T* m_p;
+};
+
+template <typename T> SymbolObject* makeSymbolObject(T* p) { return new SymbolAccessObject<T>(p); }
+
+/// Shows the variable under this name on the component's provided port "opros.symbol", which the first one creates.
+/// Takes the object.
+ReturnType symbolservice_exportSymbol(Component* comp, const std::string& name, SymbolObject* p);
+
+#define EXPORT_VARIABLE(a, b) (symbolservice_exportSymbol(this, a, makeSymbolObject(&b)))
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef OPROS_BINARY_IARCHIVE_H
+#define OPROS_BINARY_IARCHIVE_H
+
+#include <archive/opros_binary.h>
+#include <archive/opros_iarchive_stl.h>
+
+#include <istream>
+
+namespace opros {
+namespace archive {
+
+/// Reads what binary_oarchive writes (opros_binary_oarchive.h says how). Throws an archive exception otherwise.
+class binary_iarchive : public iarchive {
+  public:
+    explicit binary_iarchive(std::istream* is) : m_is(is), m_bare(false) {}
+    using iarchive::load;
+
+#define OPROS_LOAD_PRIMITIVE(type) virtual iarchive& load(type& value);
+    OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_PRIMITIVE)
+#undef OPROS_LOAD_PRIMITIVE
+    virtual iarchive& load(std::string& value);
+    virtual iarchive& load(std::wstring& value);
+    virtual iarchive& load_binary(char** p, long& size);
+    virtual iarchive& read_class_head(const std::string& name);
+    virtual std::size_t read_sequence_head();
+    virtual long read_array_head(long size, char code, char bytes);
+    virtual iarchive& read_array_end(long size, char code, char bytes);
+    virtual bool keeps_names() const { return true; }
+
+  private:
+    template <typename T> iarchive& get(char code, T& value);
+    template <typename T> T get_bytes();
+    void expect(char code);
+    std::size_t checked(unsigned long count);
+    void get_blob(std::string& bytes);
+
+    std::istream* m_is;
+    bool m_bare;
+};
+
+} // namespace archive
+} // namespace opros
+
+#endif

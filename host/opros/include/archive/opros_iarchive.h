@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The archive that values are read from: the mirror image of opros_oarchive.h. On malformed input it throws one of
+// the archive exceptions.
+#ifndef OPROS_IARCHIVE_H
+#define OPROS_IARCHIVE_H
+
+#include <archive/opros_iarchive_fwd.h>
+#include <archive/opros_oarchive.h>
+
+namespace opros {
+namespace archive {
+
+class iarchive : public archive {
+  public:
+    virtual ~iarchive() {}
+
+#define OPROS_LOAD_PRIMITIVE(type) virtual iarchive& load(type& value) = 0;
+    OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_PRIMITIVE)
+#undef OPROS_LOAD_PRIMITIVE
+    virtual iarchive& load(std::string& value) = 0;
+    virtual iarchive& load(std::wstring& value) = 0;
+    /// *p == NULL: allocates with new char[] and sets size; otherwise size is the room at *p, and becomes what was
+    /// read. More than there is room for: archive_array_size_exception.
+    virtual iarchive& load_binary(char** p, long& size) = 0;
+
+#define OPROS_LOAD_ELEMENTS(type) virtual iarchive& load_array(type* p, long size);
+    OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_ELEMENTS)
+#undef OPROS_LOAD_ELEMENTS
+
+    virtual iarchive& read_class_head(const std::string&) { return *this; }
+    virtual iarchive& read_class_end(const std::string&) { return *this; }
+    /// How many elements the caller is to load: the archive's to say, checked against what it has left.
+    virtual std::size_t read_sequence_head() = 0;
+    virtual iarchive& read_sequence_end() { return *this; }
+    /// How many of the array's elements the caller is to load: all, unless the archive only looks at types.
+    virtual long read_array_head(long size, char /*code*/, char /*bytes of one*/) { return size; }
+    virtual iarchive& read_array_end(long, char, char) { return *this; }
+    virtual iarchive& read_start_tag(const std::string&) { return *this; }
+    virtual iarchive& read_end_tag(const std::string&) { return *this; }
+    virtual bool keeps_names() const { return false; }
+
+    template <typename T> iarchive& load(T& value);
+    template <typename T> iarchive& load(const opros::nvp<T>& pair);
+    template <typename T, std::size_t N> iarchive& load(T (&values)[N]);
+    template <typename T> iarchive& load(T** p, long& size);
+    template <typename T> iarchive& load(T** p, const long& size) {
+        long given = size;
+        return load(p, given);
+    }
+    iarchive& load(char** p, long& size) { return load_binary(p, size); }
+    iarchive& load(unsigned char** p, long& size) { return load_binary(reinterpret_cast<char**>(p), size); }
+    iarchive& load(signed char** p, long& size) { return load_binary(reinterpret_cast<char**>(p), size); }
+};
+
+namespace detail {
+
+template <typename T> iarchive& load_elements(iarchive& ar, T* p, long size, by_primitive) {
+    return ar.load_array(p, size);
+}
+template <typename T, typename Way> iarchive& load_elements(iarchive& ar, T* p, long size, Way) {
+    for (long i = 0; i < size; ++i) ar.load(p[i]);
+    return ar;
+}
+
+template <typename T> void load_class(iarchive& ar, T& value, by_members) { access::load(ar, value); }
+template <typename T> void load_class(iarchive& ar, T& value, by_free_functions) { load_this(ar, value); }
+template <typename T> void load_class(iarchive&, T&, by_nothing) {
+    static_assert(is_serializable<T>::value,
+                  "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
+}
+
+template <typename T> void load_value(iarchive& ar, T& value, by_enumeration) {
+    int number = 0;
+    ar.load(number);
+    value = static_cast<T>(number);
+}
+template <typename T, typename Way> void load_value(iarchive& ar, T& value, Way how) {
+    const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
+    ar.read_class_head(name);
+    load_class(ar, value, how);
+    ar.read_class_end(name);
+}
+
+} // namespace detail
+
+template <typename T> iarchive& iarchive::load(T& value) {
+    detail::load_value(*this, value, typename detail::way<T>::type());
+    return *this;
+}
+
+template <typename T> iarchive& iarchive::load(const opros::nvp<T>& pair) {
+    if (!keeps_names()) return load(pair.getData());
+    read_start_tag(pair.getName());
+    load(pair.getData());
+    return read_end_tag(pair.getName());
+}
+
+template <typename T, std::size_t N> iarchive& iarchive::load(T (&values)[N]) {
+    const char code = type_code(static_cast<T*>(0));
+    const long wanted = read_array_head(N, code, sizeof(T));
+    detail::load_elements(*this, values, wanted, typename detail::way<T>::type());
+    return read_array_end(N, code, sizeof(T));
+}
+
+template <typename T> iarchive& iarchive::load(T** p, long& size) {
+    const long count = static_cast<long>(read_sequence_head());
+    if (*p == 0)
+        *p = new T[static_cast<std::size_t>(count)];
+    else if (count > size)
+        throw archive_array_size_exception();
+    size = count;
+    detail::load_elements(*this, *p, count, typename detail::way<T>::type());
+    return read_sequence_end();
+}
+
+template <typename T> iarchive& operator>>(iarchive& ar, T& value) { return ar.load(value); }
+template <typename T> iarchive& operator>>(iarchive& ar, const opros::nvp<T>& pair) { return ar.load(pair); }
+template <typename T> iarchive& operator&(iarchive& ar, T& value) { return ar.load(value); }
+template <typename T> iarchive& operator&(iarchive& ar, const opros::nvp<T>& pair) { return ar.load(pair); }
+
+} // namespace archive
+} // namespace opros
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the standard containers are read: see opros_oarchive_stl.h.
+#ifndef OPROS_IARCHIVE_STL_H
+#define OPROS_IARCHIVE_STL_H
+
+#include <archive/opros_iarchive.h>
+#include <archive/opros_oarchive_stl.h>
+
+namespace opros {
+namespace archive {
+
+inline void load_this(iarchive& ar, std::string& t) { ar.load(t); }
+inline void load_this(iarchive& ar, std::wstring& t) { ar.load(t); }
+
+namespace detail {
+
+template <typename T, typename Take> void load_each(iarchive& ar, Take take) {
+    const std::size_t count = ar.read_sequence_head();
+    for (std::size_t i = 0; i < count; ++i) {
+        T element = T();
+        ar.load(element);
+        take(std::move(element));
+    }
+    ar.read_sequence_end();
+}
+
+template <typename T, typename Container> void load_list(iarchive& ar, Container& t) {
+    t.clear();
+    load_each<T>(ar, [&t](T&& element) { t.push_back(std::move(element)); });
+}
+template <typename T, typename Container> void load_set(iarchive& ar, Container& t) {
+    t.clear();
+    load_each<T>(ar, [&t](T&& element) { t.insert(t.end(), std::move(element)); });
+}
+template <typename K, typename T, typename Container> void load_map(iarchive& ar, Container& t) {
+    t.clear();
+    load_each<std::pair<K, T>>(ar, [&t](std::pair<K, T>&& entry) { t.insert(std::move(entry)); });
+}
+
+} // namespace detail
+
+template <typename T, typename A, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::vector<T, A>& t) {
+    t.resize(ar.read_sequence_head());
+    detail::load_elements(ar, t.data(), static_cast<long>(t.size()), typename detail::way<T>::type());
+    ar.read_sequence_end();
+}
+template <typename A> void load_this(iarchive& ar, std::vector<bool, A>& t) {
+    detail::load_list<bool>(ar, t);
+}
+template <typename T, typename = if_serializable<T>> void load_this(iarchive& ar, std::valarray<T>& t) {
+    const std::size_t count = ar.read_sequence_head();
+    if (t.size() != count) t.resize(count);
+    if (count != 0)
+        detail::load_elements(ar, &t[0], static_cast<long>(count), typename detail::way<T>::type());
+    ar.read_sequence_end();
+}
+template <typename T, typename A, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::deque<T, A>& t) {
+    detail::load_list<T>(ar, t);
+}
+template <typename T, typename A, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::list<T, A>& t) {
+    detail::load_list<T>(ar, t);
+}
+template <typename T, typename C, typename A, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::set<T, C, A>& t) {
+    detail::load_set<T>(ar, t);
+}
+template <typename T, typename C, typename A, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::multiset<T, C, A>& t) {
+    detail::load_set<T>(ar, t);
+}
+template <typename T, typename C, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::queue<T, C>& t) {
+    t = std::queue<T, C>();
+    detail::load_each<T>(ar, [&t](T&& element) { t.push(std::move(element)); });
+}
+template <typename T, typename C, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::stack<T, C>& t) {
+    std::vector<T> from_top;
+    detail::load_list<T>(ar, from_top);
+    t = std::stack<T, C>();
+    for (std::size_t i = from_top.size(); i > 0; --i) t.push(from_top[i - 1]);
+}
+template <typename T, typename C, typename L, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::priority_queue<T, C, L>& t) {
+    t = std::priority_queue<T, C, L>();
+    detail::load_each<T>(ar, [&t](T&& element) { t.push(std::move(element)); });
+}
+template <typename T, typename = if_serializable<T>> void load_this(iarchive& ar, std::complex<T>& t) {
+    T real = T(), imaginary = T();
+    ar.load(real);
+    ar.load(imaginary);
+    t = std::complex<T>(real, imaginary);
+}
+template <typename A, typename B, typename = if_serializable<typename std::remove_const<A>::type>,
+          typename = if_serializable<B>>
+void load_this(iarchive& ar, std::pair<A, B>& t) {
+    ar.load(const_cast<typename std::remove_const<A>::type&>(t.first));
+    ar.load(t.second);
+}
+template <typename K, typename T, typename C, typename A, typename = if_serializable<K>,
+          typename = if_serializable<T>>
+void load_this(iarchive& ar, std::map<K, T, C, A>& t) {
+    detail::load_map<K, T>(ar, t);
+}
+template <typename K, typename T, typename C, typename A, typename = if_serializable<K>,
+          typename = if_serializable<T>>
+void load_this(iarchive& ar, std::multimap<K, T, C, A>& t) {
+    detail::load_map<K, T>(ar, t);
+}
+
+inline iarchive& operator>>(iarchive& ar, std::vector<bool>::reference bit) {
+    bool value = false;
+    ar.load(value);
+    bit = value;
+    return ar;
+}
+
+} // namespace archive
+} // namespace opros
+
+#endif

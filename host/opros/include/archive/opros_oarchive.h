@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// The archive that values are written to. What an archive does with a value is its own: an implementation overrides
+// the virtual functions below (and only those); everything else is written in terms of them.
+#ifndef OPROS_OARCHIVE_H
+#define OPROS_OARCHIVE_H
+
+#include <archive/opros_oarchive_fwd.h>
+#include <archive/opros_serializable.h>
+
+#include <cstddef>
+#include <iostream>
+#include <string>
+
+#define OPROS_FOR_EACH_PRIMITIVE(apply)                                                                      \
+    apply(bool) apply(char) apply(signed char) apply(unsigned char) apply(wchar_t) apply(short)              \
+        apply(unsigned short) apply(int) apply(unsigned int) apply(long) apply(unsigned long)                \
+            apply(long long) apply(unsigned long long) apply(float) apply(double) apply(long double)
+
+namespace opros {
+namespace archive {
+
+class oarchive : public archive {
+  public:
+    virtual ~oarchive() {}
+
+#define OPROS_SAVE_PRIMITIVE(type) virtual oarchive& save(type value) = 0;
+    OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_PRIMITIVE)
+#undef OPROS_SAVE_PRIMITIVE
+    virtual oarchive& save(const std::string& value) = 0;
+    virtual oarchive& save(const std::wstring& value) = 0;
+    /// Bytes of which only the user knows what they mean.
+    virtual oarchive& save_binary(const char* p, long size) = 0;
+
+    /// Elements of a sequence or array whose head has been written; one by one unless overridden.
+#define OPROS_SAVE_ELEMENTS(type) virtual oarchive& save_array(const type* p, long size);
+    OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_ELEMENTS)
+#undef OPROS_SAVE_ELEMENTS
+
+    /// A class begins and ends. The name is empty when the archive does not keep names.
+    virtual oarchive& write_class_head(const std::string&) { return *this; }
+    virtual oarchive& write_class_end(const std::string&) { return *this; }
+    /// So many elements of one type follow, a number that may be another one next time.
+    virtual oarchive& write_sequence_head(std::size_t count) = 0;
+    virtual oarchive& write_sequence_end() { return *this; }
+    /// So many elements of one type follow, a number that is part of the type.
+    virtual oarchive& write_array_head(long, char /*code*/, char /*bytes of one*/) { return *this; }
+    virtual oarchive& write_array_end(long, char, char) { return *this; }
+    /// The name of the member that follows.
+    virtual oarchive& write_start_tag(const std::string&) { return *this; }
+    virtual oarchive& write_end_tag(const std::string&) { return *this; }
+    /// Names of classes and members are made and handed over only if this says so.
+    virtual bool keeps_names() const { return false; }
+
+    template <typename T> oarchive& save(const T& value);
+    template <typename T> oarchive& save(const opros::nvp<T>& pair);
+    template <typename T, std::size_t N> oarchive& save(const T (&values)[N]);
+    template <typename T> oarchive& save(const T* p, long size);
+    oarchive& save(const char* p, long size) { return save_binary(p, size); }
+    oarchive& save(const unsigned char* p, long size) {
+        return save_binary(reinterpret_cast<const char*>(p), size);
+    }
+    oarchive& save(const signed char* p, long size) {
+        return save_binary(reinterpret_cast<const char*>(p), size);
+    }
+};
+
+namespace detail {
+
+template <typename T> oarchive& save_elements(oarchive& ar, const T* p, long size, by_primitive) {
+    return ar.save_array(p, size);
+}
+template <typename T, typename Way> oarchive& save_elements(oarchive& ar, const T* p, long size, Way) {
+    for (long i = 0; i < size; ++i) ar.save(p[i]);
+    return ar;
+}
+
+template <typename T> void save_class(oarchive& ar, T& value, by_members) { access::save(ar, value); }
+template <typename T> void save_class(oarchive& ar, T& value, by_free_functions) { save_this(ar, value); }
+template <typename T> void save_class(oarchive&, T&, by_nothing) {
+    static_assert(is_serializable<T>::value,
+                  "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
+}
+
+template <typename T> void save_value(oarchive& ar, const T& value, by_enumeration) {
+    ar.save(static_cast<int>(value));
+}
+template <typename T, typename Way> void save_value(oarchive& ar, const T& value, Way how) {
+    const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
+    ar.write_class_head(name);
+    save_class(ar, const_cast<T&>(value), how); // users' save() is not const
+    ar.write_class_end(name);
+}
+
+} // namespace detail
+
+template <typename T> oarchive& oarchive::save(const T& value) {
+    detail::save_value(*this, value, typename detail::way<T>::type());
+    return *this;
+}
+
+template <typename T> oarchive& oarchive::save(const opros::nvp<T>& pair) {
+    if (!keeps_names()) return save(pair.getData());
+    write_start_tag(pair.getName());
+    save(pair.getData());
+    return write_end_tag(pair.getName());
+}
+
+template <typename T, std::size_t N> oarchive& oarchive::save(const T (&values)[N]) {
+    const char code = type_code(static_cast<T*>(0));
+    write_array_head(N, code, sizeof(T));
+    detail::save_elements(*this, values, N, typename detail::way<T>::type());
+    return write_array_end(N, code, sizeof(T));
+}
+
+template <typename T> oarchive& oarchive::save(const T* p, long size) {
+    write_sequence_head(static_cast<std::size_t>(size));
+    detail::save_elements(*this, p, size, typename detail::way<T>::type());
+    return write_sequence_end();
+}
+
+template <typename T> oarchive& operator<<(oarchive& ar, const T& value) { return ar.save(value); }
+template <typename T> oarchive& operator&(oarchive& ar, const T& value) { return ar.save(value); }
+
+} // namespace archive
+} // namespace opros
+
+#endif

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the standard containers are written. Each is a sequence; a map is a sequence of pairs.
+#ifndef OPROS_OARCHIVE_STL_H
+#define OPROS_OARCHIVE_STL_H
+
+#include <archive/opros_oarchive.h>
+
+namespace opros {
+namespace archive {
+
+template <typename T> using if_serializable = typename std::enable_if<is_serializable<T>::value>::type;
+
+inline void save_this(oarchive& ar, const std::string& t) { ar.save(t); }
+inline void save_this(oarchive& ar, const std::wstring& t) { ar.save(t); }
+
+namespace detail {
+
+template <typename Container> void save_each(oarchive& ar, const Container& container, std::size_t count) {
+    ar.write_sequence_head(count);
+    for (typename Container::const_iterator it = container.begin(); it != container.end(); ++it) ar.save(*it);
+    ar.write_sequence_end();
+}
+
+// Containers that show only one end are copied and taken apart.
+template <typename Queue> void save_fronts(oarchive& ar, Queue copy) {
+    ar.write_sequence_head(copy.size());
+    for (; !copy.empty(); copy.pop()) ar.save(copy.front());
+    ar.write_sequence_end();
+}
+template <typename Stack> void save_tops(oarchive& ar, Stack copy) {
+    ar.write_sequence_head(copy.size());
+    for (; !copy.empty(); copy.pop()) ar.save(copy.top());
+    ar.write_sequence_end();
+}
+
+} // namespace detail
+
+template <typename T, typename A, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::vector<T, A>& t) {
+    ar.write_sequence_head(t.size());
+    detail::save_elements(ar, t.data(), static_cast<long>(t.size()), typename detail::way<T>::type());
+    ar.write_sequence_end();
+}
+template <typename A> void save_this(oarchive& ar, const std::vector<bool, A>& t) {
+    ar.write_sequence_head(t.size());
+    for (std::size_t i = 0; i < t.size(); ++i) ar.save(static_cast<bool>(t[i]));
+    ar.write_sequence_end();
+}
+template <typename T, typename = if_serializable<T>> void save_this(oarchive& ar, const std::valarray<T>& t) {
+    ar.write_sequence_head(t.size());
+    if (t.size() != 0)
+        detail::save_elements(ar, &t[0], static_cast<long>(t.size()), typename detail::way<T>::type());
+    ar.write_sequence_end();
+}
+template <typename T, typename A, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::deque<T, A>& t) {
+    detail::save_each(ar, t, t.size());
+}
+template <typename T, typename A, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::list<T, A>& t) {
+    detail::save_each(ar, t, t.size());
+}
+template <typename T, typename C, typename A, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::set<T, C, A>& t) {
+    detail::save_each(ar, t, t.size());
+}
+template <typename T, typename C, typename A, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::multiset<T, C, A>& t) {
+    detail::save_each(ar, t, t.size());
+}
+template <typename T, typename C, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::queue<T, C>& t) {
+    detail::save_fronts(ar, t);
+}
+template <typename T, typename C, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::stack<T, C>& t) {
+    detail::save_tops(ar, t);
+}
+template <typename T, typename C, typename L, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::priority_queue<T, C, L>& t) {
+    detail::save_tops(ar, t);
+}
+template <typename T, typename = if_serializable<T>> void save_this(oarchive& ar, const std::complex<T>& t) {
+    ar.save(t.real());
+    ar.save(t.imag());
+}
+template <typename A, typename B, typename = if_serializable<typename std::remove_const<A>::type>,
+          typename = if_serializable<B>>
+void save_this(oarchive& ar, const std::pair<A, B>& t) {
+    ar.save(t.first);
+    ar.save(t.second);
+}
+template <typename K, typename T, typename C, typename A, typename = if_serializable<K>,
+          typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::map<K, T, C, A>& t) {
+    detail::save_each(ar, t, t.size());
+}
+template <typename K, typename T, typename C, typename A, typename = if_serializable<K>,
+          typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::multimap<K, T, C, A>& t) {
+    detail::save_each(ar, t, t.size());
+}
+
+inline oarchive& operator<<(oarchive& ar, const std::vector<bool>::reference& bit) {
+    return ar.save(static_cast<bool>(bit));
+}
+
+} // namespace archive
+} // namespace opros
+
+#endif

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which types can cross an archive, and by which of the three ways: their own save()/load(), free
+// save_this()/load_this() found beside the type, or as one of the kinds that the archive knows by itself.
+#ifndef OPROS_ARCHIVE_SERIALIZABLE_H
+#define OPROS_ARCHIVE_SERIALIZABLE_H
+
+#include <archive/opros_access.h>
+
+#include <type_traits>
+#include <utility>
+
+namespace opros {
+namespace archive {
+namespace detail {
+
+template <typename T> struct has_members {
+    template <typename U>
+    static auto test(int) -> decltype(access::save(std::declval<oarchive&>(), std::declval<U&>()),
+                                      access::load(std::declval<iarchive&>(), std::declval<U&>()),
+                                      std::true_type());
+    template <typename U> static std::false_type test(long);
+    static const bool value = decltype(test<T>(0))::value;
+};
+
+template <typename T> struct has_free_functions {
+    template <typename U>
+    static auto test(int) -> decltype(save_this(std::declval<oarchive&>(), std::declval<U&>()),
+                                      load_this(std::declval<iarchive&>(), std::declval<U&>()), std::true_type());
+    template <typename U> static std::false_type test(long);
+    static const bool value = decltype(test<T>(0))::value;
+};
+
+struct by_primitive {};
+struct by_enumeration {};
+struct by_array {};
+struct by_members {};
+struct by_free_functions {};
+struct by_nothing {};
+
+template <bool condition, typename Yes, typename No> using choose = typename std::conditional<condition, Yes, No>::type;
+
+// Lazy, so that the free functions are looked for only in types that have no save() and load() of their own.
+template <typename T, bool members> struct class_way {
+    typedef by_members type;
+};
+template <typename T> struct class_way<T, false> {
+    typedef choose<has_free_functions<T>::value, by_free_functions, by_nothing> type;
+};
+template <typename T> struct way {
+    typedef choose<std::is_arithmetic<T>::value, by_primitive,
+                   choose<std::is_enum<T>::value, by_enumeration,
+                          choose<std::is_array<T>::value, by_array,
+                                 typename class_way<T, has_members<T>::value>::type>>>
+        type;
+};
+
+} // namespace detail
+
+/// Whether T can be saved and loaded.
+template <typename T> struct is_serializable {
+    typedef typename std::remove_cv<typename std::remove_all_extents<T>::type>::type element;
+    static const bool value = !std::is_same<typename detail::way<element>::type, detail::by_nothing>::value;
+};
+template <> struct is_serializable<std::string> {
+    static const bool value = true;
+};
+template <> struct is_serializable<std::wstring> {
+    static const bool value = true;
+};
+template <> struct is_serializable<void> {
+    static const bool value = true;
+};
+
+} // namespace archive
+} // namespace opros
+
+/// Whether the type has its own save() and load().
+template <typename Type> class has_opros_serialization {
+  public:
+    static bool const value = opros::archive::detail::has_members<typename std::remove_cv<
+        typename std::remove_pointer<typename std::remove_reference<Type>::type>::type>::type>::value;
+};
+
+#endif

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The name by which a data type is known on ports. Built-in and standard types have one here; a user's type X has
+// one by `std::string typeName(X*)` in the namespace of X, or else goes by its C++ name.
+#ifndef OPROS_ARCHIVE_TYPE_INFO_H
+#define OPROS_ARCHIVE_TYPE_INFO_H
+
+#include <archive/opros_type_traits.h>
+
+#include <complex>
+#include <deque>
+#include <iostream>
+#include <list>
+#include <map>
+#include <queue>
+#include <set>
+#include <stack>
+#include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+#include <valarray>
+#include <vector>
+
+template <typename T> std::string getTypeName(T* unused = 0);
+
+namespace opros {
+/// "std::vector<int, std::allocator<int> >" for the implementation's name of the type.
+std::string readable_name(const std::type_info& type);
+} // namespace opros
+
+inline std::string typeName(void*) { return "void"; }
+inline std::string typeName(bool*) { return "bool"; }
+inline std::string typeName(short*) { return "short"; }
+inline std::string typeName(unsigned short*) { return "unsigned short"; }
+inline std::string typeName(int*) { return "int"; }
+inline std::string typeName(unsigned int*) { return "unsigned int"; }
+inline std::string typeName(long*) { return "long"; }
+inline std::string typeName(unsigned long*) { return "unsigned long"; }
+inline std::string typeName(long long*) { return "long long"; }
+inline std::string typeName(unsigned long long*) { return "unsigned long long"; }
+inline std::string typeName(float*) { return "float"; }
+inline std::string typeName(double*) { return "double"; }
+inline std::string typeName(long double*) { return "long double"; }
+inline std::string typeName(char*) { return "char"; }
+inline std::string typeName(signed char*) { return "signed char"; }
+inline std::string typeName(unsigned char*) { return "unsigned char"; }
+inline std::string typeName(wchar_t*) { return "w_char_t"; }
+inline std::string typeName(std::string*) { return "std::string"; }
+inline std::string typeName(std::wstring*) { return "std::wstring"; }
+
+#define OPROS_TYPE_NAME_OF_1(container)                                                                      \
+    template <typename T> std::string typeName(std::container<T>*) {                                         \
+        return "std::" #container "<" + getTypeName<T>() + ">";                                              \
+    }
+#define OPROS_TYPE_NAME_OF_2(container)                                                                      \
+    template <typename K, typename T> std::string typeName(std::container<K, T>*) {                          \
+        return "std::" #container "<" + getTypeName<K>() + "," + getTypeName<T>() + ">";                     \
+    }
+OPROS_TYPE_NAME_OF_1(vector)
+OPROS_TYPE_NAME_OF_1(deque)
+OPROS_TYPE_NAME_OF_1(list)
+OPROS_TYPE_NAME_OF_1(queue)
+OPROS_TYPE_NAME_OF_1(priority_queue)
+OPROS_TYPE_NAME_OF_1(stack)
+OPROS_TYPE_NAME_OF_1(set)
+OPROS_TYPE_NAME_OF_1(multiset)
+OPROS_TYPE_NAME_OF_1(complex)
+OPROS_TYPE_NAME_OF_1(valarray)
+OPROS_TYPE_NAME_OF_2(map)
+OPROS_TYPE_NAME_OF_2(multimap)
+OPROS_TYPE_NAME_OF_2(pair)
+#undef OPROS_TYPE_NAME_OF_1
+#undef OPROS_TYPE_NAME_OF_2
+
+template <typename T> std::string typeName(T**) { return getTypeName<T>() + "*"; }
+
+#define DEFINE_CLASS_TYPE_NAME(a)                                                                            \
+    inline std::string typeName(a*) { return std::string(#a); }
+
+namespace opros {
+namespace detail {
+
+// Overload rank: a typeName() that exists wins over the readable C++ name.
+template <typename T> auto name_of(T* p, int) -> decltype(std::string(typeName(p))) { return typeName(p); }
+template <typename T> std::string name_of(T*, long) { return readable_name(typeid(T)); }
+
+template <typename T, bool is_enumeration> struct name_selector {
+    static std::string name() { return name_of(static_cast<T*>(0), 0); }
+};
+template <typename T> struct name_selector<T, true> {
+    static std::string name() { return "Enum"; }
+};
+
+} // namespace detail
+} // namespace opros
+
+template <typename T> std::string getTypeName(T*) {
+    typedef typename std::remove_cv<T>::type type;
+    return opros::detail::name_selector<type, std::is_enum<type>::value>::name();
+}
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A number, a string or a list of them, with the status of the call that has produced it.
+#ifndef DEVICE_APIVALUES_H_
+#define DEVICE_APIVALUES_H_
+
+#include "ApiMembers.h"
+
+#include <ReturnType.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+typedef char char_t;
+typedef float float32_t;
+typedef double float64_t;
+
+namespace OPRoS {
+
+#define OPROS_API_VALUE(name, type)                                                                          \
+    class name {                                                                                             \
+      public:                                                                                                \
+        ReturnType status;                                                                                   \
+        type data;                                                                                           \
+        name() : status(OPROS_SUCCESS), data() {}                                                            \
+        name(type value) : status(OPROS_SUCCESS), data(value) {}                                             \
+        OPROS_API_MEMBERS(status, data)                                                                      \
+    };                                                                                                       \
+    OPROS_API_TYPE_NAME(name)
+
+OPROS_API_VALUE(Bool, bool)
+OPROS_API_VALUE(Char, char_t)
+OPROS_API_VALUE(Int8, std::int8_t)
+OPROS_API_VALUE(UInt8, std::uint8_t)
+OPROS_API_VALUE(Int16, std::int16_t)
+OPROS_API_VALUE(UInt16, std::uint16_t)
+OPROS_API_VALUE(Int32, std::int32_t)
+OPROS_API_VALUE(UInt32, std::uint32_t)
+OPROS_API_VALUE(Int64, std::int64_t)
+OPROS_API_VALUE(UInt64, std::uint64_t)
+OPROS_API_VALUE(Float32, float32_t)
+OPROS_API_VALUE(Float64, float64_t)
+OPROS_API_VALUE(String, std::string)
+OPROS_API_VALUE(BoolArray, std::vector<bool>)
+OPROS_API_VALUE(CharArray, std::vector<char_t>)
+OPROS_API_VALUE(Int8Array, std::vector<std::int8_t>)
+OPROS_API_VALUE(UInt8Array, std::vector<std::uint8_t>)
+OPROS_API_VALUE(Int16Array, std::vector<std::int16_t>)
+OPROS_API_VALUE(UInt16Array, std::vector<std::uint16_t>)
+OPROS_API_VALUE(Int32Array, std::vector<std::int32_t>)
+OPROS_API_VALUE(UInt32Array, std::vector<std::uint32_t>)
+OPROS_API_VALUE(Int64Array, std::vector<std::int64_t>)
+OPROS_API_VALUE(UInt64Array, std::vector<std::uint64_t>)
+OPROS_API_VALUE(Float32Array, std::vector<float32_t>)
+OPROS_API_VALUE(Float64Array, std::vector<float64_t>)
+OPROS_API_VALUE(StringArray, std::vector<std::string>)
+
+} // namespace OPRoS
+
+#endif

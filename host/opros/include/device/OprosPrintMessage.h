@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_OPROSPRINTMESSAGE_H_
+#define DEVICE_OPROSPRINTMESSAGE_H_
+
+#include <cstdarg>
+#include <cstdio>
+
+/// printf for a component's messages; says nothing unless the component is built for debugging.
+inline void PrintMessage(const char* format, ...) {
+#if defined(_OPROS_DEBUG_) || defined(_DEBUG) || defined(NDEBUG)
+    va_list arguments;
+    va_start(arguments, format);
+    std::vprintf(format, arguments);
+    va_end(arguments);
+#else
+    static_cast<void>(format);
+#endif
+}
+
+#endif

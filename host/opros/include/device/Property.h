@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_PROPERTY_H_
+#define DEVICE_PROPERTY_H_
+
+#include <ArchiveFactory.h>
+#include <ReturnType.h>
+
+#include <map>
+#include <string>
+
+using namespace std; // components rely on it
+
+/// Named values for a device or a component.
+class Property {
+  public:
+    Property() {}
+    virtual ~Property() {}
+    Property(const Property&) = default;
+    Property& operator=(const Property&) = default;
+
+    void SetProperty(std::map<std::string, std::string> values) { data.swap(values); }
+    std::map<std::string, std::string> GetProperty() { return data; }
+    void SetValue(std::string name, std::string value) { data[name] = value; }
+    std::string GetValue(std::string name) { return data[name]; }
+    bool FindName(std::string name) { return data.count(name) != 0; }
+
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << data; }
+    void load(opros::archive::iarchive& ar, const unsigned int) { ar >> data; }
+
+  protected:
+    friend class opros::archive::access;
+    std::map<std::string, std::string> data;
+};
+
+inline std::string typeName(Property*) { return "Property"; }
+
+namespace OPRoS {
+
+/// The form that components of OPRoS v2 use: with the status of the call that has produced it.
+class Property : public ::Property {
+  public:
+    Property() : status(OPROS_SUCCESS) {}
+    ReturnType status;
+
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << data << status; }
+    void load(opros::archive::iarchive& ar, const unsigned int) { ar >> data >> status; }
+};
+
+inline std::string typeName(Property*) { return "Property"; }
+
+} // namespace OPRoS
+
+#endif

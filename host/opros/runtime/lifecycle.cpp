@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <LifecycleInterface.h>
+
+namespace {
+typedef std::lock_guard<std::recursive_mutex> Transition;
+}
+
+LifecycleInterface::LifecycleInterface() : m_state(OPROS_CS_CREATED), m_error(OPROS_SUCCESS) {}
+LifecycleInterface::~LifecycleInterface() = default;
+
+LifecycleState LifecycleInterface::getStatus() { return m_state.load(); }
+ReturnType LifecycleInterface::getErrorInfo() { return m_error.load(); }
+
+bool LifecycleInterface::succeeded(ReturnType result) {
+    if (result == OPROS_SUCCESS) return true;
+    m_error = result;
+    return false;
+}
+
+// The state may have become ERROR while the callback ran; then it stays so.
+ReturnType LifecycleInterface::enter(LifecycleState from, LifecycleState to) {
+    return m_state.compare_exchange_strong(from, to) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
+}
+
+ReturnType LifecycleInterface::initialize() {
+    const Transition lock(m_transition);
+    if (m_state == OPROS_CS_READY) return OPROS_SUCCESS;
+    if (m_state != OPROS_CS_CREATED || !succeeded(onInitialize())) return OPROS_PRECONDITION_NOT_MET;
+    return enter(OPROS_CS_CREATED, OPROS_CS_READY);
+}
+
+ReturnType LifecycleInterface::start() {
+    const Transition lock(m_transition);
+    const LifecycleState before = m_state;
+    if (before == OPROS_CS_ACTIVE) return OPROS_SUCCESS;
+    if (before != OPROS_CS_READY && before != OPROS_CS_INACTIVE) return OPROS_PRECONDITION_NOT_MET;
+    if (!succeeded(onStart())) return OPROS_PRECONDITION_NOT_MET;
+    return enter(before, OPROS_CS_ACTIVE);
+}
+
+ReturnType LifecycleInterface::stop() {
+    const Transition lock(m_transition);
+    if (m_state == OPROS_CS_INACTIVE) return OPROS_SUCCESS;
+    if (m_state != OPROS_CS_ACTIVE || !succeeded(onStop())) return OPROS_PRECONDITION_NOT_MET;
+    const ReturnType result = enter(OPROS_CS_ACTIVE, OPROS_CS_INACTIVE);
+    if (result == OPROS_SUCCESS) afterStop();
+    return result;
+}
+
+ReturnType LifecycleInterface::destroy() {
+    const Transition lock(m_transition);
+    const LifecycleState before = m_state;
+    if (before == OPROS_CS_DESTROYED) return OPROS_SUCCESS;
+    if (before == OPROS_CS_CREATED || !succeeded(onDestroy())) return OPROS_PRECONDITION_NOT_MET;
+    m_state = OPROS_CS_DESTROYED;
+    return OPROS_SUCCESS;
+}
+
+ReturnType LifecycleInterface::reset() {
+    const Transition lock(m_transition);
+    if (!succeeded(onReset()) || !succeeded(onInitialize()) || !succeeded(onStart()))
+        return OPROS_PRECONDITION_NOT_MET;
+    m_state = OPROS_CS_ACTIVE;
+    return OPROS_SUCCESS;
+}
+
+ReturnType LifecycleInterface::stopOnError() {
+    if (m_state == OPROS_CS_ERROR) return OPROS_SUCCESS;
+    if (enter(OPROS_CS_ACTIVE, OPROS_CS_ERROR) != OPROS_SUCCESS) return OPROS_PRECONDITION_NOT_MET;
+    return succeeded(onError()) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
+}
+
+ReturnType LifecycleInterface::recover() {
+    const Transition lock(m_transition);
+    if (m_state == OPROS_CS_READY) return OPROS_SUCCESS;
+    if (m_state != OPROS_CS_ERROR || !succeeded(onRecover())) return OPROS_PRECONDITION_NOT_MET;
+    return enter(OPROS_CS_ERROR, OPROS_CS_READY);
+}
