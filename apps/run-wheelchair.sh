@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs what is missing, builds, and drives the wheelchair: joystick an RT-Component, control and hardware OPRoS
+# components, two processes. Prints the latency table, draws the run.
+#   apps/run-wheelchair.sh [--build-only] [--out FOLDER] [options of build/release/bin/wheelchair]
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+build_only=no
+out=
+arguments=()
+while [ $# -gt 0 ]; do
+    case $1 in
+        --build-only) build_only=yes ;;
+        --out) out=$(realpath -m "${2:?--out needs a folder}"); shift ;;
+        *) arguments+=("$1") ;;
+    esac
+    shift
+done
+out=${out:-$root/build/wheelchair}
+called_from=$PWD
+
+install_missing_packages
+build_preset release
+if [ $build_only = yes ]; then exit 0; fi
+
+mkdir -p "$out"
+cd "$called_from"
+say "driving; log, figure and figures as JSON go to $out"
+exec "$root/build/release/bin/wheelchair" --csv "$out/run.csv" --plot "$out/run.svg" --json "$out/run.json" "${arguments[@]}"

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// wheelchair: the paper's experiment. See --help.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "apps/wheelchair/figure.hpp"
+#include "apps/wheelchair/options.hpp"
+#include "apps/wheelchair/report.hpp"
+#include "apps/wheelchair/supervisor.hpp"
+
+namespace {
+
+using namespace tandem::wheelchair;
+
+/// All that can be refused before anything is started.
+void check(const Options& options) {
+    load_scenario(options.scenario, options.joystick_file);
+    if (!options.plot.empty()) check_figure_path(options.plot);
+    for (const auto& path : {options.csv, options.plot, options.json})
+        if (!path.empty() && !std::filesystem::is_directory(std::filesystem::path(path).parent_path()))
+            throw InputError(path + ": its folder does not exist; make it first");
+}
+
+/// DIR/log.csv -> DIR/log-mixed.csv, where several configurations write one each.
+std::string with_name(const std::string& path, Configuration configuration) {
+    const std::filesystem::path p(path);
+    return (p.parent_path() / (p.stem().string() + "-" + name_of(configuration) + p.extension().string()))
+        .string();
+}
+
+void draw(const Options& options, const Report& report) {
+    const bool simulated = options.lockstep || options.configuration == Configuration::memory;
+    const std::string kind = simulated ? "simulated time" : "real time";
+    if (options.compare) {
+        std::vector<std::pair<std::string, std::vector<Row>>> curves;
+        for (const RunResult& r : report.runs) curves.emplace_back(name_of(r.configuration), r.rows);
+        draw_comparison(options.plot,
+                        fmt::format("{}: measured steering angle, {}", report.runs[0].scenario, kind),
+                        curves);
+    } else {
+        const RunResult& r = report.runs.front();
+        draw_run(options.plot, fmt::format("{}, {}, {}", r.scenario, name_of(r.configuration), kind), r.rows);
+    }
+}
+
+void write_files(const Options& options, const Report& report) {
+    for (const RunResult& r : report.runs)
+        if (!options.csv.empty())
+            write_csv(options.compare ? with_name(options.csv, r.configuration) : options.csv, r.rows);
+    if (!options.json.empty()) write_json(options.json, report);
+    if (!options.plot.empty()) draw(options, report);
+}
+
+int drive(Options options) {
+    check(options);
+    std::vector<Configuration> configurations{options.configuration};
+    if (options.compare) {
+        configurations = {Configuration::opros, Configuration::rtm, Configuration::mixed};
+        if (options.plot.empty()) options.plot = (std::filesystem::current_path() / "fig14.svg").string();
+    }
+    std::vector<RunResult> runs;
+    for (auto configuration : configurations) runs.push_back(run(options, configuration));
+    const Report report = make_report(std::move(runs), options);
+    std::fputs(text_of(report).c_str(), stdout);
+    std::fflush(stdout);
+    for (const RunResult& r : report.runs)
+        for (const auto& failure : r.failures)
+            fmt::print(stderr, "wheelchair: {}: {}\n", name_of(r.configuration), failure);
+    write_files(options, report);
+    return report.good() ? 0 : 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const Options options = parse_options(argc, argv);
+    try {
+        return drive(options);
+    } catch (const Interrupted&) {
+        fmt::print(stderr, "wheelchair: interrupted, hosts stopped\n");
+        return 130;
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "wheelchair: {}\n", e.what());
+        return 1;
+    }
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <map>
+
+namespace tandem::wheelchair {
+
+namespace {
+
+const std::map<std::string, Configuration> configurations{{"opros", Configuration::opros},
+                                                          {"rtm", Configuration::rtm},
+                                                          {"mixed", Configuration::mixed},
+                                                          {"memory", Configuration::memory}};
+
+std::string absolute(const std::string& path) {
+    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
+}
+
+/// Options handed on to both hosts unchanged.
+void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin, bool& idle, bool& lock) {
+    app.add_option("--opros-cpu", o.opros_cpu, "core for opros_host's tick threads");
+    app.add_option("--rtm-cpu", o.rtm_cpu, "core for rtm_host's tick threads");
+    app.add_option("--tick-spin", spin, "both hosts poll this long before each tick [us]");
+    app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep");
+    app.add_flag("--lock-memory", lock, "both hosts lock their memory");
+}
+
+} // namespace
+
+std::string name_of(Configuration configuration) {
+    for (const auto& [name, value] : configurations)
+        if (value == configuration) return name;
+    return "?";
+}
+
+Options parse_options(int argc, char** argv) {
+    Options o;
+    std::optional<double> spin;
+    bool idle = false, lock = false;
+    std::string configuration = "mixed";
+    CLI::App app{
+        "Drives a simulated power wheelchair with components of two robot models: joystick, control and\n"
+        "hardware as OPRoS components, as RT-Components, or mixed and joined through shared memory.",
+        "wheelchair"};
+    app.add_option("--config", configuration, "opros, rtm, mixed, or memory (no hosts; the expected result)")
+        ->check(CLI::IsMember({"opros", "rtm", "mixed", "memory"}))
+        ->capture_default_str();
+    app.add_option("--scenario", o.scenario, "step20 (default), doorway, ... ; a wrong name lists them all");
+    app.add_option("--joystick", o.joystick_file,
+                   "recorded stick instead of the scenario's: CSV t,jx,jy,estop");
+    app.add_flag("--lockstep", o.lockstep,
+                 "simulation time, one component after the other, the same every time");
+    app.add_flag("--compare", o.compare, "run opros, rtm and mixed, and draw their steering angles together");
+    app.add_option("--duration", o.duration, "seconds to drive instead of the scenario's")
+        ->check(CLI::Range(0.01, 86400.0));
+    app.add_option("--csv", o.csv, "write the log of every tick to this file");
+    app.add_option("--plot", o.plot, "draw the run into this file, .svg or .png");
+    app.add_option("--json", o.json, "write the figures to this file");
+    app.add_option("--keep", o.keep, "write profiles, traces and logs into this folder and keep them");
+    app.add_flag("--restart", o.restart, "start a host again when it dies");
+    app.add_option("--host-wait", o.host_wait, "seconds a host may take to get ready")
+        ->check(CLI::Range(0.1, 600.0))
+        ->capture_default_str();
+    app.add_option("--poll-us", o.poll_us,
+                   "how long ControlComp looks out for a reference in each tick, real time")
+        ->check(CLI::Range(0.0, 9000.0))
+        ->capture_default_str();
+    add_host_options(app, o, spin, idle, lock);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        std::exit(app.exit(e));
+    }
+    o.configuration = configurations.at(configuration);
+    for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep}) *path = absolute(*path);
+    if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", CLI::detail::to_string(*spin)});
+    if (idle) o.host_arguments.push_back("--low-latency-idle");
+    if (lock) o.host_arguments.push_back("--lock-memory");
+    return o;
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/run_directory.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "apps/wheelchair/wiring.hpp"
+#include "plugins/wheelchair/core/scenario.hpp"
+
+namespace tandem::wheelchair {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path temporary_folder(const char* name) {
+    std::string pattern = (fs::temp_directory_path() / name).string() + "-XXXXXX";
+    if (!mkdtemp(pattern.data()))
+        throw InputError(pattern + ": cannot be made: " + std::strerror(errno) +
+                         "; set TMPDIR to a writable folder");
+    return pattern;
+}
+
+/// A kept folder may hold an earlier run: its traces would be continued, so they go.
+fs::path kept_folder(const fs::path& path) {
+    std::error_code error;
+    for (const char* part : {"opros", "rtm", "trace", "log"}) fs::remove_all(path / part, error);
+    fs::create_directories(path, error);
+    if (error) throw InputError(path.string() + ": cannot be made: " + error.message());
+    return path;
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text << std::flush;
+    if (!file) throw InputError(path.string() + ": cannot be written");
+}
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+Parameters parameters_of(const std::string& member, const Options& o, const fs::path& run,
+                         const std::string& link) {
+    if (member == adaptor) return {{"link", link}, {"wait", fmt::format("{:g}", o.host_wait)}};
+    Parameters p{{"scenario", load_scenario(o.scenario, o.joystick_file).name},
+                 {"joystick_file", o.joystick_file},
+                 {"clock", o.lockstep ? "simulated" : "monotonic"},
+                 {"trace", (run / "trace" / (member + ".trace")).string()}};
+    if (member == "ControlComp") p.emplace_back("poll_us", o.lockstep ? "0" : fmt::format("{:g}", o.poll_us));
+    return p;
+}
+
+std::string component_profile(const std::string& member) {
+    return member == adaptor ? "AdaptorComp.xml" : member + ".xml";
+}
+
+/// The component profile as it was installed with its library.
+fs::path installed_profile(const std::string& file, const fs::path& programs) {
+    for (const char* folder : {"../plugins/opros", "../lib/tandem/plugins/opros"})
+        if (fs::exists(programs / folder / file)) return programs / folder / file;
+    for (const auto& lib : fs::directory_iterator(programs / "../lib"))
+        if (fs::exists(lib.path() / "tandem/plugins/opros" / file))
+            return lib.path() / "tandem/plugins/opros" / file;
+    throw InputError(
+        fmt::format("{}: not found in plugins/opros beside {}; build or install Tandem completely", file,
+                    programs.string()));
+}
+
+std::string subcomponent(const Member& member, const Parameters& parameters) {
+    std::string xml = fmt::format(
+        "    <subcomponent type=\"atomic\">\n      <name>{}</name>\n      <reference>{}</reference>\n"
+        "      <properties>\n",
+        member.name, component_profile(member.name));
+    for (const auto& [name, value] : parameters)
+        xml += fmt::format("        <property name=\"{}\">{}</property>\n", name, escaped(value));
+    return xml + "      </properties>\n    </subcomponent>\n";
+}
+
+std::string port_connection(const Wire& w) {
+    return fmt::format("    <port_connection port_type=\"{}\">\n"
+                       "      <source component_name=\"{}\" port_name=\"{}\"/>\n"
+                       "      <target component_name=\"{}\" port_name=\"{}\"/>\n    </port_connection>\n",
+                       w.kind == Wire::data ? "data" : "service", w.from, w.from_port, w.to, w.to_port);
+}
+
+std::string list_setting(const char* key, const std::vector<std::string>& values) {
+    return values.empty() ? "" : fmt::format("{}: {}\n", key, fmt::join(values, ", "));
+}
+
+constexpr const char* rtc_conf_head =
+    "# Settings of rtm_host for one wheelchair run. No name service: the RTCs find each other in this "
+    "process.\n"
+    "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nmanager.shutdown_on_nortcs: NO\n"
+    "exec_cxt.periodic.rate: 100\n";
+
+} // namespace
+
+fs::path program_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+
+RunDirectory::RunDirectory(const Options& options, Configuration configuration, const fs::path& programs)
+    : path_(options.keep.empty() ? temporary_folder("tandem-wheelchair") : kept_folder(options.keep)),
+      sockets_(temporary_folder("tandem-step")), keep_(!options.keep.empty()) {
+    if (options.compare && keep_) path_ = kept_folder(path_ / name_of(configuration));
+    if (configuration == Configuration::mixed) link_ = fmt::format("wheelchair-{}", getpid());
+    for (const char* part : {"trace", "log"}) fs::create_directories(path_ / part);
+    if (!opros_members(configuration).empty()) {
+        write_opros(options, configuration);
+        for (const auto& member : opros_members(configuration)) {
+            const auto file = component_profile(member.name);
+            fs::copy_file(installed_profile(file, programs), path_ / "opros" / file,
+                          fs::copy_options::overwrite_existing);
+        }
+        add_host(options, "opros_host", programs, {(path_ / "opros" / "wheelchair.xml").string()});
+    }
+    if (!rtm_members(configuration).empty()) {
+        write_rtm(options, configuration);
+        add_host(options, "rtm_host", programs, {"-f", (path_ / "rtm" / "rtc.conf").string()});
+    }
+}
+
+RunDirectory::~RunDirectory() {
+    std::error_code ignored; // a folder that cannot be removed must not hide the run's own outcome
+    if (!keep_) fs::remove_all(path_, ignored);
+    fs::remove_all(sockets_, ignored);
+}
+
+std::string RunDirectory::step_socket(const std::string& host) const { return (sockets_ / host).string(); }
+
+void RunDirectory::add_host(const Options& options, const std::string& name, const fs::path& programs,
+                            const std::vector<std::string>& profile) {
+    HostCommand host{name, {(programs / name).string()}, (path_ / "log" / (name + ".log")).string()};
+    auto& c = host.command;
+    c.insert(c.end(), profile.begin(), profile.end());
+    c.push_back("--parent-death");
+    if (options.lockstep) c.insert(c.end(), {"--lockstep", step_socket(name)});
+    const int cpu = name == "opros_host" ? options.opros_cpu : options.rtm_cpu;
+    if (cpu >= 0) c.insert(c.end(), {"--cpu", std::to_string(cpu)});
+    c.insert(c.end(), options.host_arguments.begin(), options.host_arguments.end());
+    hosts_.push_back(std::move(host));
+}
+
+void RunDirectory::write_opros(const Options& options, Configuration configuration) {
+    fs::create_directories(path_ / "opros");
+    std::string xml =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<package_profile>\n  <name>wheelchair</name>\n"
+        "  <!-- The component listed last starts first. -->\n  <subcomponents>\n";
+    const auto members = opros_members(configuration);
+    for (auto m = members.rbegin(); m != members.rend(); ++m)
+        xml += subcomponent(*m, parameters_of(m->name, options, path_, link_));
+    xml += "  </subcomponents>\n  <port_connections>\n";
+    for (const auto& wire : opros_wires(configuration)) xml += port_connection(wire);
+    write_file(path_ / "opros" / "wheelchair.xml", xml + "  </port_connections>\n</package_profile>\n");
+}
+
+void RunDirectory::write_rtm(const Options& options, Configuration configuration) {
+    fs::create_directories(path_ / "rtm");
+    const bool mixed = configuration == Configuration::mixed;
+    std::vector<std::string> modules, create, activate, connect;
+    std::string files;
+    for (const auto& member : rtm_members(configuration)) {
+        std::string conf;
+        for (const auto& [name, value] : parameters_of(member.name, options, path_, link_))
+            conf += fmt::format("conf.default.{}: {}\n", name, value);
+        const auto path = path_ / "rtm" / (member.name + "0.conf");
+        write_file(path, conf + fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n",
+                                            member.phase_ms));
+        files += fmt::format("wheelchair.{}0.config_file: {}\n", member.name, path.string());
+        modules.push_back(member.name + ".so");
+        create.push_back(member.name);
+        activate.push_back(member.name + "0");
+    }
+    for (const auto& w : rtm_wires(configuration))
+        connect.push_back(fmt::format("{}0.{}?port={}0.{}", w.from, w.from_port, w.to, w.to_port));
+    if (mixed) {
+        // InterceptorComp activates JoystickComp when AdaptorComp starts; nothing is activated here.
+        modules.push_back("InterceptorComp.so");
+        create.push_back(fmt::format("InterceptorComp?link={}&rtc=JoystickComp0", link_));
+        activate.clear();
+    }
+    std::string conf = rtc_conf_head + files;
+    conf += list_setting("manager.modules.preload", modules) +
+            list_setting("manager.components.precreate", create) +
+            list_setting("manager.components.preconnect", connect) +
+            list_setting("manager.components.preactivation", activate);
+    write_file(path_ / "rtm" / "rtc.conf", conf);
+}
+
+} // namespace tandem::wheelchair

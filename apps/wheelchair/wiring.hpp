@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who is connected to whom in the wheelchair, as data; run_directory.cpp writes it in the words of each
+// model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/wheelchair/options.hpp"
+
+namespace tandem::wheelchair {
+
+/// One of the three components as a run sets it up.
+struct Member {
+    std::string name;
+    double phase_ms; // place in the 10 ms grid, real time: hardware, then joystick, then control in one chain
+};
+
+/// A connection; for data the sender first, for services the one who calls.
+struct Wire {
+    enum Kind { data, service } kind;
+    std::string from, from_port, to, to_port;
+};
+
+/// In the order in which they have to start: a service's provider before those who call it.
+std::vector<Member> opros_members(Configuration configuration);
+std::vector<Member> rtm_members(Configuration configuration);
+std::vector<Wire> opros_wires(Configuration configuration);
+std::vector<Wire> rtm_wires(Configuration configuration);
+
+/// AdaptorComp's name among the OPRoS components; it stands for JoystickComp in the mixed configuration.
+inline constexpr const char* adaptor = "Adaptor";
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The controller as an OPRoS component: turns reference and wheel speeds into motor voltages.
+#include <OPRoSInclude.h>
+#include <ServiceUtils.h>
+
+#include "JoystickRequired.h"
+#include "component.hpp"
+#include "plugins/wheelchair/core/control_body.hpp"
+#include "plugins/wheelchair/core/limits.hpp"
+
+using namespace tandem::wheelchair;
+
+class ControlComp : public Component, private ControlPorts {
+  public:
+    ControlComp() { portSetup(); }
+
+    ReturnType onExecute() override {
+        body_->tick(*this);
+        return OPROS_SUCCESS;
+    }
+
+  protected:
+    ReturnType onInitialize() override {
+        return component::guarded("ControlComp", [this] { settings_ = component::settings_of(*this); });
+    }
+
+    ReturnType onStart() override {
+        return component::guarded("ControlComp", [this] {
+            check_joystick(joystick_->dead_zone(), joystick_->direction_rate());
+            body_.reset(); // closes the trace of an earlier start
+            body_ = std::make_unique<ControlBody>(settings_);
+        });
+    }
+
+    ReturnType onStop() override { return stop(); }
+    ReturnType onReset() override { return stop(); }
+    ReturnType onError() override { return stop(); }
+    ReturnType onRecover() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
+
+  private:
+    void portSetup() {
+        addPort("joystick", joystick_);
+        addPort("reference", &reference_);
+        addPort("wheelSpeed", &wheelSpeed_);
+        addPort("refVoltage", &refVoltage_);
+    }
+
+    ReturnType stop() {
+        if (body_) body_->deactivate(*this);
+        return OPROS_SUCCESS;
+    }
+
+    Drained<Reference> references() override { return component::drain<Reference>(reference_); }
+    Drained<WheelSpeed> wheels() override { return component::drain<WheelSpeed>(wheelSpeed_); }
+    void send(const Stamped<Voltage>& voltage) override { component::push(refVoltage_, buffer_, voltage); }
+
+    JoystickRequired* joystick_ = new JoystickRequired; // the component deletes its service ports
+    InputDataPort<component::Values> reference_{OPROS_FIFO, component::queue_length};
+    InputDataPort<component::Values> wheelSpeed_{OPROS_FIFO, component::queue_length};
+    OutputDataPort<component::Values> refVoltage_;
+    component::Values buffer_;
+    Settings settings_;
+    std::unique_ptr<ControlBody> body_;
+};
+
+extern "C" {
+Component* getComponent() { return new ControlComp; }
+void releaseComponent(Component* component) { delete component; }
+}

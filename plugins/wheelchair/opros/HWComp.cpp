@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// The chair's hardware side as an OPRoS component: publishes stick and wheel speeds, takes voltages, stops
+// safely.
+#include <OPRoSInclude.h>
+#include <ServiceUtils.h>
+
+#include <atomic>
+
+#include "ChairProvided.h"
+#include "component.hpp"
+#include "plugins/wheelchair/core/hw_body.hpp"
+#include "plugins/wheelchair/core/limits.hpp"
+
+using namespace tandem::wheelchair;
+
+class HWComp : public Component, public IChair, private HWPorts {
+  public:
+    HWComp() { portSetup(); }
+
+    std::vector<double> parameters() override { return chair_parameters(); }
+    std::vector<double> limits() override { return chair_limits(); }
+    bool emergency_stop() override { return emergency_ = true; }
+
+    ReturnType onExecute() override {
+        if (emergency_) body_->emergency_stop();
+        body_->tick(*this);
+        return OPROS_SUCCESS;
+    }
+
+  protected:
+    ReturnType onInitialize() override {
+        return component::guarded("HWComp", [this] { settings_ = component::settings_of(*this); });
+    }
+
+    ReturnType onStart() override {
+        return component::guarded("HWComp", [this] {
+            emergency_ = false;
+            body_.reset(); // closes the trace of an earlier start
+            body_ = std::make_unique<HWBody>(settings_);
+            body_->publish(*this);
+        });
+    }
+
+    ReturnType onStop() override { return stop(); }
+    ReturnType onReset() override { return stop(); }
+    ReturnType onError() override { return stop(); }
+    ReturnType onRecover() override { return stop(); }
+    ReturnType onDestroy() override { return stop(); }
+
+  private:
+    void portSetup() {
+        addPort("chair", new ChairProvided(this));
+        addPort("refVoltage", &refVoltage_);
+        addPort("linkState", &linkState_);
+        addPort("joystickPos", &joystickPos_);
+        addPort("wheelSpeed", &wheelSpeed_);
+    }
+
+    ReturnType stop() {
+        if (body_) body_->stop();
+        return OPROS_SUCCESS;
+    }
+
+    Drained<Voltage> voltages() override { return component::drain<Voltage>(refVoltage_); }
+    Drained<LinkState> link_states() override { return component::drain<LinkState>(linkState_); }
+    void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
+        component::push(wheelSpeed_, buffer_, wheels);
+        component::push(joystickPos_, buffer_, position);
+    }
+
+    InputDataPort<component::Values> refVoltage_{OPROS_FIFO, component::queue_length};
+    InputDataPort<component::Values> linkState_{OPROS_FIFO, component::queue_length};
+    OutputDataPort<component::Values> joystickPos_, wheelSpeed_;
+    component::Values buffer_;
+    Settings settings_;
+    std::unique_ptr<HWBody> body_;
+    std::atomic<bool> emergency_{false}; // asked for by service, from any thread
+};
+
+extern "C" {
+Component* getComponent() { return new HWComp; }
+void releaseComponent(Component* component) { delete component; }
+}

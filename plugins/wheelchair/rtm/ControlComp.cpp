@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The controller as an RTC: turns reference and wheel speeds into motor voltages.
+#include "WheelchairSkel.h"
+#include "component.hpp"
+#include "plugins/wheelchair/core/control_body.hpp"
+#include "plugins/wheelchair/core/limits.hpp"
+
+using namespace tandem::wheelchair;
+
+class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
+  public:
+    explicit ControlComp(RTC::Manager* manager)
+        : RTC::DataFlowComponentBase(manager), joystickPort_("joystick") {}
+
+    RTC::ReturnCode_t onInitialize() override {
+        registerInPort("reference", reference_.port);
+        registerInPort("wheelSpeed", wheelSpeed_.port);
+        registerOutPort("refVoltage", refVoltage_.port);
+        joystickPort_.registerConsumer("joystick", "Wheelchair::Joystick", joystick_);
+        registerPort(joystickPort_);
+        parameters_.bind(*this);
+        bindParameter("poll_us", parameters_.texts.poll_us, "0");
+        return RTC::RTC_OK;
+    }
+
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
+        return component::guarded(getInstanceName(), [this] {
+            ask_joystick();
+            body_.reset(); // closes the trace of an earlier activation
+            body_ = std::make_unique<ControlBody>(read_settings(parameters_.texts));
+        });
+    }
+
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        body_->tick(*this);
+        return RTC::RTC_OK;
+    }
+
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return stop(); }
+    RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return stop(); }
+
+  private:
+    void ask_joystick() {
+        if (CORBA::is_nil(joystick_._ptr()))
+            throw InputError(
+                "port joystick is not connected; connect it to a provider of Wheelchair::Joystick");
+        check_joystick(joystick_->dead_zone(), joystick_->direction_rate());
+    }
+
+    RTC::ReturnCode_t stop() {
+        if (body_) body_->deactivate(*this);
+        return RTC::RTC_OK;
+    }
+
+    Drained<Reference> references() override { return reference_.drain<Reference>(); }
+    Drained<WheelSpeed> wheels() override { return wheelSpeed_.drain<WheelSpeed>(); }
+    void send(const Stamped<Voltage>& voltage) override { refVoltage_.write(voltage); }
+
+    component::SequenceIn reference_{"reference"}, wheelSpeed_{"wheelSpeed"};
+    component::SequenceOut refVoltage_{"refVoltage"};
+    RTC::CorbaPort joystickPort_;
+    RTC::CorbaConsumer<Wheelchair::Joystick> joystick_;
+    component::Parameters parameters_;
+    std::unique_ptr<ControlBody> body_;
+};
+
+extern "C" void ControlCompInit(RTC::Manager* manager) {
+    coil::Properties profile =
+        component::profile("ControlComp", "Speed-ratio control of the wheelchair's drive motors");
+    profile.setProperty("conf.default.poll_us", "0");
+    manager->registerFactory(profile, RTC::Create<ControlComp>, RTC::Delete<ControlComp>);
+}

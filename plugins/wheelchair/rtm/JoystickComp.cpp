@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The joystick as an RTC: turns stick positions into reference direction and speed.
+#include "WheelchairSkel.h"
+#include "component.hpp"
+#include "plugins/wheelchair/core/joystick_body.hpp"
+
+using namespace tandem::wheelchair;
+
+namespace {
+
+class JoystickService : public POA_Wheelchair::Joystick, public virtual PortableServer::RefCountServantBase {
+  public:
+    explicit JoystickService(const std::unique_ptr<JoystickBody>& body) : body_(body) {}
+    CORBA::Double dead_zone() override { return parameters().dead_zone; }
+    CORBA::Double direction_rate() override { return parameters().direction_rate; }
+
+  private:
+    /// Servants answer only while the RTC is active, and so while there is a body.
+    const JoystickParameters& parameters() const { return body_->parameters(); }
+    const std::unique_ptr<JoystickBody>& body_;
+};
+
+std::vector<double> limits(Wheelchair::Chair_ptr chair) {
+    if (CORBA::is_nil(chair))
+        throw InputError("port chair is not connected; connect it to a provider of Wheelchair::Chair");
+    const Wheelchair::Values_var answer = chair->limits();
+    return {answer->get_buffer(), answer->get_buffer() + answer->length()};
+}
+
+} // namespace
+
+class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
+  public:
+    explicit JoystickComp(RTC::Manager* manager)
+        : RTC::DataFlowComponentBase(manager), joystickPort_("joystick"), chairPort_("chair"),
+          joystick_(body_) {}
+
+    RTC::ReturnCode_t onInitialize() override {
+        registerInPort("joystickPos", joystickPos_.port);
+        registerOutPort("reference", reference_.port);
+        joystickPort_.registerProvider("joystick", "Wheelchair::Joystick", joystick_);
+        chairPort_.registerConsumer("chair", "Wheelchair::Chair", chair_);
+        registerPort(joystickPort_);
+        registerPort(chairPort_);
+        parameters_.bind(*this);
+        return RTC::RTC_OK;
+    }
+
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
+        return component::guarded(getInstanceName(), [this] {
+            body_.reset(); // closes the trace of an earlier activation
+            body_ = std::make_unique<JoystickBody>(read_settings(parameters_.texts), limits(chair_._ptr()));
+        });
+    }
+
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        body_->tick(*this);
+        return RTC::RTC_OK;
+    }
+
+  private:
+    Drained<JoystickPosition> positions() override { return joystickPos_.drain<JoystickPosition>(); }
+    void send(const Stamped<Reference>& reference) override { reference_.write(reference); }
+
+    component::SequenceIn joystickPos_{"joystickPos"};
+    component::SequenceOut reference_{"reference"};
+    RTC::CorbaPort joystickPort_, chairPort_;
+    std::unique_ptr<JoystickBody> body_;
+    JoystickService joystick_;
+    RTC::CorbaConsumer<Wheelchair::Chair> chair_;
+    component::Parameters parameters_;
+};
+
+extern "C" void JoystickCompInit(RTC::Manager* manager) {
+    coil::Properties profile =
+        component::profile("JoystickComp", "Stick position to reference direction and speed");
+    manager->registerFactory(profile, RTC::Create<JoystickComp>, RTC::Delete<JoystickComp>);
+}
