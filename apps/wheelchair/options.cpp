@@ -56,9 +56,9 @@ Options parse_options(int argc, char** argv) {
     app.add_flag("--compare", o.compare, "run opros, rtm and mixed, and draw their steering angles together");
     app.add_option("--duration", o.duration, "seconds to drive instead of the scenario's")
         ->check(CLI::Range(0.01, 86400.0));
-    app.add_option("--csv", o.csv, "write the log of every tick to this file");
-    app.add_option("--plot", o.plot, "draw the run into this file, .svg or .png");
-    app.add_option("--json", o.json, "write the figures to this file");
+    app.add_option("--csv", o.csv, "write the log of every tick to this file")->take_last();
+    app.add_option("--plot", o.plot, "draw the run into this file, .svg or .png")->take_last();
+    app.add_option("--json", o.json, "write the figures to this file")->take_last();
     app.add_option("--keep", o.keep, "write profiles, traces and logs into this folder and keep them");
     app.add_flag("--restart", o.restart, "start a host again when it dies");
     app.add_option("--host-wait", o.host_wait, "seconds a host may take to get ready")
