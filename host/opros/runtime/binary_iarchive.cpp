@@ -8,13 +8,15 @@
 
 namespace opros::archive {
 namespace {
-// Malformed counts must not make us allocate what the bytes cannot hold: each element takes at least one byte.
+// Malformed counts must not make us allocate what the bytes cannot hold: each element takes at least one
+// byte.
 std::size_t bytes_left(std::istream& in) {
     return in.rdbuf() ? static_cast<std::size_t>(std::max<std::streamsize>(in.rdbuf()->in_avail(), 0)) : 0;
 }
 } // namespace
 
-template <typename T> T binary_iarchive::get_bytes() {
+template <typename T>
+T binary_iarchive::get_bytes() {
     T value;
     m_is->read(reinterpret_cast<char*>(&value), sizeof value);
     if (m_is->gcount() != static_cast<std::streamsize>(sizeof value)) throw archive_format_exception();
@@ -25,7 +27,8 @@ void binary_iarchive::expect(char code) {
     if (get_bytes<char>() != code) throw archive_type_exception();
 }
 
-template <typename T> iarchive& binary_iarchive::get(char code, T& value) {
+template <typename T>
+iarchive& binary_iarchive::get(char code, T& value) {
     if (!m_bare) {
         expect(code);
         if (get_bytes<char>() != static_cast<char>(sizeof value)) throw archive_type_exception();

@@ -8,11 +8,13 @@ namespace opros::archive {
 // Little endian, as is every machine this is built for; the format has no other order.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 
-template <typename T> void binary_oarchive::put_bytes(T value) {
+template <typename T>
+void binary_oarchive::put_bytes(T value) {
     m_os->write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-template <typename T> oarchive& binary_oarchive::put(char code, T value) {
+template <typename T>
+oarchive& binary_oarchive::put(char code, T value) {
     if (!m_bare) {
         m_os->put(code);
         m_os->put(static_cast<char>(sizeof value));

@@ -9,7 +9,8 @@
 
 namespace opros {
 
-/// A ring of values. The slots keep their values' storage, so that once warm, putting values in allocates nothing.
+/// A ring of values. The slots keep their values' storage, so that once warm, putting values in allocates
+/// nothing.
 class DataQueue {
   public:
     DataQueue(DataPortPolicy policy, std::size_t limit);

@@ -81,7 +81,8 @@ class InputDataPortImpl {
     std::vector<DataPortSource*> sources_;
 };
 
-InputDataPortInterface::InputDataPortInterface() : InputDataPortInterface("", OPROS_FIFO, DEFAULT_QUEUE_LIMIT) {}
+InputDataPortInterface::InputDataPortInterface()
+    : InputDataPortInterface("", OPROS_FIFO, DEFAULT_QUEUE_LIMIT) {}
 InputDataPortInterface::InputDataPortInterface(DataPortPolicy data_policy, unsigned int queue_limit)
     : InputDataPortInterface("", data_policy, queue_limit) {}
 InputDataPortInterface::InputDataPortInterface(const std::string& name)

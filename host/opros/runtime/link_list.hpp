@@ -8,7 +8,8 @@
 namespace opros {
 
 /// The links of an output port: pushes go through them one after the other, under one lock.
-template <class Link> class LinkList {
+template <class Link>
+class LinkList {
   public:
     void add(Link* link) {
         const std::lock_guard<std::mutex> lock(mutex_);
@@ -22,7 +23,8 @@ template <class Link> class LinkList {
         const std::lock_guard<std::mutex> lock(mutex_);
         links_.clear();
     }
-    template <class Visit> void for_each(Visit visit) {
+    template <class Visit>
+    void for_each(Visit visit) {
         const std::lock_guard<std::mutex> lock(mutex_);
         for (Link* link : links_) visit(*link);
     }

@@ -10,9 +10,12 @@ PortInterface::~PortInterface() {
 PortInterface::PortMap* PortInterface::portsOf(PortType type) {
     switch (type) {
     case OPROS_DATA:
-    case OPROS_REMOTE_DATA: return &m_data;
-    case OPROS_EVENT: return &m_event;
-    case OPROS_SERVICE: return &m_service;
+    case OPROS_REMOTE_DATA:
+        return &m_data;
+    case OPROS_EVENT:
+        return &m_event;
+    case OPROS_SERVICE:
+        return &m_service;
     }
     return nullptr;
 }

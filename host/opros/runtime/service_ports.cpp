@@ -14,7 +14,8 @@ std::string Method::signature() {
     const auto known = types();
     if (known.empty()) return getReturnType() + " (" + std::to_string(getArity()) + " arguments)";
     std::string text = opros::readable_name(*known[0]) + " (";
-    for (std::size_t i = 1; i < known.size(); ++i) text += (i > 1 ? ", " : "") + opros::readable_name(*known[i]);
+    for (std::size_t i = 1; i < known.size(); ++i)
+        text += (i > 1 ? ", " : "") + opros::readable_name(*known[i]);
     return text + ")";
 }
 

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// An OPRoS application in this process, from its profile to its orderly end.
+#pragma once
+
+#include "host/opros/src/component_host.hpp"
+#include "host/opros/src/executor.hpp"
+#include "host/opros/src/link.hpp"
+#include "host/opros/src/worker_pool.hpp"
+#include "host/rt/step_server.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tandem::engine {
+
+struct ApplicationOptions {
+    std::vector<std::filesystem::path> plugin_dirs;
+    ExecutorOptions executors;
+    std::size_t workers = 4;
+    std::size_t jobs_per_worker = 1024;
+    /// Not empty: no executor threads, components are stepped through this socket (host/rt/step_server.hpp).
+    std::string lockstep_socket;
+};
+
+class Application {
+  public:
+    /// Loads and initialises all components and connects them. Throws SetupError.
+    Application(const std::filesystem::path& profile, const ApplicationOptions& options);
+    /// Stops what runs, disconnects, destroys and unloads.
+    ~Application();
+
+    /// Starts all components, last listed first unless <coordination> says otherwise, then their executors.
+    /// One that fails is out, the rest runs.
+    void start();
+    /// Ends the executors, then stops the components in the reverse order of start.
+    void stop();
+
+    /// One cycle of the named component in the calling thread. Throws std::runtime_error: no such component,
+    /// or it threw an exception.
+    void step(const std::string& component);
+
+    ComponentHost* find(const std::string& component);
+    const std::vector<ComponentHost*>& in_start_order() const { return order_; }
+
+  private:
+    explicit Application(
+        const ApplicationOptions& options); // what has been set up is undone if the rest throws
+    void load(const ApplicationProfile& profile);
+    void order(const ApplicationProfile& profile);
+    void connect_all(const ApplicationProfile& profile);
+
+    ApplicationOptions options_;
+    std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
+    std::vector<ComponentHost*> order_;
+    WorkerPool workers_;
+    std::vector<std::unique_ptr<Link>> links_;
+    std::vector<std::unique_ptr<Executor>> executors_;
+    std::unique_ptr<rt::StepServer> step_server_;
+    bool started_ = false;
+};
+
+} // namespace tandem::engine

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/component_host.hpp"
+
+#include "host/opros/src/load_component.hpp"
+
+#include <MethodInvokeException.h>
+#include <spdlog/spdlog.h>
+
+namespace tandem::engine {
+
+ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
+                             const std::vector<std::filesystem::path>& dirs)
+    : name_(entry.name), profile_(std::move(profile)), component_(load_component(profile_, dirs)) {
+    component_->setId(name_);
+    for (const auto& [key, value] : profile_.properties) component_->setProperty(key, value);
+    for (const auto& [key, value] : entry.properties) component_->setProperty(key, value);
+    const auto resources = std::filesystem::absolute(profile_.place.file).parent_path() / "res" / "";
+    component_->setProperty("_opros_xx_internal_xx_Component_Path", resources.string());
+}
+
+std::string ComponentHost::fail(const char* what, const std::string& why) {
+    const std::string text = "component " + name_ + ": " + what + " threw an exception: " + why;
+    spdlog::error("{}; it goes to ERROR, the others go on", text);
+    error_reported_ = true;
+    try {
+        component_->stopOnError();
+    } catch (const std::exception& error) {
+        spdlog::error("component {}: onError threw an exception, too: {}", name_, error.what());
+    } catch (...) {
+        spdlog::error("component {}: onError threw an exception of unknown type, too", name_);
+    }
+    return text;
+}
+
+std::string ComponentHost::guarded(const char* what, const std::function<void()>& code) {
+    try {
+        code();
+        return "";
+    } catch (const MethodInvokeException& error) {
+        // A service that fails now may work in the next cycle: the real engine, too, leaves the component
+        // ACTIVE.
+        spdlog::warn("component {}: {}: {}", name_, what, error.what());
+        return "";
+    } catch (const std::exception& error) {
+        return fail(what, error.what());
+    } catch (...) {
+        return fail(what, "of unknown type");
+    }
+}
+
+bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::*step)()) {
+    ReturnType result = OPROS_SUCCESS;
+    const std::string thrown = guarded(what, [&] { result = (component_.get()->*step)(); });
+    if (thrown.empty() && result == OPROS_SUCCESS) return true;
+    if (thrown.empty())
+        spdlog::error("component {}: {} failed with code {:#x} (callback: {:d})", name_, what, result,
+                      component_->getErrorInfo());
+    return false;
+}
+
+void ComponentHost::initialize() { failed_ = !lifecycle("initialize", &LifecycleInterface::initialize); }
+
+void ComponentHost::start() {
+    if (!failed_) failed_ = !lifecycle("start", &LifecycleInterface::start);
+}
+
+void ComponentHost::stop() {
+    if (active()) lifecycle("stop", &LifecycleInterface::stop);
+}
+
+void ComponentHost::destroy() {
+    const LifecycleState state = component_->getStatus();
+    if (state != OPROS_CS_CREATED && state != OPROS_CS_DESTROYED)
+        lifecycle("destroy", &LifecycleInterface::destroy);
+}
+
+// Real components return errors for passing conditions such as no input, and the real engine takes no notice:
+// so it is said once, and the component stays ACTIVE.
+void ComponentHost::report_code(const char* what, ReturnType code, ReturnType& last) {
+    if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
+        code != OPROS_UNSUPPORTED_METHOD)
+        spdlog::warn("component {}: {} returns code {:d}", name_, what, code);
+    last = code;
+}
+
+void ComponentHost::report_broken() {
+    const bool broken = component_->getStatus() == OPROS_CS_ERROR;
+    if (broken && !error_reported_) spdlog::error("component {} has gone to ERROR by itself", name_);
+    error_reported_ = broken;
+}
+
+std::string ComponentHost::execute() {
+    if (!active()) {
+        report_broken();
+        return "";
+    }
+    return guarded("onExecute", [this] { report_code("onExecute", component_->onExecute(), last_execute_); });
+}
+
+std::string ComponentHost::update() {
+    if (!active()) return "";
+    return guarded("onUpdated", [this] { report_code("onUpdated", component_->onUpdated(), last_update_); });
+}
+
+void ComponentHost::depends_on(ComponentHost& target) {
+    const std::uint64_t bit = needed_triggers_ + 1; // the lowest bit not yet in use
+    needed_triggers_ |= bit;
+    target.followers_.emplace_back(this, bit);
+}
+
+void ComponentHost::fired() {
+    for (auto& [follower, bit] : followers_) follower->triggers_.fetch_or(bit, std::memory_order_acq_rel);
+}
+
+bool ComponentHost::take_triggers() {
+    if (needed_triggers_ == 0) return true;
+    std::uint64_t all = needed_triggers_;
+    return triggers_.compare_exchange_strong(all, 0, std::memory_order_acq_rel);
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// One component of the application: its library, its instance and its profile. Whatever the component throws
+// ends here.
+#pragma once
+
+#include "host/opros/src/profile.hpp"
+#include "host/plugin/library.hpp"
+
+#include <Component.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tandem::engine {
+
+class ComponentHost {
+  public:
+    /// Loads the library and makes the instance. Throws SetupError.
+    ComponentHost(const Subcomponent& entry, ComponentProfile profile,
+                  const std::vector<std::filesystem::path>& dirs);
+
+    const std::string& name() const { return name_; }
+    const ComponentProfile& profile() const { return profile_; }
+    Component& component() { return *component_; }
+    bool active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
+    /// Initialisation or start has failed: the component takes no part.
+    bool failed() const { return failed_; }
+
+    /// Life-cycle steps. A failure is logged in one line and the component is out; the others go on.
+    void initialize();
+    void start();
+    void stop();
+    void destroy();
+
+    /// [executor] The two passes of a cycle; nothing happens unless the component is ACTIVE. An exception
+    /// puts it in ERROR and comes back as text, empty otherwise.
+    std::string execute();
+    std::string update();
+
+    /// Runs the component's own code from any thread of the engine, under the same rule.
+    std::string guarded(const char* what, const std::function<void()>& code);
+
+    /// Cycles of these components must come before each of ours: fired() is theirs, take_triggers() ours.
+    void depends_on(ComponentHost& target);
+    void fired();
+    bool take_triggers();
+
+  private:
+    bool lifecycle(const char* what, ReturnType (LifecycleInterface::*step)());
+    std::string fail(const char* what, const std::string& why);
+    void report_code(const char* what, ReturnType code, ReturnType& last);
+    void report_broken();
+
+    std::string name_;
+    ComponentProfile profile_;
+    std::shared_ptr<Component> component_;
+    std::atomic<bool> failed_{false};
+    bool error_reported_ = false;
+    ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
+    std::uint64_t needed_triggers_ = 0;
+    std::atomic<std::uint64_t> triggers_{0};
+    std::vector<std::pair<ComponentHost*, std::uint64_t>> followers_;
+};
+
+} // namespace tandem::engine

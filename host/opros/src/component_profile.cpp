@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/xml_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace tandem::engine {
+namespace {
+
+std::chrono::nanoseconds milliseconds(double ms) { return std::chrono::nanoseconds(std::llround(ms * 1e6)); }
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+Execution execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
+    const std::string type = lower(xml.required_text(semantics, "type"));
+    if (type == "periodic" || type == "periodic-exclusive") return Execution::periodic;
+    if (type == "periodic-shared") return Execution::periodic_shared;
+    if (type == "aperiodic" || type == "non-periodic" || type == "nonperiodic") return Execution::aperiodic;
+    if (type == "passive") return Execution::passive;
+    xml.fail(semantics.child("type"),
+             "execution type '" + type +
+                 "' is unknown, expected periodic, periodic-exclusive, periodic-shared, "
+                 "aperiodic or passive");
+}
+
+void read_semantics(const XmlFile& xml, const pugi::xml_node& semantics, ComponentProfile& profile) {
+    profile.execution = execution_type(xml, semantics);
+    // SCHED_OTHER said in so many words means no real-time priority.
+    const bool ordinary = XmlFile::text(semantics, "policy") == "SCHED_OTHER";
+    const double priority = ordinary ? 0 : xml.number(semantics, "priority", 0);
+    profile.priority = static_cast<int>(std::clamp(priority, 0., 99.));
+    if (profile.execution != Execution::periodic && profile.execution != Execution::periodic_shared) return;
+    const double period = xml.number(semantics, "period", 0);
+    if (period <= 0 || period > 1e9)
+        xml.fail(semantics.child("period") ? semantics.child("period") : semantics,
+                 "a periodic component needs a <period> above 0 ms, got '" +
+                     XmlFile::text(semantics, "period") + "'");
+    profile.period = milliseconds(period);
+    profile.phase = milliseconds(xml.number(semantics, "phase", 0));
+}
+
+} // namespace
+
+ComponentProfile read_component_profile(const std::filesystem::path& file) {
+    const XmlFile xml(file);
+    const pugi::xml_node root = xml.root({"component_profile"});
+    ComponentProfile profile;
+    profile.place = xml.place(root);
+    profile.name = xml.required_text(root, "name");
+    const pugi::xml_node environment = root.child("execution_environment");
+    if (!environment) xml.fail(root, "<component_profile> lacks its <execution_environment>");
+    profile.library_name = xml.required_text(environment, "library_name");
+    profile.library_place = xml.place(environment.child("library_name"));
+    const pugi::xml_node semantics = root.child("execution_semantics");
+    if (!semantics) xml.fail(root, "<component_profile> lacks its <execution_semantics>");
+    read_semantics(xml, semantics, profile);
+    for (const pugi::xml_node& property : root.child("properties").children("property"))
+        if (const std::string name = property.attribute("name").value(); !name.empty())
+            profile.properties.emplace_back(name, property.child_value());
+    return profile;
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/event_link.hpp"
+
+#include <spdlog/spdlog.h>
+
+namespace tandem::engine {
+
+EventLink::EventLink(OutputEventPortInterface& source, InputEventPortInterface& destination,
+                     ComponentHost& receiver, WorkerPool& workers, std::size_t lane)
+    : source_(source), destination_(destination), receiver_(receiver), workers_(workers), lane_(lane) {
+    source_.addConnection(this);
+}
+
+ReturnType EventLink::push(Event* data) {
+    const std::shared_ptr<Event> copy(data->clone());
+    const bool taken = workers_.submit(lane_, [copy, &port = destination_, &receiver = receiver_] {
+        const LifecycleState state = receiver.component().getStatus();
+        if (state == OPROS_CS_ERROR || state == OPROS_CS_DESTROYED) return;
+        receiver.guarded("onEvent", [&] { port.push(copy.get()); });
+    });
+    if (taken) return OPROS_SUCCESS;
+    if (!overflow_reported_.exchange(true))
+        spdlog::warn("component {}: events come faster than onEvent takes them, some are lost",
+                     receiver_.name());
+    return OPROS_OUT_OF_RESOURCES;
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/load_component.hpp"
+
+#include "host/plugin/find_library.hpp"
+#include "host/plugin/library.hpp"
+
+#define MAKE_STATIC_COMPONENT // the host is no component
+#include <ServiceUtils.h>
+#include <spdlog/spdlog.h>
+
+namespace tandem::engine {
+namespace {
+
+// The last field of a version is of no consequence.
+std::string significant(const std::string& version) { return version.substr(0, version.rfind('-')); }
+
+void check_version(plugin::Library& library) {
+    if (!library.has("getVersion")) return; // components of OPRoS v1 have none
+    const std::string version = library.symbol<const char*()>("getVersion")();
+    if (significant(version) != significant(get_opros_version()))
+        spdlog::warn("library {} was made for OPRoS {}, this host is {}", library.path().string(), version,
+                     get_opros_version());
+}
+
+Component* make(plugin::Library& library) {
+    const auto factory = library.symbol<Component*()>("getComponent");
+    std::string why = "returned NULL";
+    try {
+        if (Component* made = factory()) return made;
+    } catch (const std::exception& error) {
+        why = std::string("threw an exception: ") + error.what();
+    } catch (...) {
+        why = "threw an exception of unknown type";
+    }
+    throw SetupError("getComponent() of " + library.path().string() + " " + why);
+}
+
+} // namespace
+
+std::shared_ptr<Component> load_component(const ComponentProfile& profile,
+                                          const std::vector<std::filesystem::path>& dirs) {
+    try {
+        std::vector<std::filesystem::path> search{profile.place.file.parent_path()};
+        search.insert(search.end(), dirs.begin(), dirs.end());
+        const auto library = plugin::Library::load(plugin::find_library(profile.library_name, search));
+        check_version(*library);
+        void (*release)(Component*) = [](Component* dying) { delete dying; };
+        if (library->has("releaseComponent")) release = library->symbol<void(Component*)>("releaseComponent");
+        return plugin::own(library, make(*library), release);
+    } catch (const std::runtime_error& error) {
+        throw SetupError(profile.library_place, error.what());
+    }
+}
+
+} // namespace tandem::engine

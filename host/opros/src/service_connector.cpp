@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/service_connector.hpp"
+
+#include <MethodInvokeException.h>
+
+namespace tandem::engine {
+namespace {
+
+class Connector : public ServicePortConnector {
+  public:
+    Connector(ProvidedServicePort& provided, ComponentHost& provider)
+        : provided_(provided), provider_(provider) {}
+    ReturnType responseService(std::string&, std::string&, std::string&) override {
+        return OPROS_UNSUPPORTED_METHOD;
+    }
+
+  protected:
+    ProvidedServicePort& provided_;
+    ComponentHost& provider_;
+};
+
+class DirectConnector : public Connector {
+  public:
+    using Connector::Connector;
+    ReturnType requestService(const std::string& name, std::vector<opros_params>& params,
+                              opros_params& result, int) override {
+        std::string method = name;
+        const ReturnType code = provided_.callService(method, params, result);
+        if (code == OPROS_SUCCESS) return code;
+        throw MethodInvokeException("call of " + provider_.name() + "'s " + name + " failed with code " +
+                                    std::to_string(code));
+    }
+};
+
+class WorkerConnector : public Connector {
+  public:
+    WorkerConnector(ProvidedServicePort& provided, ComponentHost& provider, WorkerPool& workers,
+                    std::size_t lane)
+        : Connector(provided, provider), workers_(workers), lane_(lane) {}
+
+    ReturnType requestService(const std::string& name, std::vector<opros_params>& params, opros_params&,
+                              int) override {
+        const bool taken = workers_.submit(lane_, [this, method = name, params]() mutable {
+            if (!provider_.active()) return;
+            provider_.guarded(method.c_str(), [&] {
+                opros_params none;
+                provided_.callService(method, params, none);
+            });
+        });
+        if (taken) return OPROS_SUCCESS;
+        throw MethodInvokeException("call of " + provider_.name() + "'s " + name +
+                                    ": too many calls are waiting");
+    }
+
+  private:
+    WorkerPool& workers_;
+    const std::size_t lane_;
+};
+
+} // namespace
+
+std::unique_ptr<ServicePortConnector> direct_connector(ProvidedServicePort& provided,
+                                                       ComponentHost& provider) {
+    return std::make_unique<DirectConnector>(provided, provider);
+}
+
+std::unique_ptr<ServicePortConnector> worker_connector(ProvidedServicePort& provided, ComponentHost& provider,
+                                                       WorkerPool& workers, std::size_t lane) {
+    return std::make_unique<WorkerConnector>(provided, provider, workers, lane);
+}
+
+} // namespace tandem::engine
