@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/futex.hpp"
+
+#include <climits>
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace tandem::shm {
+
+// Not the _PRIVATE operations: the word is shared between processes.
+
+void futex_wait(layout::Word32& word, std::uint32_t expected, std::uint64_t deadline) {
+    const std::uint64_t now = now_ns();
+    if (now >= deadline) return;
+    timespec left{};
+    left.tv_sec = static_cast<time_t>((deadline - now) / 1'000'000'000ULL);
+    left.tv_nsec = static_cast<long>((deadline - now) % 1'000'000'000ULL);
+    syscall(SYS_futex, &word, FUTEX_WAIT, expected, &left, nullptr, 0);
+}
+
+void futex_wake(layout::Word32& word, int sleepers) {
+    syscall(SYS_futex, &word, FUTEX_WAKE, sleepers, nullptr, nullptr, 0);
+}
+
+} // namespace tandem::shm

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/mapping.hpp"
+
+#include "shm/clock.hpp"
+#include "shm/error.hpp"
+#include "shm/liveness.hpp"
+
+#include <sys/mman.h>
+
+namespace tandem::shm {
+namespace {
+
+namespace ipc = boost::interprocess;
+
+// What mapped_region wants to know about a file.
+struct Mappable {
+    int fd;
+    ipc::mapping_handle_t get_mapping_handle() const { return {fd, false}; }
+};
+
+// MAP_POPULATE: all page tables are filled now, the data path takes no page fault.
+ipc::mapped_region map_all(int fd, const std::string& path, std::uint64_t bytes) try {
+    return {Mappable{fd}, ipc::read_write,          0, static_cast<std::size_t>(bytes),
+            nullptr,      MAP_SHARED | MAP_POPULATE};
+} catch (const ipc::interprocess_exception& refused) {
+    throw Error(path + ": " + std::to_string(bytes) + " bytes cannot be mapped (" + refused.what() +
+                "); raise the limit on address space or locked memory");
+}
+
+} // namespace
+
+Mapping::Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked,
+                 Side side, std::chrono::nanoseconds late_after)
+    : file_(std::move(file)), path_(path), region_(map_all(file_.get(), path, checked.total_bytes)),
+      side_(side), generation_(checked.generation),
+      late_after_ns_(static_cast<std::uint64_t>(late_after.count())) {
+    for (std::size_t half = 0; half < 2; ++half)
+        arena_[half] = {at<std::byte>(checked.arena_offset[half]), checked.arena_bytes[half]};
+}
+
+PeerState Mapping::peer() const {
+    const auto& theirs = half(other(side_));
+    // `taken` is set after the lock is held, so it must be read before the lock is looked at: the other way
+    // round, a peer that joins between the two reads would look dead.
+    if (theirs.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
+    if (!held_by_other(file_.get(), life_of(other(side_)))) return PeerState::dead;
+    const std::uint64_t beat = theirs.heartbeat_ns.load(std::memory_order_relaxed);
+    const std::uint64_t now = now_ns();
+    // A beat from the future is as late as an old one; one nanosecond ahead is another core's clock read.
+    return now - beat > late_after_ns_ && beat - now > late_after_ns_ ? PeerState::late : PeerState::alive;
+}
+
+} // namespace tandem::shm

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shm/file_descriptor.hpp"
+#include "shm/layout.hpp"
+#include "shm/side.hpp"
+
+#include <boost/interprocess/mapped_region.hpp>
+#include <chrono>
+#include <span>
+#include <string>
+
+namespace tandem::shm {
+
+/// A segment's memory as one side sees it, with its own copy of all sizes. Segment and every ring, call queue
+/// and doorbell object share one, so the memory stays mapped as long as anybody may touch it.
+class Mapping {
+  public:
+    Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked, Side side,
+            std::chrono::nanoseconds late_after);
+
+    int fd() const { return file_.get(); }
+    const std::string& path() const { return path_; }
+    Side side() const { return side_; }
+    std::uint64_t generation() const { return generation_; }
+
+    layout::SegmentHeader& header() const { return *at<layout::SegmentHeader>(0); }
+    layout::SideHeader& half(Side side) const {
+        return *at<layout::SideHeader>(sizeof(layout::SegmentHeader) +
+                                       index_of(side) * sizeof(layout::SideHeader));
+    }
+    std::span<std::byte> arena(Side side) const { return arena_[index_of(side)]; }
+
+    /// [any-thread] One system call.
+    PeerState peer() const;
+
+  private:
+    template <class T>
+    T* at(std::size_t offset) const {
+        return reinterpret_cast<T*>(static_cast<std::byte*>(region_.get_address()) + offset);
+    }
+
+    FileDescriptor file_;
+    std::string path_;
+    boost::interprocess::mapped_region region_;
+    std::span<std::byte> arena_[2];
+    Side side_;
+    std::uint64_t generation_;
+    std::uint64_t late_after_ns_;
+};
+
+} // namespace tandem::shm

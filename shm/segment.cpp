@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/segment.hpp"
+
+#include "shm/clock.hpp"
+#include "shm/liveness.hpp"
+#include "shm/shared_copy.hpp"
+
+namespace tandem::shm {
+
+Segment::Segment(std::shared_ptr<const Mapping> mapping)
+    : mapping_(std::move(mapping)), directory_(mapping_), mine_(mapping_, mapping_->side()),
+      theirs_(mapping_, other(mapping_->side())), joined_by_(getpid()) {}
+
+Segment::~Segment() {
+    // A fork()ed child shares the open file: if it unlocked, its parent would be dead to the peer.
+    if (getpid() != joined_by_) return;
+    const int fd = mapping_->fd();
+    // If the hand-over byte cannot be had (its holder was stopped), the file stays for remove_dead().
+    const HandOver hand_over(fd);
+    unlock(fd, life_of(side()));
+    if (hand_over.held() && !held_by_other(fd, life_of(other(side()))) && still_named(fd))
+        ::unlink(path().c_str());
+    theirs_.ring(Doorbell::attention_bit);
+}
+
+std::uint32_t Segment::peer_pid() const {
+    return mapping_->half(other(side())).pid.load(std::memory_order_relaxed);
+}
+
+void Segment::heartbeat() { mapping_->half(side()).heartbeat_ns.store(now_ns(), std::memory_order_relaxed); }
+
+bool Segment::superseded() const {
+    return load_word(&mapping_->header().superseded_by) > generation() || !still_named(mapping_->fd());
+}
+
+RingHandle Segment::add_ring(const std::string& name, const RingOptions& options) {
+    const std::uint64_t capacity = ring_capacity(name, options);
+    return create_ring(mapping_,
+                       directory_.add(name, layout::ObjectKind::ring, sizeof(layout::RingHeader) + capacity),
+                       options);
+}
+
+CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueueOptions& options) {
+    const std::uint64_t bytes = call_queue_bytes(name, options);
+    return create_call_queue(mapping_, directory_.add(name, layout::ObjectKind::call_queue, bytes), options);
+}
+
+std::span<std::byte> Segment::add_blob(const std::string& name, std::size_t bytes) {
+    return directory_.add(name, layout::ObjectKind::blob, bytes);
+}
+
+void Segment::publish() {
+    directory_.publish();
+    theirs_.ring(Doorbell::attention_bit);
+}
+
+bool Segment::peer_published() const {
+    return mapping_->half(other(side())).published.load(std::memory_order_acquire) != 0;
+}
+
+std::optional<RingHandle> Segment::find_ring(Side half, const std::string& name) const {
+    const auto memory = directory_.find(half, name, layout::ObjectKind::ring);
+    if (!memory) return std::nullopt;
+    return open_ring(mapping_, *memory, name);
+}
+
+std::optional<CallQueueHandle> Segment::find_call_queue(Side half, const std::string& name) const {
+    const auto memory = directory_.find(half, name, layout::ObjectKind::call_queue);
+    if (!memory) return std::nullopt;
+    return open_call_queue(mapping_, *memory, name);
+}
+
+std::optional<std::span<std::byte>> Segment::find_blob(Side half, const std::string& name) const {
+    return directory_.find(half, name, layout::ObjectKind::blob);
+}
+
+std::optional<std::vector<std::byte>> Segment::copy_blob(Side half, const std::string& name) const {
+    const auto memory = find_blob(half, name);
+    if (!memory) return std::nullopt;
+    std::vector<std::byte> copy(memory->size());
+    copy_from_shared(copy.data(), memory->data(), copy.size());
+    return copy;
+}
+
+std::vector<ObjectInfo> Segment::list(Side half) const { return directory_.list(half); }
+
+} // namespace tandem::shm

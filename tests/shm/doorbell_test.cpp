@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fixture.hpp"
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+
+TEST_CASE("a doorbell hands over all bits rung since the last wait") {
+    Pair pair;
+    pair.second->doorbell().poll();
+    CHECK(pair.second->doorbell().wait(0ns) == 0);
+    pair.first->ring_peer(3);
+    pair.first->ring_peer(61);
+    pair.first->peer_doorbell().ring_all(0b110000);
+    CHECK(pair.second->doorbell().wait(1s) == ((std::uint64_t{1} << 61) | 0b111000));
+    CHECK(pair.second->doorbell().wait(0ns) == 0);
+}
+
+TEST_CASE("joining publishing and leaving ring the peer's attention bit") {
+    Pair pair;
+    const auto attention = std::uint64_t{1} << Doorbell::attention_bit;
+    CHECK(pair.first->doorbell().poll() == attention);
+    pair.second->publish();
+    CHECK(pair.first->doorbell().poll() == attention);
+    pair.second.reset();
+    CHECK(pair.first->doorbell().poll() == attention);
+}
+
+TEST_CASE("a wait ends at its bound in every mode") {
+    const auto mode = GENERATE(WaitMode::spin, WaitMode::spin_then_futex, WaitMode::futex);
+    Pair pair;
+    pair.second->doorbell().poll();
+    const auto before = now_ns();
+    CHECK(pair.second->doorbell().wait(3ms, {.mode = mode}) == 0);
+    CHECK(now_ns() - before >= 3'000'000);
+}
+
+TEST_CASE("ringing an owner that is awake makes no system call and a sleeping one is woken by one") {
+    Pair pair;
+    auto& bell = pair.first->peer_doorbell();
+    pair.second->doorbell().poll();
+    for (unsigned i = 0; i < 1000; ++i) bell.ring(i % Doorbell::user_bits);
+    CHECK(bell.wakes() == 0);
+    pair.second->doorbell().poll();
+    std::atomic<bool> stop{false};
+    std::thread sleeper([&] {
+        while (!stop) pair.second->doorbell().wait(30s, {.mode = WaitMode::futex});
+    });
+    CHECK(eventually([&] {
+        std::this_thread::sleep_for(1ms); // long enough to fall asleep, if the machine is not too busy
+        const auto before = bell.wakes();
+        bell.ring(1);
+        return bell.wakes() == before + 1;
+    }));
+    stop = true;
+    bell.ring(1);
+    sleeper.join();
+}
+
+TEST_CASE("an interrupt from another thread ends the wait") {
+    Pair pair;
+    std::uint64_t bits = 0;
+    std::thread sleeper([&] {
+        while ((bits >> Doorbell::interrupt_bit) == 0) bits |= pair.first->doorbell().wait(30s);
+    });
+    pair.first->doorbell().interrupt();
+    sleeper.join();
+    CHECK((bits >> Doorbell::interrupt_bit) == 1);
+}
+
+TEST_CASE("no ring is lost between a waiter that falls asleep and a ringer") {
+    const auto mode = GENERATE(WaitMode::spin_then_futex, WaitMode::futex);
+    Pair pair;
+    const std::size_t rounds = stress(20000);
+    std::atomic<std::size_t> lost{0};
+    // Each side rings the other only after it was rung: one lost ring stops both.
+    std::thread echo([&] {
+        for (std::size_t i = 0; i < rounds && lost == 0; ++i) {
+            while ((pair.second->doorbell().wait(20s, {.mode = mode, .spin = 1us}) & 2) == 0)
+                if (++lost > 3) return;
+            lost = 0;
+            pair.second->ring_peer(2);
+        }
+    });
+    pair.second->doorbell().poll();
+    bool answered = true;
+    for (std::size_t i = 0; i < rounds && answered; ++i) {
+        pair.first->ring_peer(1);
+        std::uint64_t bits = 0;
+        for (int tries = 0; tries < 3 && (bits & 4) == 0; ++tries)
+            bits |= pair.first->doorbell().wait(20s, {.mode = mode, .spin = 1us});
+        answered = (bits & 4) != 0;
+    }
+    echo.join();
+    CHECK(answered);
+    CHECK(lost == 0);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the tests of this room share: links of their own, child processes, a look into /dev/shm, stress sizes.
+#pragma once
+#include "shm/segment.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+
+namespace tandem::shm::test {
+
+using namespace std::chrono_literals;
+
+/// A link name that no other test or process uses; whatever it leaves in /dev/shm is removed at the end.
+struct Link {
+    std::string name = "test-" + std::to_string(getpid()) + "-" + std::to_string(next()++);
+    ~Link() {
+        for (const auto& file : files()) std::filesystem::remove(file);
+    }
+    std::vector<std::filesystem::path> files() const {
+        std::vector<std::filesystem::path> found;
+        for (const auto& entry : std::filesystem::directory_iterator(shm_directory))
+            if (entry.path().filename().string().rfind(file_prefix(name), 0) == 0)
+                found.push_back(entry.path());
+        return found;
+    }
+    static int& next() {
+        static int number = 0;
+        return number;
+    }
+};
+
+inline JoinOptions small(std::size_t bytes = 512 * 1024) {
+    JoinOptions options;
+    options.arena_bytes = bytes;
+    return options;
+}
+
+inline std::unique_ptr<Segment> join(const Link& link, Side side, const JoinOptions& options = small()) {
+    return Segment::join(link.name, side, options);
+}
+
+/// Both sides of a link in this process.
+struct Pair {
+    explicit Pair(const JoinOptions& options = small())
+        : first(join(link, Side::first, options)), second(join(link, Side::second, options)) {}
+    Link link;
+    std::unique_ptr<Segment> first, second;
+};
+
+/// A child process that runs a function and exits with what it returns; killed at the end of the scope if
+/// need be.
+class Child {
+  public:
+    explicit Child(const std::function<int()>& work) : pid_(fork()) {
+        if (pid_ != 0) return;
+        int code = 99;
+        try {
+            code = work();
+        } catch (const std::exception& failure) {
+            fprintf(stderr, "child: %s\n", failure.what());
+        }
+        _exit(code);
+    }
+    Child(Child&& from) noexcept : pid_(std::exchange(from.pid_, 0)) {}
+    ~Child() {
+        if (pid_ > 0) kill_now();
+    }
+    pid_t pid() const { return pid_; }
+    void kill_now() {
+        ::kill(pid_, SIGKILL);
+        wait();
+    }
+    int wait() {
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        pid_ = 0;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+  private:
+    pid_t pid_;
+};
+
+/// Polls for a condition; generous, because the machine may be busy.
+inline bool eventually(const std::function<bool()>& holds, std::chrono::nanoseconds bound = 20s) {
+    const auto deadline = deadline_after(bound);
+    while (!holds()) {
+        if (now_ns() > deadline) return false;
+        std::this_thread::sleep_for(200us);
+    }
+    return true;
+}
+
+inline std::size_t stress(std::size_t rounds) {
+    const char* factor = std::getenv("TANDEM_STRESS");
+    return rounds * static_cast<std::size_t>(factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
+}
+
+inline std::span<const std::byte> bytes_of(const std::string& text) {
+    return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
+}
+inline std::string text_of(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+} // namespace tandem::shm::test

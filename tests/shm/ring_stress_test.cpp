@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writer and reader at full speed. Every payload can be checked by itself, so a torn or doubled one is
+// noticed, and the books must balance to the last message.
+#include "fixture.hpp"
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+
+namespace {
+
+constexpr std::uint32_t last_tag = 7;
+
+/// Length and every word follow from the number.
+std::size_t payload_words(std::uint64_t number) { return 1 + (number * 2654435761U >> 7) % 30; }
+
+void fill(std::span<std::byte> room, std::uint64_t number) {
+    for (std::size_t i = 0; i < room.size() / 8; ++i) {
+        const std::uint64_t word = number * 31 + i;
+        std::memcpy(room.data() + 8 * i, &word, 8);
+    }
+}
+
+bool intact(const Record& record) {
+    const std::uint64_t number = record.stamp_ns;
+    if (record.bytes.size() != 8 * payload_words(number)) return false;
+    for (std::size_t i = 0; i < record.bytes.size() / 8; ++i) {
+        std::uint64_t word = 0;
+        std::memcpy(&word, record.bytes.data() + 8 * i, 8);
+        if (word != number * 31 + i) return false;
+    }
+    return true;
+}
+
+struct Got {
+    std::uint64_t messages = 0, bad = 0, out_of_order = 0, gaps = 0;
+};
+
+/// Sends 1..count; the last one until it is accepted, so that the reader knows when to stop.
+void send(RingWriter& writer, std::uint64_t count) {
+    const auto deadline = deadline_after(150s);
+    for (std::uint64_t number = 1; number <= count; ++number) {
+        const std::size_t bytes = 8 * payload_words(number);
+        for (;;) {
+            const auto room = writer.reserve(bytes);
+            if (room.data() != nullptr) {
+                fill(room, number);
+                writer.commit(bytes, number, number == count ? last_tag : 0);
+                break;
+            }
+            if (number < count || now_ns() > deadline) break;
+            std::this_thread::yield();
+        }
+    }
+}
+
+Got receive(RingReader& reader, bool newest) {
+    Got got;
+    std::uint64_t sequence = 0, stamp = 0;
+    const auto deadline = deadline_after(120s);
+    for (std::uint32_t tag = 0; tag != last_tag && now_ns() < deadline && !reader.corrupt();) {
+        const auto record = newest ? reader.read_newest() : reader.read();
+        if (!record) {
+            std::this_thread::yield();
+            continue;
+        }
+        ++got.messages;
+        if (!intact(*record)) ++got.bad;
+        if (record->sequence <= sequence || record->stamp_ns <= stamp) ++got.out_of_order;
+        got.gaps += record->sequence - sequence - 1;
+        sequence = record->sequence;
+        stamp = record->stamp_ns;
+        tag = record->tag;
+    }
+    return got;
+}
+
+void check(const Got& got, const RingCounters& c, std::uint64_t count) {
+    CHECK(got.bad == 0);
+    CHECK(got.out_of_order == 0);
+    CHECK(got.messages == c.received);
+    CHECK(got.gaps == c.overwritten + c.skipped);
+    CHECK(c.sent >= count);
+    CHECK(c.sent == c.received + c.dropped());
+}
+
+} // namespace
+
+TEST_CASE("between two threads nothing is torn doubled or unaccounted for") {
+    const auto policy =
+        GENERATE(RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject, RingPolicy::wait);
+    const bool newest = GENERATE(false, true);
+    const std::size_t capacity = GENERATE(512, 64 * 1024);
+    Pair pair;
+    const std::uint64_t count = stress(100000);
+    RingWriter writer(pair.first->add_ring(
+        "r", {.policy = policy, .max_record = 240, .capacity = capacity, .wait = 100us}));
+    pair.first->publish();
+    RingReader reader(*pair.second->find_ring(Side::first, "r"));
+    CAPTURE(policy, newest, capacity);
+    Got got;
+    std::thread thread([&] { got = receive(reader, newest); });
+    send(writer, count);
+    thread.join();
+    CHECK_FALSE(writer.corrupt());
+    CHECK_FALSE(reader.corrupt());
+    check(got, writer.counters(), count);
+}
+
+TEST_CASE("between two processes nothing is torn doubled or unaccounted for") {
+    const auto policy =
+        GENERATE(RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject, RingPolicy::wait);
+    Link link;
+    const std::uint64_t count = stress(100000);
+    Child sender([&] {
+        auto second = join(link, Side::second);
+        RingWriter writer(second->add_ring(
+            "r",
+            {.writer = Side::second, .policy = policy, .max_record = 240, .capacity = 2048, .wait = 100us}));
+        second->publish();
+        send(writer, count);
+        return eventually([&] { return second->peer() == PeerState::dead; }, 100s) ? 0 : 1;
+    });
+    std::unique_ptr<Segment> first;
+    REQUIRE(eventually([&] { return !link.files().empty(); }));
+    first = join(link, Side::first);
+    REQUIRE(eventually([&] { return first->peer_published(); }));
+    RingReader reader(*first->find_ring(Side::second, "r"));
+    const Got got = receive(reader, false);
+    CHECK_FALSE(reader.corrupt());
+    REQUIRE(eventually([&] { return reader.counters().waiting() == 0; })); // the sender's last counts
+    check(got, reader.counters(), count);
+    first.reset();
+    CHECK(sender.wait() == 0);
+    CHECK(link.files().empty());
+}
+
+TEST_CASE("a writer killed at any moment leaves whole records only") {
+    const auto policy = GENERATE(RingPolicy::drop_oldest, RingPolicy::reject);
+    for (std::size_t round = 0; round < stress(20); ++round) {
+        Link link;
+        auto first = join(link, Side::first);
+        Child sender([&] {
+            auto second = join(link, Side::second);
+            RingWriter writer(second->add_ring(
+                "r", {.writer = Side::second, .policy = policy, .max_record = 240, .capacity = 2048}));
+            second->publish();
+            send(writer, ~std::uint64_t{0});
+            return 0;
+        });
+        REQUIRE(eventually([&] { return first->peer_published(); }));
+        RingReader reader(*first->find_ring(Side::second, "r"));
+        std::size_t read = 0;
+        const auto until = deadline_after(std::chrono::microseconds(500 + 37 * round));
+        bool whole = true;
+        while (now_ns() < until)
+            if (const auto record = reader.read()) whole = whole && intact(*record), ++read;
+        sender.kill_now();
+        for (int i = 0; i < 1000; ++i)
+            if (const auto record = reader.read()) whole = whole && intact(*record), ++read;
+        CHECK(whole);
+        CHECK_FALSE(reader.corrupt());
+        CHECK(reader.empty());
+        CHECK(first->peer() == PeerState::dead);
+    }
+}
