@@ -36,6 +36,12 @@ fs::path kept_folder(const fs::path& path) {
     return path;
 }
 
+fs::path run_folder(const Options& options, Configuration configuration) {
+    if (options.keep.empty()) return temporary_folder("tandem-wheelchair");
+    return kept_folder(options.compare ? fs::path(options.keep) / name_of(configuration)
+                                       : fs::path(options.keep));
+}
+
 void write_file(const fs::path& path, const std::string& text) {
     std::ofstream file(path, std::ios::binary);
     file << text << std::flush;
@@ -72,18 +78,6 @@ std::string component_profile(const std::string& member) {
     return member == adaptor ? "AdaptorComp.xml" : member + ".xml";
 }
 
-/// The component profile as it was installed with its library.
-fs::path installed_profile(const std::string& file, const fs::path& programs) {
-    for (const char* folder : {"../plugins/opros", "../lib/tandem/plugins/opros"})
-        if (fs::exists(programs / folder / file)) return programs / folder / file;
-    for (const auto& lib : fs::directory_iterator(programs / "../lib"))
-        if (fs::exists(lib.path() / "tandem/plugins/opros" / file))
-            return lib.path() / "tandem/plugins/opros" / file;
-    throw InputError(
-        fmt::format("{}: not found in plugins/opros beside {}; build or install Tandem completely", file,
-                    programs.string()));
-}
-
 std::string subcomponent(const Member& member, const Parameters& parameters) {
     std::string xml = fmt::format(
         "    <subcomponent type=\"atomic\">\n      <name>{}</name>\n      <reference>{}</reference>\n"
@@ -115,38 +109,33 @@ constexpr const char* rtc_conf_head =
 
 fs::path program_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
+Folder::~Folder() {
+    std::error_code ignored; // a folder that cannot be removed must not hide the run's own outcome
+    if (!keep_) fs::remove_all(path_, ignored);
+}
+
 RunDirectory::RunDirectory(const Options& options, Configuration configuration, const fs::path& programs)
-    : path_(options.keep.empty() ? temporary_folder("tandem-wheelchair") : kept_folder(options.keep)),
-      sockets_(temporary_folder("tandem-step")), keep_(!options.keep.empty()) {
-    if (options.compare && keep_) path_ = kept_folder(path_ / name_of(configuration));
+    : folder_(run_folder(options, configuration), !options.keep.empty()),
+      sockets_(temporary_folder("tandem-step"), false) {
     if (configuration == Configuration::mixed) link_ = fmt::format("wheelchair-{}", getpid());
-    for (const char* part : {"trace", "log"}) fs::create_directories(path_ / part);
+    for (const char* part : {"trace", "log"}) fs::create_directories(path() / part);
     if (!opros_members(configuration).empty()) {
         write_opros(options, configuration);
-        for (const auto& member : opros_members(configuration)) {
-            const auto file = component_profile(member.name);
-            fs::copy_file(installed_profile(file, programs), path_ / "opros" / file,
-                          fs::copy_options::overwrite_existing);
-        }
-        add_host(options, "opros_host", programs, {(path_ / "opros" / "wheelchair.xml").string()});
+        add_host(options, "opros_host", programs, {(path() / "opros" / "wheelchair.xml").string()});
     }
     if (!rtm_members(configuration).empty()) {
         write_rtm(options, configuration);
-        add_host(options, "rtm_host", programs, {"-f", (path_ / "rtm" / "rtc.conf").string()});
+        add_host(options, "rtm_host", programs, {"-f", (path() / "rtm" / "rtc.conf").string()});
     }
 }
 
-RunDirectory::~RunDirectory() {
-    std::error_code ignored; // a folder that cannot be removed must not hide the run's own outcome
-    if (!keep_) fs::remove_all(path_, ignored);
-    fs::remove_all(sockets_, ignored);
+std::string RunDirectory::step_socket(const std::string& host) const {
+    return (sockets_.path() / host).string();
 }
-
-std::string RunDirectory::step_socket(const std::string& host) const { return (sockets_ / host).string(); }
 
 void RunDirectory::add_host(const Options& options, const std::string& name, const fs::path& programs,
                             const std::vector<std::string>& profile) {
-    HostCommand host{name, {(programs / name).string()}, (path_ / "log" / (name + ".log")).string()};
+    HostCommand host{name, {(programs / name).string()}, (path() / "log" / (name + ".log")).string()};
     auto& c = host.command;
     c.insert(c.end(), profile.begin(), profile.end());
     c.push_back("--parent-death");
@@ -158,28 +147,28 @@ void RunDirectory::add_host(const Options& options, const std::string& name, con
 }
 
 void RunDirectory::write_opros(const Options& options, Configuration configuration) {
-    fs::create_directories(path_ / "opros");
+    fs::create_directories(path() / "opros");
     std::string xml =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<package_profile>\n  <name>wheelchair</name>\n"
         "  <!-- The component listed last starts first. -->\n  <subcomponents>\n";
     const auto members = opros_members(configuration);
     for (auto m = members.rbegin(); m != members.rend(); ++m)
-        xml += subcomponent(*m, parameters_of(m->name, options, path_, link_));
+        xml += subcomponent(*m, parameters_of(m->name, options, path(), link_));
     xml += "  </subcomponents>\n  <port_connections>\n";
     for (const auto& wire : opros_wires(configuration)) xml += port_connection(wire);
-    write_file(path_ / "opros" / "wheelchair.xml", xml + "  </port_connections>\n</package_profile>\n");
+    write_file(path() / "opros" / "wheelchair.xml", xml + "  </port_connections>\n</package_profile>\n");
 }
 
 void RunDirectory::write_rtm(const Options& options, Configuration configuration) {
-    fs::create_directories(path_ / "rtm");
+    fs::create_directories(path() / "rtm");
     const bool mixed = configuration == Configuration::mixed;
     std::vector<std::string> modules, create, activate, connect;
     std::string files;
     for (const auto& member : rtm_members(configuration)) {
         std::string conf;
-        for (const auto& [name, value] : parameters_of(member.name, options, path_, link_))
+        for (const auto& [name, value] : parameters_of(member.name, options, path(), link_))
             conf += fmt::format("conf.default.{}: {}\n", name, value);
-        const auto path = path_ / "rtm" / (member.name + "0.conf");
+        const auto path = path() / "rtm" / (member.name + "0.conf");
         write_file(path, conf + fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n",
                                             member.phase_ms));
         files += fmt::format("wheelchair.{}0.config_file: {}\n", member.name, path.string());
@@ -200,7 +189,7 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
             list_setting("manager.components.precreate", create) +
             list_setting("manager.components.preconnect", connect) +
             list_setting("manager.components.preactivation", activate);
-    write_file(path_ / "rtm" / "rtc.conf", conf);
+    write_file(path() / "rtm" / "rtc.conf", conf);
 }
 
 } // namespace tandem::wheelchair

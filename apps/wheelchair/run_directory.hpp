@@ -16,20 +16,31 @@ struct HostCommand {
     std::string log;
 };
 
+/// A folder that goes with its owner unless it is to be kept.
+class Folder {
+  public:
+    Folder(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
+    ~Folder();
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    bool keep_;
+};
+
 /// The folder of one run: the hosts' profiles with the run's parameters, traces, logs. It is also an example:
 /// the commands can be typed by hand.
-///   opros/wheelchair.xml and the component profiles it names     rtm/rtc.conf and a .conf for each RTC
-///   trace/COMPONENT.trace     log/HOST.log
+///   opros/wheelchair.xml (component profiles lie beside the plugins)     rtm/rtc.conf and a .conf for each
+///   RTC trace/COMPONENT.trace     log/HOST.log
 class RunDirectory {
   public:
     /// Writes everything. `programs`: folder of the hosts' programs. Throws InputError.
     RunDirectory(const Options& options, Configuration configuration, const std::filesystem::path& programs);
-    ~RunDirectory(); // removes the folder unless it is to be kept
-    RunDirectory(const RunDirectory&) = delete;
-    RunDirectory& operator=(const RunDirectory&) = delete;
 
-    const std::filesystem::path& path() const { return path_; }
-    std::string traces() const { return (path_ / "trace").string(); }
+    const std::filesystem::path& path() const { return folder_.path(); }
+    std::string traces() const { return (path() / "trace").string(); }
     const std::vector<HostCommand>& hosts() const { return hosts_; }
     /// Name of the link between the two halves; empty without one.
     const std::string& link() const { return link_; }
@@ -42,9 +53,8 @@ class RunDirectory {
     void add_host(const Options& options, const std::string& name, const std::filesystem::path& programs,
                   const std::vector<std::string>& profile);
 
-    std::filesystem::path path_;
-    std::filesystem::path sockets_; // apart and short: a socket's path may have 107 characters
-    bool keep_;
+    Folder folder_;
+    Folder sockets_; // apart and short: a socket's path may have 107 characters
     std::string link_;
     std::vector<HostCommand> hosts_;
 };

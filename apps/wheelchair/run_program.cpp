@@ -2,6 +2,7 @@
 #include "apps/wheelchair/run_program.hpp"
 
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "apps/wheelchair/child_process.hpp"
@@ -25,7 +26,9 @@ Fd memory_file(const std::string& content) {
 }
 
 std::string content_of(const Fd& file) {
-    std::string text(4096, '\0');
+    struct stat info {};
+    fstat(file.get(), &info);
+    std::string text(static_cast<std::size_t>(info.st_size), '\0');
     const auto n = pread(file.get(), text.data(), text.size(), 0);
     text.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
     const auto first = text.find_first_not_of(" \n");
@@ -36,11 +39,11 @@ std::string content_of(const Fd& file) {
 
 ProgramResult run_program(const std::vector<std::string>& command, const std::string& input,
                           const std::string& folder) {
-    const Fd in = memory_file(input), errors = memory_file("");
-    ChildProcess child(command, {in.get(), -1, errors.get(), folder});
+    const Fd in = memory_file(input), output = memory_file(""), errors = memory_file("");
+    ChildProcess child(command, {in.get(), output.get(), errors.get(), folder});
     const auto& ended = child.wait(std::chrono::minutes(1));
-    if (!ended) return {-1, command.at(0) + " did not end within a minute"};
-    return {ended->signalled ? -1 : ended->code, content_of(errors)};
+    if (!ended) return {-1, command.at(0) + " did not end within a minute", content_of(output)};
+    return {ended->signalled ? -1 : ended->code, content_of(errors), content_of(output)};
 }
 
 } // namespace tandem::wheelchair

@@ -9,6 +9,7 @@ namespace tandem::wheelchair {
 struct ProgramResult {
     int exit_code = -1;
     std::string errors; // what it wrote to stderr
+    std::string output; // and to stdout
     std::string first_line() const { return errors.substr(0, errors.find('\n')); }
 };
 
