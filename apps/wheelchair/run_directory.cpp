@@ -27,12 +27,26 @@ fs::path temporary_folder(const char* name) {
     return pattern;
 }
 
-/// A kept folder may hold an earlier run: its traces would be continued, so they go.
+void write_file(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text << std::flush;
+    if (!file) throw InputError(path.string() + ": cannot be written");
+}
+
+constexpr const char* mark = "wheelchair-run"; // an empty file that says: this folder is ours
+
+/// A kept folder may hold an earlier run, which goes: its traces would be continued. Nothing else is ever
+/// removed.
 fs::path kept_folder(const fs::path& path) {
     std::error_code error;
+    const bool ours = fs::exists(path / mark);
+    if (!ours && fs::exists(path) && !fs::is_empty(path, error))
+        throw InputError(path.string() +
+                         ": holds something else than an earlier run; give an empty or a new folder");
     for (const char* part : {"opros", "rtm", "trace", "log"}) fs::remove_all(path / part, error);
     fs::create_directories(path, error);
     if (error) throw InputError(path.string() + ": cannot be made: " + error.message());
+    write_file(path / mark, "");
     return path;
 }
 
@@ -40,12 +54,6 @@ fs::path run_folder(const Options& options, Configuration configuration) {
     if (options.keep.empty()) return temporary_folder("tandem-wheelchair");
     return kept_folder(options.compare ? fs::path(options.keep) / name_of(configuration)
                                        : fs::path(options.keep));
-}
-
-void write_file(const fs::path& path, const std::string& text) {
-    std::ofstream file(path, std::ios::binary);
-    file << text << std::flush;
-    if (!file) throw InputError(path.string() + ": cannot be written");
 }
 
 std::string escaped(const std::string& text) {
@@ -168,10 +176,10 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
         std::string conf;
         for (const auto& [name, value] : parameters_of(member.name, options, path(), link_))
             conf += fmt::format("conf.default.{}: {}\n", name, value);
-        const auto path = path() / "rtm" / (member.name + "0.conf");
-        write_file(path, conf + fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n",
+        const auto file = path() / "rtm" / (member.name + "0.conf");
+        write_file(file, conf + fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n",
                                             member.phase_ms));
-        files += fmt::format("wheelchair.{}0.config_file: {}\n", member.name, path.string());
+        files += fmt::format("wheelchair.{}0.config_file: {}\n", member.name, file.string());
         modules.push_back(member.name + ".so");
         create.push_back(member.name);
         activate.push_back(member.name + "0");

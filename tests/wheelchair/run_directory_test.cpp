@@ -81,3 +81,13 @@ TEST_CASE("a run leaves nothing behind unless it is to be kept, and a kept folde
     CHECK(std::filesystem::exists(dir / "kept/opros/wheelchair.xml"));
     CHECK_FALSE(std::filesystem::exists(dir / "kept/trace/HWComp.trace"));
 }
+
+TEST_CASE("a folder with anything else in it is refused and left as it is") {
+    const ScratchDir dir;
+    std::filesystem::create_directories(dir / "opros/mine");
+    Options options;
+    options.keep = dir.path();
+    CHECK_THROWS_WITH(RunDirectory(options, Configuration::opros, "/programs"),
+                      Catch::Contains("holds something else than an earlier run"));
+    CHECK(std::filesystem::exists(dir / "opros/mine"));
+}
