@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef COIL_FACTORY_H
+#define COIL_FACTORY_H
+#include <coil/Properties.h>
+#include <coil/Singleton.h>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace coil {
+
+enum class FactoryReturn : std::uint8_t { OK, FACTORY_ERROR, ALREADY_EXISTS, NOT_FOUND, INVALID_ARG, UNKNOWN_ERROR };
+
+template <class AbstractClass, class ConcreteClass>
+AbstractClass* Creator() {
+    return new ConcreteClass();
+}
+template <class AbstractClass, class ConcreteClass>
+void Destructor(AbstractClass*& object) {
+    if (dynamic_cast<ConcreteClass*>(object) == nullptr) return;
+    delete object;
+    object = nullptr;
+}
+
+/// Creators and destructors by name; it remembers which name made which object. [any-thread]
+template <class AbstractClass, typename Identifier = std::string, typename Compare = std::less<Identifier>,
+          typename Creator = AbstractClass* (*)(), typename Destructor = void (*)(AbstractClass*&)>
+class Factory {
+    struct Entry {
+        Identifier id;
+        Creator creator;
+        Destructor destructor;
+        Properties properties;
+    };
+
+public:
+    bool hasFactory(const Identifier& id) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        return creators_.count(id) != 0;
+    }
+
+    std::vector<Identifier> getIdentifiers() {
+        std::lock_guard<std::mutex> lock(mutex_);
+        std::vector<Identifier> ids;
+        for (auto& entry : creators_) ids.push_back(entry.first);
+        return ids;
+    }
+
+    Properties getProperties(const Identifier& id) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        auto found = creators_.find(id);
+        return found == creators_.end() ? Properties() : found->second.properties;
+    }
+
+    FactoryReturn addFactory(const Identifier& id, Creator creator, Destructor destructor,
+                             Properties properties = Properties()) {
+        if (!creator || !destructor) return FactoryReturn::INVALID_ARG;
+        std::lock_guard<std::mutex> lock(mutex_);
+        bool added = creators_.emplace(id, Entry{id, creator, destructor, properties}).second;
+        return added ? FactoryReturn::OK : FactoryReturn::ALREADY_EXISTS;
+    }
+
+    FactoryReturn removeFactory(const Identifier& id) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        return creators_.erase(id) ? FactoryReturn::OK : FactoryReturn::NOT_FOUND;
+    }
+
+    AbstractClass* createObject(const Identifier& id) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        auto found = creators_.find(id);
+        if (found == creators_.end()) return nullptr;
+        AbstractClass* object = found->second.creator();
+        if (object != nullptr) objects_.emplace(object, found->second);
+        return object;
+    }
+
+    FactoryReturn deleteObject(const Identifier&, AbstractClass*& object) { return deleteObject(object); }
+    FactoryReturn deleteObject(AbstractClass*& object) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        auto found = objects_.find(object);
+        if (found == objects_.end()) return FactoryReturn::NOT_FOUND;
+        Destructor destroy = found->second.destructor;
+        objects_.erase(found);
+        destroy(object);
+        return FactoryReturn::OK;
+    }
+
+    std::vector<AbstractClass*> createdObjects() {
+        std::lock_guard<std::mutex> lock(mutex_);
+        std::vector<AbstractClass*> objects;
+        for (auto& entry : objects_) objects.push_back(entry.first);
+        return objects;
+    }
+    bool isProducerOf(AbstractClass* object) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        return objects_.count(object) != 0;
+    }
+    FactoryReturn objectToIdentifier(AbstractClass* object, Identifier& id) {
+        std::lock_guard<std::mutex> lock(mutex_);
+        auto found = objects_.find(object);
+        if (found == objects_.end()) return FactoryReturn::NOT_FOUND;
+        id = found->second.id;
+        return FactoryReturn::OK;
+    }
+
+private:
+    std::map<Identifier, Entry, Compare> creators_;
+    std::map<AbstractClass*, Entry> objects_;
+    std::mutex mutex_;
+};
+
+/// The one factory of a kind in this process.
+template <class AbstractClass, typename Identifier = std::string, typename Compare = std::less<Identifier>,
+          typename Creator = AbstractClass* (*)(), typename Destructor = void (*)(AbstractClass*&)>
+class GlobalFactory : public Factory<AbstractClass, Identifier, Compare, Creator, Destructor> {
+public:
+    // Never destroyed: objects may be returned to it while the process exits.
+    static GlobalFactory& instance() {
+        static GlobalFactory* the_instance = new GlobalFactory();
+        return *the_instance;
+    }
+    GlobalFactory(const GlobalFactory&) = delete;
+    GlobalFactory& operator=(const GlobalFactory&) = delete;
+
+private:
+    GlobalFactory() = default;
+};
+
+} // namespace coil
+#endif

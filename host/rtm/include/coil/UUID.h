@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef COIL_UUID_H
+#define COIL_UUID_H
+#include <memory>
+#include <string>
+
+namespace coil {
+
+class UUID {
+public:
+    explicit UUID(std::string text = std::string()) : text_(std::move(text)) {}
+    const char* to_string() const { return text_.c_str(); }
+
+private:
+    std::string text_;
+};
+
+class UUID_Generator {
+public:
+    void init() {}
+    /// A random (version 4) UUID; the arguments are those of OpenRTM-aist and mean nothing here.
+    std::unique_ptr<UUID> generateUUID(int number = 1, int flags = 1);
+};
+
+} // namespace coil
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_BUFFERBASE_H
+#define RTC_BUFFERBASE_H
+#include <chrono>
+#include <coil/Properties.h>
+#include <cstddef>
+#include <rtm/BufferStatus.h>
+
+namespace RTC {
+
+/// The queue between a connector and a port. A connector calls write(), a port readable() and read();
+/// both may happen at the same time in different threads.
+template <class DataType>
+class BufferBase {
+public:
+    virtual ~BufferBase() = default;
+    /// Called once, with the connector's properties below `buffer.`.
+    virtual void init(const coil::Properties& prop) = 0;
+    virtual std::size_t length() const = 0;
+    virtual BufferStatus length(std::size_t n) = 0;
+    virtual BufferStatus reset() = 0;
+    virtual DataType* wptr(long int n = 0) = 0;
+    virtual BufferStatus advanceWptr(long int n = 1, bool unlock_enable = true) = 0;
+    virtual BufferStatus put(const DataType& value) = 0;
+    /// Negative timeout: what the buffer's own policy says.
+    virtual BufferStatus write(const DataType& value,
+                               std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) = 0;
+    virtual std::size_t writable() const = 0;
+    virtual bool full() const = 0;
+    virtual DataType* rptr(long int n = 0) = 0;
+    virtual BufferStatus advanceRptr(long int n = 1, bool unlock_enable = true) = 0;
+    virtual BufferStatus get(DataType& value) = 0;
+    virtual DataType& get() = 0;
+    virtual BufferStatus read(DataType& value,
+                              std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) = 0;
+    virtual std::size_t readable() const = 0;
+    virtual bool empty() const = 0;
+};
+
+} // namespace RTC
+#endif

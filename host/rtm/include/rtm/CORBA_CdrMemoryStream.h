@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_CORBA_CDRMEMORYSTREAM_H
+#define RTC_CORBA_CDRMEMORYSTREAM_H
+#include <rtm/ByteDataStreamBase.h>
+#include <rtm/RTC.h>
+#include <rtm/idl/BasicDataTypeSkel.h>
+#include <rtm/idl/DataPort_OpenRTMSkel.h>
+#include <rtm/idl/ExtendedDataTypesSkel.h>
+#include <rtm/idl/InterfaceDataTypesSkel.h>
+
+namespace RTC {
+
+/// CDR of one message, aligned from its first byte. The memory is kept between messages.
+class CORBA_CdrMemoryStream {
+public:
+    template <class DataType>
+    bool serializeCDR(const DataType& data) {
+        try {
+            m_cdr.rewindPtrs();
+            m_cdr.setByteSwapFlag(m_endian);
+            data >>= m_cdr;
+            return true;
+        } catch (const CORBA::SystemException&) { // a sequence over its bound, a char outside the code set
+            return false;
+        }
+    }
+    template <class DataType>
+    bool deserializeCDR(DataType& data) {
+        try {
+            data <<= m_cdr;
+            return true;
+        } catch (const CORBA::SystemException&) { // the bytes are not such a message
+            return false;
+        }
+    }
+    void setEndian(bool little_endian) { m_endian = little_endian; }
+    const unsigned char* getBuffer();
+    unsigned long getCdrDataLength() const;
+    cdrMemoryStream& getCdr() { return m_cdr; }
+    void writeCdrData(const unsigned char* buffer, unsigned long length);
+    void readCdrData(unsigned char* buffer, unsigned long length) const;
+
+private:
+    cdrMemoryStream m_cdr;
+    bool m_endian = true;
+};
+
+template <class DataType>
+class CORBA_CdrSerializer : public ByteDataStream<DataType> {
+public:
+    void writeData(const unsigned char* buffer, unsigned long length) override { m_cdr.writeCdrData(buffer, length); }
+    void readData(unsigned char* buffer, unsigned long length) const override { m_cdr.readCdrData(buffer, length); }
+    unsigned long getDataLength() const override { return m_cdr.getCdrDataLength(); }
+    void isLittleEndian(bool little_endian) override { m_cdr.setEndian(little_endian); }
+    bool serialize(const DataType& data) override { return m_cdr.serializeCDR(data); }
+    bool deserialize(DataType& data) override { return m_cdr.deserializeCDR(data); }
+
+protected:
+    CORBA_CdrMemoryStream m_cdr;
+};
+
+} // namespace RTC
+
+/// Makes the marshaling type `cdr` available for a data type; ports do this for their own.
+template <class DataType>
+void CdrMemoryStreamInit() {
+    ::RTC::addSerializer<DataType, ::RTC::CORBA_CdrSerializer<DataType>>("cdr");
+}
+#endif

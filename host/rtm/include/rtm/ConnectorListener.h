@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Callbacks of data connectors: kinds, base classes to derive from, and the table a port keeps them in.
+#ifndef RTC_CONNECTORLISTENER_H
+#define RTC_CONNECTORLISTENER_H
+#include <array>
+#include <atomic>
+#include <mutex>
+#include <rtm/ByteData.h>
+#include <rtm/CORBA_CdrMemoryStream.h>
+#include <rtm/ConnectorBase.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RTC {
+
+class ConnectorListenerStatus {
+public:
+    enum Enum { NO_CHANGE = 0, INFO_CHANGED = 1 << 0, DATA_CHANGED = 1 << 1, BOTH_CHANGED = INFO_CHANGED | DATA_CHANGED };
+};
+inline ConnectorListenerStatus::Enum operator|(ConnectorListenerStatus::Enum a, ConnectorListenerStatus::Enum b) {
+    return static_cast<ConnectorListenerStatus::Enum>(static_cast<int>(a) | static_cast<int>(b));
+}
+inline ConnectorListenerStatus::Enum operator&(ConnectorListenerStatus::Enum a, ConnectorListenerStatus::Enum b) {
+    return static_cast<ConnectorListenerStatus::Enum>(static_cast<int>(a) & static_cast<int>(b));
+}
+
+#define USE_CONNLISTENER_STATUS                                                                                    \
+    using ReturnCode = ::RTC::ConnectorListenerStatus::Enum;                                                       \
+    using ::RTC::ConnectorListenerStatus::NO_CHANGE;                                                               \
+    using ::RTC::ConnectorListenerStatus::INFO_CHANGED;                                                            \
+    using ::RTC::ConnectorListenerStatus::DATA_CHANGED;                                                            \
+    using ::RTC::ConnectorListenerStatus::BOTH_CHANGED
+
+enum class ConnectorDataListenerType : std::uint8_t {
+    ON_BUFFER_WRITE = 0,
+    ON_BUFFER_FULL,
+    ON_BUFFER_WRITE_TIMEOUT,
+    ON_BUFFER_OVERWRITE,
+    ON_BUFFER_READ,
+    ON_SEND,
+    ON_RECEIVED,
+    ON_RECEIVER_FULL,
+    ON_RECEIVER_TIMEOUT,
+    ON_RECEIVER_ERROR,
+    CONNECTOR_DATA_LISTENER_NUM
+};
+enum class ConnectorListenerType : std::uint8_t {
+    ON_BUFFER_EMPTY = 0,
+    ON_BUFFER_READ_TIMEOUT,
+    ON_SENDER_EMPTY,
+    ON_SENDER_TIMEOUT,
+    ON_SENDER_ERROR,
+    ON_CONNECT,
+    ON_DISCONNECT,
+    CONNECTOR_LISTENER_NUM
+};
+
+// Plain names, as components written for 1.x say them.
+constexpr auto ON_BUFFER_WRITE = ConnectorDataListenerType::ON_BUFFER_WRITE;
+constexpr auto ON_BUFFER_FULL = ConnectorDataListenerType::ON_BUFFER_FULL;
+constexpr auto ON_BUFFER_WRITE_TIMEOUT = ConnectorDataListenerType::ON_BUFFER_WRITE_TIMEOUT;
+constexpr auto ON_BUFFER_OVERWRITE = ConnectorDataListenerType::ON_BUFFER_OVERWRITE;
+constexpr auto ON_BUFFER_READ = ConnectorDataListenerType::ON_BUFFER_READ;
+constexpr auto ON_SEND = ConnectorDataListenerType::ON_SEND;
+constexpr auto ON_RECEIVED = ConnectorDataListenerType::ON_RECEIVED;
+constexpr auto ON_RECEIVER_FULL = ConnectorDataListenerType::ON_RECEIVER_FULL;
+constexpr auto ON_RECEIVER_TIMEOUT = ConnectorDataListenerType::ON_RECEIVER_TIMEOUT;
+constexpr auto ON_RECEIVER_ERROR = ConnectorDataListenerType::ON_RECEIVER_ERROR;
+constexpr auto ON_BUFFER_EMPTY = ConnectorListenerType::ON_BUFFER_EMPTY;
+constexpr auto ON_BUFFER_READ_TIMEOUT = ConnectorListenerType::ON_BUFFER_READ_TIMEOUT;
+constexpr auto ON_SENDER_EMPTY = ConnectorListenerType::ON_SENDER_EMPTY;
+constexpr auto ON_SENDER_TIMEOUT = ConnectorListenerType::ON_SENDER_TIMEOUT;
+constexpr auto ON_SENDER_ERROR = ConnectorListenerType::ON_SENDER_ERROR;
+constexpr auto ON_CONNECT = ConnectorListenerType::ON_CONNECT;
+constexpr auto ON_DISCONNECT = ConnectorListenerType::ON_DISCONNECT;
+
+/// Listens to the bytes. It runs in the thread that caused the event: writer, reader or ORB thread.
+/// Override the 2.x form, or the 1.x one (const arguments, void); DATA_CHANGED hands changed bytes on.
+class ConnectorDataListener : public ConnectorListenerStatus {
+public:
+    USE_CONNLISTENER_STATUS;
+    static const char* toString(ConnectorDataListenerType type);
+    virtual ~ConnectorDataListener();
+    virtual ReturnCode operator()(ConnectorInfo& info, ByteData& data, const std::string& marshalingtype);
+    virtual void operator()(const ConnectorInfo& info, const cdrMemoryStream& data);
+};
+
+/// Listens to values of one type.
+template <class DataType>
+class ConnectorDataListenerT : public ConnectorDataListener {
+public:
+    USE_CONNLISTENER_STATUS;
+    ~ConnectorDataListenerT() override { SerializerFactory::instance().deleteObject(m_cdr); }
+
+    virtual ReturnCode operator()(ConnectorInfo& info, DataType& data) {
+        static_cast<ConnectorDataListenerT&>(*this)(static_cast<const ConnectorInfo&>(info),
+                                                    static_cast<const DataType&>(data));
+        return NO_CHANGE;
+    }
+    virtual void operator()(const ConnectorInfo& /*info*/, const DataType& /*data*/) {}
+
+    ReturnCode operator()(ConnectorInfo& info, ByteData& bytes, const std::string& marshalingtype) override {
+        auto* stream = serializer(marshalingtype);
+        if (stream == nullptr) return NO_CHANGE;
+        DataType data = DataType();
+        stream->isLittleEndian(bytes.getEndian());
+        stream->writeData(bytes.getBuffer(), bytes.getDataLength());
+        if (!stream->deserialize(data)) return NO_CHANGE;
+        ReturnCode result = (*this)(info, data);
+        if (result & DATA_CHANGED) {
+            stream->isLittleEndian(bytes.getEndian());
+            stream->serialize(data);
+            bytes.setDataLength(stream->getDataLength());
+            stream->readData(bytes.getBuffer(), bytes.getDataLength());
+        }
+        return result;
+    }
+    void operator()(const ConnectorInfo&, const cdrMemoryStream&) override {}
+
+private:
+    ByteDataStream<DataType>* serializer(const std::string& marshalingtype) {
+        if (m_cdr == nullptr || m_marshalingtype != marshalingtype) {
+            SerializerFactory::instance().deleteObject(m_cdr);
+            CdrMemoryStreamInit<DataType>();
+            m_cdr = createSerializer<DataType>(marshalingtype);
+            m_marshalingtype = marshalingtype;
+        }
+        return dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
+    }
+
+    ByteDataStreamBase* m_cdr = nullptr;
+    std::string m_marshalingtype;
+};
+
+/// Listens to events without data.
+class ConnectorListener : public ConnectorListenerStatus {
+public:
+    USE_CONNLISTENER_STATUS;
+    static const char* toString(ConnectorListenerType type);
+    virtual ~ConnectorListener();
+    virtual ReturnCode operator()(ConnectorInfo& info);
+    virtual void operator()(const ConnectorInfo& info);
+};
+
+/// A port's listeners. notify() without listeners costs one load. [any-thread]
+class ConnectorListeners {
+public:
+    ConnectorListeners() = default;
+    ~ConnectorListeners();
+    ConnectorListeners(const ConnectorListeners&) = delete;
+    ConnectorListeners& operator=(const ConnectorListeners&) = delete;
+
+    bool addListener(ConnectorDataListenerType type, ConnectorDataListener* listener, bool autoclean = true);
+    bool addListener(ConnectorListenerType type, ConnectorListener* listener, bool autoclean = true);
+    bool removeListener(ConnectorDataListenerType type, ConnectorDataListener* listener);
+    bool removeListener(ConnectorListenerType type, ConnectorListener* listener);
+
+    bool has(ConnectorDataListenerType type) const { return data_[index(type)].count.load(std::memory_order_acquire) != 0; }
+    bool has(ConnectorListenerType type) const { return info_[index(type)].count.load(std::memory_order_acquire) != 0; }
+
+    ConnectorListenerStatus::Enum notify(ConnectorDataListenerType type, ConnectorInfo& info, ByteData& data,
+                                         const std::string& marshalingtype) {
+        return has(type) ? call(type, info, data, marshalingtype) : ConnectorListenerStatus::NO_CHANGE;
+    }
+    ConnectorListenerStatus::Enum notify(ConnectorListenerType type, ConnectorInfo& info) {
+        return has(type) ? call(type, info) : ConnectorListenerStatus::NO_CHANGE;
+    }
+
+private:
+    template <class Type>
+    static constexpr std::size_t index(Type type) {
+        return static_cast<std::size_t>(type);
+    }
+    template <class Listener>
+    struct Holder {
+        std::recursive_mutex mutex;
+        std::vector<std::pair<Listener*, bool>> listeners;
+        std::atomic<std::size_t> count{0};
+        ~Holder();
+        void add(Listener* listener, bool autoclean);
+        bool remove(Listener* listener);
+    };
+    ConnectorListenerStatus::Enum call(ConnectorDataListenerType, ConnectorInfo&, ByteData&, const std::string&);
+    ConnectorListenerStatus::Enum call(ConnectorListenerType, ConnectorInfo&);
+
+    std::array<Holder<ConnectorDataListener>, index(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM)> data_;
+    std::array<Holder<ConnectorListener>, index(ConnectorListenerType::CONNECTOR_LISTENER_NUM)> info_;
+};
+using ConnectorListenersBase = ConnectorListeners;
+
+} // namespace RTC
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTM_INTERFACESIGNATURES_H
+#define RTM_INTERFACESIGNATURES_H
+#include <omniORB4/CORBA.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace RTC {
+
+/// Type signatures of IDL structs and operations, by repository id; ours, not part of OpenRTM-aist.
+/// A signature is structural: b c y n q i u x t f d s w, a<T> sequence, [N]<T> array, (...) struct, ? unsayable.
+/// Filled by the initialisers that tandem_add_rtm_idl() generates, and by ports for their data types.
+/// [any-thread]
+class InterfaceSignatures {
+public:
+    struct Operation {
+        std::string name;
+        std::string arguments; ///< what a request carries, without separators: `dd`
+        std::string result;    ///< what a reply carries: return value, then inout and out arguments
+    };
+    using Operations = std::vector<Operation>;
+
+    /// Static initialisers of generated sources make one of these.
+    struct Registration {
+        Registration(const std::vector<std::pair<const char*, Operations>>& interfaces,
+                     const std::vector<std::pair<const char*, const char*>>& types);
+    };
+
+    /// Operations of an interface named by its repository id (`IDL:M/I:1.0`) or by its last names (`M::I`,
+    /// `I`); NULL when unknown. The result stays valid.
+    static const Operations* find(const std::string& interface_name);
+    /// Full repository id for the same names, empty when unknown.
+    static std::string repositoryId(const std::string& interface_name);
+
+    /// Signature of a data type by repository id, `((uu)d)` for IDL:RTC/TimedDouble:1.0; empty when unknown.
+    static std::string type(const std::string& repository_id);
+    /// Makes a data type known from its TypeCode; ports do this for what they carry.
+    static void addType(const char* repository_id, CORBA::TypeCode_ptr code);
+    /// Signature of any TypeCode.
+    static std::string signature(CORBA::TypeCode_ptr code);
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists of named CORBA values: making, finding, and to and from coil::Properties.
+#ifndef NVUTIL_NVUTIL_H
+#define NVUTIL_NVUTIL_H
+#include <coil/Properties.h>
+#include <iostream>
+#include <rtm/idl/SDOPackageSkel.h>
+#include <string>
+
+namespace NVUtil {
+
+template <class Value>
+SDOPackage::NameValue newNV(const char* name, Value value) {
+    SDOPackage::NameValue nv;
+    nv.name = CORBA::string_dup(name);
+    nv.value <<= value;
+    return nv;
+}
+SDOPackage::NameValue newNVChar(const char* name, CORBA::Char value);
+SDOPackage::NameValue newNVBool(const char* name, CORBA::Boolean value);
+SDOPackage::NameValue newNVOctet(const char* name, CORBA::Octet value);
+SDOPackage::NameValue newNVAny(const char* name, const CORBA::Any& value);
+
+/// Replaces the list by the properties, all as strings.
+void copyFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop);
+/// Sets the properties in the list, keeps what else is in it.
+void mergeFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop);
+/// Strings of the list become properties; values of other types are left out.
+void copyToProperties(coil::Properties& prop, const SDOPackage::NVList& nv);
+coil::Properties toProperties(const SDOPackage::NVList& nv);
+
+/// Throws std::invalid_argument naming what is not there.
+const CORBA::Any& find(const SDOPackage::NVList& nv, const char* name);
+CORBA::Long find_index(const SDOPackage::NVList& nv, const char* name);
+bool isString(const SDOPackage::NVList& nv, const char* name);
+bool isStringValue(const SDOPackage::NVList& nv, const char* name, const char* value);
+std::string toString(const SDOPackage::NVList& nv, const char* name);
+/// Adds `value` to a comma-separated list, once.
+bool appendStringValue(SDOPackage::NVList& nv, const char* name, const char* value);
+void append(SDOPackage::NVList& dest, const SDOPackage::NVList& src);
+std::ostream& dump(std::ostream& out, const SDOPackage::NVList& nv);
+void dump(const SDOPackage::NVList& nv);
+std::string toString(const SDOPackage::NVList& nv);
+
+} // namespace NVUtil
+#endif

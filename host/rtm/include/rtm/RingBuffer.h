@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_RINGBUFFER_H
+#define RTC_RINGBUFFER_H
+#include <algorithm>
+#include <coil/stringutil.h>
+#include <condition_variable>
+#include <mutex>
+#include <rtm/BufferBase.h>
+#include <vector>
+
+namespace RTC {
+
+/// A bounded queue with OpenRTM-aist's policies. Properties (all below `buffer.`): `length` (8),
+/// `write.full_policy` overwrite | do_nothing | block, `read.empty_policy` readback | do_nothing | block,
+/// `write.timeout`, `read.timeout` in seconds (1). readback: an empty buffer gives the last value again.
+template <class DataType>
+class RingBuffer : public BufferBase<DataType> {
+public:
+    explicit RingBuffer(long int length = 8) : slots_(static_cast<std::size_t>(length > 0 ? length : 1)) {}
+
+    void init(const coil::Properties& prop) override {
+        std::size_t n = 0;
+        if (coil::stringTo(n, prop.getProperty("length").c_str()) && n > 0) length(n);
+        init_side(prop, "write.full_policy", "overwrite", overwrite_, block_write_);
+        init_side(prop, "read.empty_policy", "readback", readback_, block_read_);
+        coil::stringTo(write_timeout_, prop.getProperty("write.timeout").c_str());
+        coil::stringTo(read_timeout_, prop.getProperty("read.timeout").c_str());
+    }
+
+    std::size_t length() const override {
+        Lock lock(mutex_);
+        return slots_.size();
+    }
+    BufferStatus length(std::size_t n) override {
+        if (n == 0) return BufferStatus::NOT_SUPPORTED;
+        Lock lock(mutex_);
+        slots_.resize(n);
+        forget();
+        return BufferStatus::OK;
+    }
+    BufferStatus reset() override {
+        Lock lock(mutex_);
+        forget();
+        return BufferStatus::OK;
+    }
+
+    DataType* wptr(long int n = 0) override {
+        Lock lock(mutex_);
+        return &slots_[shifted(write_, n)];
+    }
+    BufferStatus advanceWptr(long int n = 1, bool /*unlock_enable*/ = true) override {
+        Lock lock(mutex_);
+        if (n > static_cast<long int>(slots_.size() - fill_) || n < -static_cast<long int>(fill_))
+            return BufferStatus::PRECONDITION_NOT_MET;
+        write_ = shifted(write_, n);
+        fill_ = static_cast<std::size_t>(static_cast<long int>(fill_) + n);
+        written_ = written_ || n > 0;
+        not_empty_.notify_all();
+        return BufferStatus::OK;
+    }
+    BufferStatus put(const DataType& value) override {
+        Lock lock(mutex_);
+        slots_[write_] = value;
+        return BufferStatus::OK;
+    }
+    BufferStatus write(const DataType& value,
+                       std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
+        Lock lock(mutex_);
+        if (fill_ == slots_.size()) {
+            const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_write_);
+            if (block) {
+                auto bound = timeout.count() > 0 ? timeout : write_timeout_;
+                if (!not_full_.wait_for(lock, bound, [this] { return fill_ < slots_.size(); }))
+                    return BufferStatus::TIMEOUT;
+            } else if (overwrite_) {
+                read_ = shifted(read_, 1);
+                --fill_;
+            } else {
+                return BufferStatus::FULL;
+            }
+        }
+        slots_[write_] = value;
+        write_ = shifted(write_, 1);
+        ++fill_;
+        written_ = true;
+        if (block_read_) not_empty_.notify_all();
+        return BufferStatus::OK;
+    }
+    std::size_t writable() const override {
+        Lock lock(mutex_);
+        return slots_.size() - fill_;
+    }
+    bool full() const override {
+        Lock lock(mutex_);
+        return fill_ == slots_.size();
+    }
+
+    DataType* rptr(long int n = 0) override {
+        Lock lock(mutex_);
+        return &slots_[shifted(read_, n)];
+    }
+    BufferStatus advanceRptr(long int n = 1, bool /*unlock_enable*/ = true) override {
+        Lock lock(mutex_);
+        if (n > static_cast<long int>(fill_) || n < -static_cast<long int>(slots_.size() - fill_))
+            return BufferStatus::PRECONDITION_NOT_MET;
+        read_ = shifted(read_, n);
+        fill_ = static_cast<std::size_t>(static_cast<long int>(fill_) - n);
+        not_full_.notify_all();
+        return BufferStatus::OK;
+    }
+    BufferStatus get(DataType& value) override {
+        Lock lock(mutex_);
+        value = slots_[read_];
+        return BufferStatus::OK;
+    }
+    DataType& get() override {
+        Lock lock(mutex_);
+        return slots_[read_];
+    }
+    BufferStatus read(DataType& value,
+                      std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
+        Lock lock(mutex_);
+        if (fill_ == 0) {
+            const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_read_);
+            if (block) {
+                auto bound = timeout.count() > 0 ? timeout : read_timeout_;
+                if (!not_empty_.wait_for(lock, bound, [this] { return fill_ > 0; })) return BufferStatus::TIMEOUT;
+            } else if (readback_ && written_) {
+                value = slots_[shifted(read_, -1)];
+                return BufferStatus::OK;
+            } else {
+                return BufferStatus::EMPTY;
+            }
+        }
+        value = slots_[read_];
+        read_ = shifted(read_, 1);
+        --fill_;
+        if (block_write_) not_full_.notify_all();
+        return BufferStatus::OK;
+    }
+    std::size_t readable() const override {
+        Lock lock(mutex_);
+        return fill_;
+    }
+    bool empty() const override { return readable() == 0; }
+
+private:
+    using Lock = std::unique_lock<std::mutex>;
+
+    static void init_side(const coil::Properties& prop, const char* key, const char* usual_word, bool& usual,
+                          bool& block) {
+        const std::string policy = coil::normalize(prop.getProperty(key));
+        if (policy.empty()) return;
+        usual = policy == usual_word;
+        block = policy == "block";
+    }
+    std::size_t shifted(std::size_t index, long int n) const {
+        const long int size = static_cast<long int>(slots_.size());
+        return static_cast<std::size_t>(((static_cast<long int>(index) + n) % size + size) % size);
+    }
+    void forget() {
+        write_ = read_ = fill_ = 0;
+        written_ = false;
+    }
+
+    std::vector<DataType> slots_;
+    std::size_t write_ = 0;
+    std::size_t read_ = 0;
+    std::size_t fill_ = 0;
+    bool written_ = false;
+    bool overwrite_ = true;
+    bool block_write_ = false;
+    bool readback_ = true;
+    bool block_read_ = false;
+    std::chrono::nanoseconds write_timeout_ = std::chrono::seconds(1);
+    std::chrono::nanoseconds read_timeout_ = std::chrono::seconds(1);
+    mutable std::mutex mutex_;
+    std::condition_variable not_empty_;
+    std::condition_variable not_full_;
+};
+
+} // namespace RTC
+#endif

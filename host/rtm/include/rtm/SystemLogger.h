@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_SYSTEMLOGGER_H
+#define RTC_SYSTEMLOGGER_H
+#include <coil/Properties.h>
+#include <coil/stringutil.h>
+#include <mutex>
+#include <rtm/config_rtc.h>
+#include <string>
+
+namespace RTC {
+
+/// A named source of log lines. One level and one set of outputs serve the whole process (logger.* of
+/// rtc.conf; standard error when nothing is said). [any-thread]
+class Logger {
+public:
+    enum { RTL_SILENT, RTL_FATAL, RTL_ERROR, RTL_WARN, RTL_INFO, RTL_DEBUG, RTL_TRACE, RTL_VERBOSE, RTL_PARANOID };
+
+    explicit Logger(const char* name = "") : m_name(name) {}
+
+    /// Level of the process, `SILENT` .. `PARANOID`; false when there is no such level.
+    bool setLevel(const char* level);
+    void setName(const char* name) { m_name = name; }
+    void setDateFormat(const char*) {}
+    void setClockType(const std::string&) {}
+    bool isValid(int level) const { return level <= processLevel(); }
+    void lock() const {}
+    void unlock() const {}
+    void write(int level, const std::string& message) const;
+    void write(int level, const coil::Properties& properties) const;
+
+    static int processLevel();
+    /// Adds a file, `stdout` or `stderr`, in place of standard error.
+    static bool addOutput(const std::string& file_name);
+
+private:
+    std::string m_name;
+};
+
+} // namespace RTC
+
+#define RTC_LOG(LV, fmt)                                                                                           \
+    do {                                                                                                           \
+        if (rtclog.isValid(LV)) rtclog.write(LV, ::coil::sprintf fmt);                                             \
+    } while (0)
+#define RTC_LOG_STR(LV, str)                                                                                       \
+    do {                                                                                                           \
+        if (rtclog.isValid(LV)) rtclog.write(LV, str);                                                             \
+    } while (0)
+
+#define RTC_FATAL(fmt) RTC_LOG(::RTC::Logger::RTL_FATAL, fmt)
+#define RTC_FATAL_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_FATAL, str)
+#define RTC_ERROR(fmt) RTC_LOG(::RTC::Logger::RTL_ERROR, fmt)
+#define RTC_ERROR_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_ERROR, str)
+#define RTC_WARN(fmt) RTC_LOG(::RTC::Logger::RTL_WARN, fmt)
+#define RTC_WARN_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_WARN, str)
+#define RTC_INFO(fmt) RTC_LOG(::RTC::Logger::RTL_INFO, fmt)
+#define RTC_INFO_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_INFO, str)
+#define RTC_DEBUG(fmt) RTC_LOG(::RTC::Logger::RTL_DEBUG, fmt)
+#define RTC_DEBUG_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_DEBUG, str)
+#define RTC_TRACE(fmt) RTC_LOG(::RTC::Logger::RTL_TRACE, fmt)
+#define RTC_TRACE_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_TRACE, str)
+#define RTC_VERBOSE(fmt) RTC_LOG(::RTC::Logger::RTL_VERBOSE, fmt)
+#define RTC_VERBOSE_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_VERBOSE, str)
+#define RTC_PARANOID(fmt) RTC_LOG(::RTC::Logger::RTL_PARANOID, fmt)
+#define RTC_PARANOID_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_PARANOID, str)
+#endif

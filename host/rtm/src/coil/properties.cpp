@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <coil/Properties.h>
+#include <coil/stringutil.h>
+#include <istream>
+#include <ostream>
+
+namespace coil {
+namespace {
+
+const std::string nothing;
+
+// `a.b\.c` -> {a, b.c}
+std::vector<std::string> path_of(const std::string& key) {
+    std::vector<std::string> path;
+    std::string part;
+    for (std::size_t i = 0; i < key.size(); ++i) {
+        if (key[i] == '\\' && i + 1 < key.size() && key[i + 1] == '.') {
+            part += key[++i];
+        } else if (key[i] == '.') {
+            path.push_back(part);
+            part.clear();
+        } else {
+            part += key[i];
+        }
+    }
+    path.push_back(part);
+    return path;
+}
+
+Properties* child(const std::vector<Properties*>& leaf, const std::string& name) {
+    for (auto* node : leaf)
+        if (name == node->getName()) return node;
+    return nullptr;
+}
+
+} // namespace
+
+Properties::Properties(const char* key, const char* value, bool set_value)
+    : name_(key), value_(value), is_set_(set_value) {}
+
+Properties::Properties(std::map<std::string, std::string>& defaults) {
+    for (auto& entry : defaults) setDefault(entry.first, entry.second);
+}
+
+Properties::Properties(const char* const defaults[], std::size_t num) { setDefaults(defaults, num); }
+Properties::Properties(const char* defaults[], std::size_t num) {
+    setDefaults(const_cast<const char* const*>(defaults), num);
+}
+
+Properties::Properties(const Properties& other)
+    : name_(other.name_), value_(other.value_), default_value_(other.default_value_), is_set_(other.is_set_) {
+    for (auto* node : other.leaf_) {
+        leaf_.push_back(new Properties(*node));
+        leaf_.back()->root_ = this;
+    }
+}
+
+Properties& Properties::operator=(const Properties& other) {
+    if (this == &other) return *this;
+    Properties copy(other);
+    clear();
+    name_ = copy.name_;
+    value_ = copy.value_;
+    default_value_ = copy.default_value_;
+    is_set_ = copy.is_set_;
+    leaf_.swap(copy.leaf_);
+    for (auto* node : leaf_) node->root_ = this;
+    return *this;
+}
+
+Properties::~Properties() { clear(); }
+
+void Properties::clear() {
+    for (auto* node : leaf_) delete node;
+    leaf_.clear();
+}
+
+const Properties* Properties::find(const std::string& key) const {
+    const Properties* node = this;
+    for (const auto& part : path_of(key)) {
+        node = child(node->leaf_, part);
+        if (node == nullptr) return nullptr;
+    }
+    return node;
+}
+
+Properties* Properties::findNode(const std::string& key) const {
+    return key.empty() ? nullptr : const_cast<Properties*>(find(key));
+}
+
+Properties& Properties::getNode(const std::string& key) {
+    if (key.empty()) return *this;
+    Properties* node = this;
+    for (const auto& part : path_of(key)) {
+        Properties* next = child(node->leaf_, part);
+        if (next == nullptr) {
+            next = new Properties(part.c_str());
+            next->root_ = node;
+            node->leaf_.push_back(next);
+        }
+        node = next;
+    }
+    return *node;
+}
+
+bool Properties::createNode(const std::string& key) {
+    if (key.empty() || findNode(key) != nullptr) return false;
+    getNode(key);
+    return true;
+}
+
+Properties* Properties::removeNode(const char* leaf_name) {
+    for (auto it = leaf_.begin(); it != leaf_.end(); ++it) {
+        if ((*it)->name_ != leaf_name) continue;
+        Properties* node = *it;
+        leaf_.erase(it);
+        node->root_ = nullptr;
+        return node;
+    }
+    return nullptr;
+}
+
+Properties* Properties::hasKey(const char* key) const { return child(leaf_, key); }
+
+const std::string& Properties::getProperty(const std::string& key) const {
+    const Properties* node = findNode(key);
+    if (node == nullptr) return nothing;
+    return node->is_set_ || !node->value_.empty() ? node->value_ : node->default_value_;
+}
+
+const std::string& Properties::getProperty(const std::string& key, const std::string& def) const {
+    const std::string& found = getProperty(key);
+    return found.empty() ? def : found;
+}
+
+const std::string& Properties::operator[](const std::string& key) const { return getProperty(key); }
+
+std::string& Properties::operator[](const std::string& key) {
+    Properties& node = getNode(key);
+    if (!node.is_set_ && node.value_.empty()) node.value_ = node.default_value_;
+    return node.value_;
+}
+
+const std::string& Properties::getDefault(const std::string& key) const {
+    const Properties* node = findNode(key);
+    return node == nullptr ? nothing : node->default_value_;
+}
+
+std::string Properties::setProperty(const std::string& key, const std::string& value) {
+    Properties& node = getNode(key);
+    std::string former = node.value_;
+    node.value_ = value;
+    node.is_set_ = true;
+    return former;
+}
+
+std::string Properties::setDefault(const std::string& key, const std::string& value) {
+    getNode(key).default_value_ = value;
+    return value;
+}
+
+void Properties::setDefaults(const char* const defaults[], std::size_t num) {
+    for (std::size_t i = 0; i + 1 < num && defaults[i] != nullptr && defaults[i][0] != '\0'; i += 2)
+        setDefault(eraseBothEndsBlank(defaults[i]), eraseBothEndsBlank(defaults[i + 1]));
+}
+
+void Properties::names(const std::string& prefix, std::vector<std::string>& out) const {
+    for (auto* node : leaf_) {
+        const std::string name = prefix.empty() ? node->name_ : prefix + "." + node->name_;
+        if (node->leaf_.empty()) out.push_back(name);
+        else {
+            if (!node->value_.empty()) out.push_back(name);
+            node->names(name, out);
+        }
+    }
+}
+
+std::vector<std::string> Properties::propertyNames() const {
+    std::vector<std::string> out;
+    names("", out);
+    return out;
+}
+
+std::size_t Properties::size() const { return propertyNames().size(); }
+
+Properties& Properties::operator<<(const Properties& prop) {
+    for (const auto& key : prop.propertyNames()) setProperty(key, prop.getProperty(key));
+    return *this;
+}
+
+} // namespace coil

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <coil/stringutil.h>
+
+namespace coil {
+namespace {
+
+template <class Duration>
+bool seconds_to(Duration& val, const char* str) {
+    double seconds = 0;
+    if (!stringTo(seconds, str)) return false;
+    val = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
+    return true;
+}
+
+} // namespace
+
+template <>
+bool stringTo<std::string>(std::string& val, const char* str) {
+    if (str == nullptr) return false;
+    val = str;
+    return true;
+}
+
+template <>
+bool stringTo<bool>(bool& val, const char* str) {
+    if (str == nullptr) return false;
+    const std::string text = normalize(str);
+    if (text == "true" || text == "1" || text == "yes" || text == "on") return val = true, true;
+    if (text == "false" || text == "0" || text == "no" || text == "off") return val = false, true;
+    return false;
+}
+
+template <>
+bool stringTo<std::chrono::duration<double>>(std::chrono::duration<double>& val, const char* str) {
+    return seconds_to(val, str);
+}
+template <>
+bool stringTo<std::chrono::nanoseconds>(std::chrono::nanoseconds& val, const char* str) { return seconds_to(val, str); }
+template <>
+bool stringTo<std::chrono::microseconds>(std::chrono::microseconds& val, const char* str) { return seconds_to(val, str); }
+template <>
+bool stringTo<std::chrono::milliseconds>(std::chrono::milliseconds& val, const char* str) { return seconds_to(val, str); }
+template <>
+bool stringTo<std::chrono::seconds>(std::chrono::seconds& val, const char* str) { return seconds_to(val, str); }
+
+} // namespace coil

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <arpa/inet.h>
+#include <cctype>
+#include <coil/stringutil.h>
+#include <cstdarg>
+#include <cstdio>
+#include <istream>
+
+namespace coil {
+namespace {
+
+bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+} // namespace
+
+std::wstring string2wstring(const std::string& str) { return std::wstring(str.begin(), str.end()); }
+std::string wstring2string(const std::wstring& wstr) {
+    std::string narrow;
+    for (wchar_t c : wstr) narrow += static_cast<char>(c);
+    return narrow;
+}
+
+std::string toUpper(std::string str) noexcept {
+    for (char& c : str) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return str;
+}
+std::string toLower(std::string str) noexcept {
+    for (char& c : str) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return str;
+}
+
+std::string getlinePortable(std::istream& in) {
+    std::string line;
+    std::getline(in, line);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return line;
+}
+
+bool isEscaped(const std::string& str, std::string::size_type pos) {
+    std::size_t backslashes = 0;
+    while (pos > 0 && str[--pos] == '\\') ++backslashes;
+    return backslashes % 2 == 1;
+}
+
+std::string escape(const std::string& str) {
+    std::string out;
+    for (char c : str) {
+        if (c == '\t') out += "\\t";
+        else if (c == '\n') out += "\\n";
+        else if (c == '\f') out += "\\f";
+        else if (c == '\r') out += "\\r";
+        else if (c == '\\') out += "\\\\";
+        else out += c;
+    }
+    return out;
+}
+
+std::string unescape(std::string str) noexcept {
+    std::string out;
+    for (std::size_t i = 0; i < str.size(); ++i) {
+        if (str[i] != '\\' || i + 1 == str.size()) {
+            out += str[i];
+            continue;
+        }
+        switch (str[++i]) {
+        case 't': out += '\t'; break;
+        case 'n': out += '\n'; break;
+        case 'f': out += '\f'; break;
+        case 'r': out += '\r'; break;
+        default: out += str[i];
+        }
+    }
+    return out;
+}
+
+std::string eraseBlank(std::string str) noexcept {
+    str.erase(std::remove_if(str.begin(), str.end(), blank), str.end());
+    return str;
+}
+std::string eraseHeadBlank(std::string str) noexcept {
+    str.erase(str.begin(), std::find_if_not(str.begin(), str.end(), blank));
+    return str;
+}
+std::string eraseTailBlank(std::string str) noexcept {
+    while (!str.empty() && blank(str.back()) && !isEscaped(str, str.size() - 1)) str.pop_back();
+    return str;
+}
+std::string eraseBothEndsBlank(std::string str) noexcept { return eraseTailBlank(eraseHeadBlank(std::move(str))); }
+std::string normalize(std::string str) noexcept { return toLower(eraseBothEndsBlank(std::move(str))); }
+
+std::string replaceString(std::string str, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; !from.empty() && (at = str.find(from, at)) != std::string::npos; at += to.size())
+        str.replace(at, from.size(), to);
+    return str;
+}
+
+vstring split(const std::string& input, const std::string& delimiter, bool ignore_empty) {
+    vstring parts;
+    if (input.empty()) return parts;
+    if (delimiter.empty()) return {eraseBothEndsBlank(input)};
+    for (std::size_t begin = 0; begin <= input.size();) {
+        std::size_t end = std::min(input.find(delimiter, begin), input.size());
+        std::string part = eraseBothEndsBlank(input.substr(begin, end - begin));
+        if (!(ignore_empty && part.empty())) parts.push_back(part);
+        begin = end + delimiter.size();
+    }
+    return parts;
+}
+
+bool toBool(std::string str, std::string yes, std::string no, bool default_value) {
+    str = toUpper(str);
+    if (str.find(toUpper(yes)) != std::string::npos) return true;
+    if (str.find(toUpper(no)) != std::string::npos) return false;
+    return default_value;
+}
+
+bool includes(const vstring& list, std::string value, bool ignore_case) {
+    if (ignore_case) value = toLower(value);
+    return std::any_of(list.begin(), list.end(),
+                       [&](const std::string& one) { return (ignore_case ? toLower(one) : one) == value; });
+}
+bool includes(const std::string& list, std::string value, bool ignore_case) {
+    return includes(split(list, ","), std::move(value), ignore_case);
+}
+
+bool isAbsolutePath(const std::string& str) { return !str.empty() && str[0] == '/'; }
+bool isURL(const std::string& str) {
+    std::size_t at = str.find("://");
+    return at != 0 && at != std::string::npos;
+}
+bool isIPv4(const std::string& str) {
+    in_addr address;
+    return inet_pton(AF_INET, str.c_str(), &address) == 1;
+}
+bool isIPv6(const std::string& str) {
+    in6_addr address;
+    return inet_pton(AF_INET6, str.c_str(), &address) == 1;
+}
+bool isIPPort(const std::string& str) {
+    int port = 0;
+    return stringTo(port, str.c_str()) && port >= 0 && port < 65536;
+}
+
+mapstring urlparam2map(const std::string& str) {
+    mapstring map;
+    std::size_t question = str.find('?');
+    for (const auto& param : split(question == std::string::npos ? str : str.substr(question + 1), "&", true)) {
+        std::size_t equals = param.find('=');
+        if (equals == std::string::npos) map[param] = "";
+        else map[eraseBothEndsBlank(param.substr(0, equals))] = eraseBothEndsBlank(param.substr(equals + 1));
+    }
+    return map;
+}
+
+vstring parseArgs(const std::string& args) {
+    vstring words;
+    std::string word;
+    bool quoted = false, started = false;
+    for (std::size_t i = 0; i < args.size(); ++i) {
+        if (args[i] == '"' && !isEscaped(args, i)) {
+            quoted = !quoted;
+            started = true;
+        } else if (blank(args[i]) && !quoted) {
+            if (started) words.push_back(unescape(word));
+            word.clear();
+            started = false;
+        } else {
+            word += args[i];
+            started = true;
+        }
+    }
+    if (started) words.push_back(unescape(word));
+    return words;
+}
+
+vstring unique_sv(vstring sv) {
+    vstring out;
+    for (auto& s : sv)
+        if (std::find(out.begin(), out.end(), s) == out.end()) out.push_back(s);
+    return out;
+}
+
+std::string flatten(vstring sv, const std::string& delimiter) {
+    std::string out;
+    for (std::size_t i = 0; i < sv.size(); ++i) out += (i ? delimiter : "") + sv[i];
+    return out;
+}
+
+Argv::Argv(const vstring& args) {
+    for (const auto& arg : args) {
+        args_.emplace_back(arg.begin(), arg.end());
+        args_.back().push_back('\0');
+    }
+    for (auto& arg : args_) argv_.push_back(arg.data());
+    argv_.push_back(nullptr);
+}
+
+std::string sprintf(const char* fmt, ...) {
+    va_list args, again;
+    va_start(args, fmt);
+    va_copy(again, args);
+    int length = std::vsnprintf(nullptr, 0, fmt, args);
+    std::string text(length > 0 ? static_cast<std::size_t>(length) : 0, '\0');
+    if (length > 0) std::vsnprintf(&text[0], text.size() + 1, fmt, again);
+    va_end(again);
+    va_end(args);
+    return text;
+}
+
+std::string replaceEnv(std::string str) {
+    std::string out;
+    for (std::size_t at = 0; at < str.size();) {
+        std::size_t begin = str.find("${", at);
+        std::size_t end = begin == std::string::npos ? begin : str.find('}', begin);
+        if (end == std::string::npos) return out + str.substr(at);
+        const char* value = std::getenv(str.substr(begin + 2, end - begin - 2).c_str());
+        out += str.substr(at, begin - at) + (value ? value : "");
+        at = end + 1;
+    }
+    return out;
+}
+
+} // namespace coil
