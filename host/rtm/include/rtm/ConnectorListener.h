@@ -169,7 +169,7 @@ public:
 
 private:
     template <class Type>
-    static constexpr std::size_t index(Type type) {
+    static std::size_t index(Type type) {
         return static_cast<std::size_t>(type);
     }
     template <class Listener>
@@ -184,8 +184,10 @@ private:
     ConnectorListenerStatus::Enum call(ConnectorDataListenerType, ConnectorInfo&, ByteData&, const std::string&);
     ConnectorListenerStatus::Enum call(ConnectorListenerType, ConnectorInfo&);
 
-    std::array<Holder<ConnectorDataListener>, index(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM)> data_;
-    std::array<Holder<ConnectorListener>, index(ConnectorListenerType::CONNECTOR_LISTENER_NUM)> info_;
+    static constexpr auto DataKinds = static_cast<std::size_t>(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM);
+    static constexpr auto InfoKinds = static_cast<std::size_t>(ConnectorListenerType::CONNECTOR_LISTENER_NUM);
+    std::array<Holder<ConnectorDataListener>, DataKinds> data_;
+    std::array<Holder<ConnectorListener>, InfoKinds> info_;
 };
 using ConnectorListenersBase = ConnectorListeners;
 

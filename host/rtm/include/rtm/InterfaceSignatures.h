@@ -33,11 +33,12 @@ public:
     /// Full repository id for the same names, empty when unknown.
     static std::string repositoryId(const std::string& interface_name);
 
-    /// Signature of a data type by repository id, `((uu)d)` for IDL:RTC/TimedDouble:1.0; empty when unknown.
+    /// Signature of a data type by repository id, `(uu)d` for IDL:RTC/TimedDouble:1.0 (a message's own
+    /// pair of parentheses is dropped); empty when unknown.
     static std::string type(const std::string& repository_id);
     /// Makes a data type known from its TypeCode; ports do this for what they carry.
     static void addType(const char* repository_id, CORBA::TypeCode_ptr code);
-    /// Signature of any TypeCode.
+    /// Signature of any TypeCode, a struct with its parentheses.
     static std::string signature(CORBA::TypeCode_ptr code);
 };
 

@@ -4,6 +4,17 @@
 #include <rtm/config_rtc.h>
 #include <rtm/version.h>
 
+// Component sources count on these being there.
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include <omniORB4/CORBA.h>
 #include <omnithread.h>
 #include <rtm/idl/OpenRTMSkel.h>
@@ -15,5 +26,7 @@
 
 namespace RTC {
 using Properties = coil::Properties;
+/// Handle of an execution context.
+using UniqueId = ExecutionContextHandle_t;
 } // namespace RTC
 #endif

@@ -167,7 +167,8 @@ void Properties::setDefaults(const char* const defaults[], std::size_t num) {
 void Properties::names(const std::string& prefix, std::vector<std::string>& out) const {
     for (auto* node : leaf_) {
         const std::string name = prefix.empty() ? node->name_ : prefix + "." + node->name_;
-        if (node->leaf_.empty()) out.push_back(name);
+        if (node->leaf_.empty())
+            out.push_back(name);
         else {
             if (!node->value_.empty()) out.push_back(name);
             node->names(name, out);

@@ -19,7 +19,9 @@ void Properties::load(std::istream& in) {
             continue;
         }
         std::size_t at = 0;
-        while (at < pending.size() && !((pending[at] == ':' || pending[at] == '=') && !isEscaped(pending, at))) ++at;
+        while (at < pending.size() &&
+               !((pending[at] == ':' || pending[at] == '=') && !isEscaped(pending, at)))
+            ++at;
         std::string key = eraseBothEndsBlank(unescape(pending.substr(0, at)));
         std::string value = at < pending.size() ? eraseBothEndsBlank(unescape(pending.substr(at + 1))) : "";
         if (!key.empty()) setProperty(key, value);
@@ -39,8 +41,7 @@ void Properties::store(std::ostream& out, const std::string& header) {
 void Properties::dump(std::ostream& out, std::size_t depth) const {
     for (auto* node : leaf_) {
         out << std::string(2 * depth, ' ') << "- " << node->name_;
-        if (node->leaf_.empty())
-            out << ": " << (node->value_.empty() ? node->default_value_ : node->value_);
+        if (node->leaf_.empty()) out << ": " << (node->value_.empty() ? node->default_value_ : node->value_);
         out << '\n';
         node->dump(out, depth + 1);
     }

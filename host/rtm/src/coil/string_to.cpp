@@ -35,12 +35,20 @@ bool stringTo<std::chrono::duration<double>>(std::chrono::duration<double>& val,
     return seconds_to(val, str);
 }
 template <>
-bool stringTo<std::chrono::nanoseconds>(std::chrono::nanoseconds& val, const char* str) { return seconds_to(val, str); }
+bool stringTo<std::chrono::nanoseconds>(std::chrono::nanoseconds& val, const char* str) {
+    return seconds_to(val, str);
+}
 template <>
-bool stringTo<std::chrono::microseconds>(std::chrono::microseconds& val, const char* str) { return seconds_to(val, str); }
+bool stringTo<std::chrono::microseconds>(std::chrono::microseconds& val, const char* str) {
+    return seconds_to(val, str);
+}
 template <>
-bool stringTo<std::chrono::milliseconds>(std::chrono::milliseconds& val, const char* str) { return seconds_to(val, str); }
+bool stringTo<std::chrono::milliseconds>(std::chrono::milliseconds& val, const char* str) {
+    return seconds_to(val, str);
+}
 template <>
-bool stringTo<std::chrono::seconds>(std::chrono::seconds& val, const char* str) { return seconds_to(val, str); }
+bool stringTo<std::chrono::seconds>(std::chrono::seconds& val, const char* str) {
+    return seconds_to(val, str);
+}
 
 } // namespace coil

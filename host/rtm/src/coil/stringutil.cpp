@@ -46,12 +46,18 @@ bool isEscaped(const std::string& str, std::string::size_type pos) {
 std::string escape(const std::string& str) {
     std::string out;
     for (char c : str) {
-        if (c == '\t') out += "\\t";
-        else if (c == '\n') out += "\\n";
-        else if (c == '\f') out += "\\f";
-        else if (c == '\r') out += "\\r";
-        else if (c == '\\') out += "\\\\";
-        else out += c;
+        if (c == '\t')
+            out += "\\t";
+        else if (c == '\n')
+            out += "\\n";
+        else if (c == '\f')
+            out += "\\f";
+        else if (c == '\r')
+            out += "\\r";
+        else if (c == '\\')
+            out += "\\\\";
+        else
+            out += c;
     }
     return out;
 }
@@ -64,11 +70,20 @@ std::string unescape(std::string str) noexcept {
             continue;
         }
         switch (str[++i]) {
-        case 't': out += '\t'; break;
-        case 'n': out += '\n'; break;
-        case 'f': out += '\f'; break;
-        case 'r': out += '\r'; break;
-        default: out += str[i];
+        case 't':
+            out += '\t';
+            break;
+        case 'n':
+            out += '\n';
+            break;
+        case 'f':
+            out += '\f';
+            break;
+        case 'r':
+            out += '\r';
+            break;
+        default:
+            out += str[i];
         }
     }
     return out;
@@ -86,7 +101,9 @@ std::string eraseTailBlank(std::string str) noexcept {
     while (!str.empty() && blank(str.back()) && !isEscaped(str, str.size() - 1)) str.pop_back();
     return str;
 }
-std::string eraseBothEndsBlank(std::string str) noexcept { return eraseTailBlank(eraseHeadBlank(std::move(str))); }
+std::string eraseBothEndsBlank(std::string str) noexcept {
+    return eraseTailBlank(eraseHeadBlank(std::move(str)));
+}
 std::string normalize(std::string str) noexcept { return toLower(eraseBothEndsBlank(std::move(str))); }
 
 std::string replaceString(std::string str, const std::string& from, const std::string& to) {
@@ -145,10 +162,13 @@ bool isIPPort(const std::string& str) {
 mapstring urlparam2map(const std::string& str) {
     mapstring map;
     std::size_t question = str.find('?');
-    for (const auto& param : split(question == std::string::npos ? str : str.substr(question + 1), "&", true)) {
+    for (const auto& param :
+         split(question == std::string::npos ? str : str.substr(question + 1), "&", true)) {
         std::size_t equals = param.find('=');
-        if (equals == std::string::npos) map[param] = "";
-        else map[eraseBothEndsBlank(param.substr(0, equals))] = eraseBothEndsBlank(param.substr(equals + 1));
+        if (equals == std::string::npos)
+            map[param] = "";
+        else
+            map[eraseBothEndsBlank(param.substr(0, equals))] = eraseBothEndsBlank(param.substr(equals + 1));
     }
     return map;
 }

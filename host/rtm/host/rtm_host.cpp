@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// rtm_host: runs the RT-Components that an rtc.conf names.
+#include "host/rt/step_server.hpp"
+#include "host/rt/thread.hpp"
+#include "host/rtm/src/manager_options.hpp"
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::string conf_file, port, lockstep;
+    std::vector<std::string> settings;
+    std::vector<fs::path> plugin_path;
+    bool daemon = false, ignored = false, low_latency_idle = false, lock_memory = false, parent_death = false;
+    int cpu = -1;
+    double tick_spin_us = 0;
+};
+
+void describe(CLI::App& app, Arguments& a) {
+    app.add_option("-f", a.conf_file,
+                   "configuration file (default: $RTC_MANAGER_CONFIG, ./rtc.conf, /etc/rtc.conf)");
+    app.add_option("-o", a.settings, "a setting of rtc.conf, key:value; wins over the file (repeatable)")
+        ->allow_extra_args(false);
+    app.add_option("-p", a.port, "TCP port of the CORBA endpoint on the loopback interface");
+    app.add_flag("-d", a.daemon, "run as master manager: do not leave without components");
+    app.add_flag("-i", a.ignored, "accepted for OpenRTM-aist's sake");
+    app.add_option("--lockstep", a.lockstep,
+                   "unix socket: cycles run when a conductor asks there, not on timers");
+    app.add_option("--cpu", a.cpu, "pin tick threads to this processor");
+    app.add_option("--tick-spin", a.tick_spin_us,
+                   "microseconds before each tick that are polled instead of slept");
+    app.add_flag("--low-latency-idle", a.low_latency_idle, "keep processors out of deep idle states");
+    app.add_flag("--lock-memory", a.lock_memory, "lock the process's memory");
+    app.add_option("--plugin-path", a.plugin_path, "further folder of component libraries (repeatable)")
+        ->allow_extra_args(false);
+    app.add_flag("--parent-death", a.parent_death, "leave in order when the parent process dies");
+}
+
+// --plugin-path, $TANDEM_PLUGIN_PATH, then where build and installation put plugins.
+std::vector<fs::path> plugin_path(const Arguments& a) {
+    std::vector<fs::path> dirs = a.plugin_path;
+    if (const char* path = std::getenv("TANDEM_PLUGIN_PATH"))
+        for (const auto& dir : coil::split(path, ":", true)) dirs.emplace_back(dir);
+    std::error_code none;
+    const fs::path root = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path();
+    dirs.push_back(root / "plugins/rtm");
+    for (const char* lib : {"lib", "lib64"}) dirs.push_back(root / lib / "tandem/plugins/rtm");
+    for (const auto& entry : fs::directory_iterator(root / "lib", none)) // lib/x86_64-linux-gnu
+        if (entry.is_directory() && fs::exists(entry.path() / "tandem/plugins/rtm"))
+            dirs.push_back(entry.path() / "tandem/plugins/rtm");
+    return dirs;
+}
+
+coil::vstring manager_arguments(const Arguments& a) {
+    coil::vstring args{"rtm_host"};
+    auto add = [&](const char* option, const std::string& value) {
+        args.push_back(option);
+        args.push_back(value);
+    };
+    if (!a.conf_file.empty()) add("-f", a.conf_file);
+    for (const auto& setting : a.settings) add("-o", setting);
+    if (!a.port.empty()) add("-p", a.port);
+    if (a.daemon) args.push_back("-d");
+    return args;
+}
+
+void ask_kernel(const Arguments& a) {
+    auto notice = [](const std::optional<std::string>& refused) {
+        if (refused) spdlog::warn("{}", *refused);
+    };
+    if (a.low_latency_idle) notice(tandem::rt::hold_low_latency_idle());
+    if (a.lock_memory) notice(tandem::rt::lock_memory());
+    if (a.parent_death) notice(tandem::rt::end_with_parent());
+}
+
+int run(const Arguments& a) {
+    ask_kernel(a);
+    RTC::Manager::Options options;
+    options.lockstep = !a.lockstep.empty();
+    options.cpu = a.cpu;
+    options.tick_spin = std::chrono::nanoseconds(static_cast<std::int64_t>(a.tick_spin_us * 1e3));
+    options.plugin_path = plugin_path(a);
+    coil::Argv argv(manager_arguments(a));
+    RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
+    bool all_ended = true;
+    try {
+        manager.activateOrThrow();
+        std::unique_ptr<tandem::rt::StepServer> steps;
+        if (options.lockstep)
+            steps = std::make_unique<tandem::rt::StepServer>(
+                a.lockstep, [&](const std::string& name) { manager.step(name); });
+        std::puts("ready");
+        std::fflush(stdout);
+        manager.runManager();
+        all_ended = manager.endedInOrder();
+    } catch (const std::runtime_error& e) {
+        std::fprintf(stderr, "rtm_host: %s\n", e.what());
+        manager.shutdown();
+        std::fflush(nullptr);
+        std::_Exit(1); // components may be half made: none of their static objects shall run now
+    }
+    if (!all_ended) {
+        spdlog::warn("a component does not stop; leaving without it");
+        std::fflush(nullptr);
+        std::_Exit(0);
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    spdlog::set_default_logger(
+        std::make_shared<spdlog::logger>("rtm_host", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
+    std::signal(SIGPIPE, SIG_IGN);
+    for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });
+    CLI::App app{"Runs the RT-Components that an rtc.conf names."};
+    Arguments arguments;
+    describe(app, arguments);
+    CLI11_PARSE(app, argc, argv);
+    try {
+        return run(arguments);
+    } catch (const std::runtime_error& e) {
+        std::fprintf(stderr, "rtm_host: %s\n", e.what());
+        return 1;
+    }
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_CONFIGADMIN_H
+#define RTC_CONFIGADMIN_H
+#include <array>
+#include <coil/Properties.h>
+#include <coil/stringutil.h>
+#include <memory>
+#include <mutex>
+#include <rtm/ConfigurationListener.h>
+#include <rtm/ListenerHolder.h>
+#include <string>
+#include <vector>
+
+namespace RTC {
+
+/// A variable bound to a configuration parameter.
+struct ConfigBase {
+    ConfigBase(const char* name_, const char* def_val) : name(name_), default_value(def_val) {}
+    virtual ~ConfigBase() = default;
+    /// Text into the variable, the default when the text does not fit; true when the text was new.
+    virtual bool update(const char* val) = 0;
+    std::string name;
+    std::string default_value;
+    std::string string_value;
+};
+
+template <typename VarType>
+class Config : public ConfigBase {
+public:
+    using Trans = bool (*)(VarType&, const char*);
+    Config(const char* name, VarType& var, const char* def_val, Trans trans)
+        : ConfigBase(name, def_val), m_var(var), m_trans(trans) {}
+    bool update(const char* val) override {
+        if (m_set && string_value == val) return false;
+        string_value = val;
+        m_set = true;
+        if (!m_trans(m_var, val)) m_trans(m_var, default_value.c_str());
+        return true;
+    }
+
+private:
+    VarType& m_var;
+    Trans m_trans;
+    bool m_set = false;
+};
+
+/// Named sets of parameters, one of them active. Variables change only in update(), which the component calls
+/// at its update points; setting and choosing sets is safe from any thread.
+class ConfigAdmin {
+public:
+    explicit ConfigAdmin(coil::Properties& configsets) : m_configsets(configsets) {}
+    ConfigAdmin(const ConfigAdmin&) = delete;
+    ConfigAdmin& operator=(const ConfigAdmin&) = delete;
+
+    /// Gives `var` its default (or what the active set says) at once. False: a parameter of that name exists, or
+    /// the default cannot be read.
+    template <typename VarType>
+    bool bindParameter(const char* param_name, VarType& var, const char* def_val,
+                       bool (*trans)(VarType&, const char*) = coil::stringTo) {
+        if (param_name == nullptr || def_val == nullptr || isExist(param_name)) return false;
+        if (!trans(var, def_val)) return false;
+        add(std::unique_ptr<ConfigBase>(new Config<VarType>(param_name, var, def_val, trans)));
+        return true;
+    }
+    bool unbindParameter(const char* param_name);
+
+    /// The active set into the variables, when there is something new.
+    void update();
+    void update(const char* config_set);
+    void update(const char* config_set, const char* config_param);
+
+    bool isExist(const char* param_name) const;
+    bool isChanged() const { return m_changed; }
+    const coil::vstring& changedParameters() const { return m_changedParam; }
+    const char* getActiveId() const { return m_activeId.c_str(); }
+    bool haveConfig(const char* config_id) const;
+    bool isActive() const { return m_active; }
+
+    std::vector<coil::Properties*> getConfigurationSets() const;
+    coil::Properties getConfigurationSet(const char* config_id) const;
+    coil::Properties getActiveConfigurationSet() const { return getConfigurationSet(m_activeId.c_str()); }
+    bool setConfigurationSetValues(const coil::Properties& config_set);
+    bool addConfigurationSet(const coil::Properties& config_set);
+    bool removeConfigurationSet(const char* config_id);
+    bool activateConfigurationSet(const char* config_id);
+
+    void addConfigurationParamListener(ConfigurationParamListenerType, ConfigurationParamListener* listener,
+                                       bool autoclean = true);
+    void removeConfigurationParamListener(ConfigurationParamListenerType, ConfigurationParamListener* listener);
+    void addConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener,
+                                     bool autoclean = true);
+    void removeConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener);
+    void addConfigurationSetNameListener(ConfigurationSetNameListenerType type, ConfigurationSetNameListener* listener,
+                                         bool autoclean = true);
+    void removeConfigurationSetNameListener(ConfigurationSetNameListenerType type,
+                                            ConfigurationSetNameListener* listener);
+
+private:
+    void add(std::unique_ptr<ConfigBase> param);
+    void apply(const char* config_set, const char* only_param);
+    void notifySet(ConfigurationSetListenerType type, const coil::Properties& set);
+    void notifyName(ConfigurationSetNameListenerType type, const char* name);
+
+    mutable std::recursive_mutex m_mutex;
+    coil::Properties& m_configsets;
+    std::vector<std::unique_ptr<ConfigBase>> m_params;
+    std::string m_activeId = "default";
+    bool m_active = true;
+    bool m_changed = false;
+    coil::vstring m_changedParam;
+    coil::vstring m_newConfig;
+    RTM::util::ListenerHolder<ConfigurationParamListener> m_paramListeners;
+    std::array<RTM::util::ListenerHolder<ConfigurationSetListener>, 2> m_setListeners;
+    std::array<RTM::util::ListenerHolder<ConfigurationSetNameListener>, 3> m_nameListeners;
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Callbacks of configuration changes.
+#ifndef RTC_CONFIGURATIONLISTENER_H
+#define RTC_CONFIGURATIONLISTENER_H
+#include <coil/Properties.h>
+#include <cstdint>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace RTC {
+
+enum class ConfigurationParamListenerType : std::uint8_t { ON_UPDATE_CONFIG_PARAM, CONFIG_PARAM_LISTENER_NUM };
+enum class ConfigurationSetListenerType : std::uint8_t { ON_SET_CONFIG_SET, ON_ADD_CONFIG_SET, CONFIG_SET_LISTENER_NUM };
+enum class ConfigurationSetNameListenerType : std::uint8_t {
+    ON_UPDATE_CONFIG_SET,
+    ON_REMOVE_CONFIG_SET,
+    ON_ACTIVATE_CONFIG_SET,
+    CONFIG_SET_NAME_LISTENER_NUM
+};
+constexpr auto ON_UPDATE_CONFIG_PARAM = ConfigurationParamListenerType::ON_UPDATE_CONFIG_PARAM;
+constexpr auto ON_SET_CONFIG_SET = ConfigurationSetListenerType::ON_SET_CONFIG_SET;
+constexpr auto ON_ADD_CONFIG_SET = ConfigurationSetListenerType::ON_ADD_CONFIG_SET;
+constexpr auto ON_UPDATE_CONFIG_SET = ConfigurationSetNameListenerType::ON_UPDATE_CONFIG_SET;
+constexpr auto ON_REMOVE_CONFIG_SET = ConfigurationSetNameListenerType::ON_REMOVE_CONFIG_SET;
+constexpr auto ON_ACTIVATE_CONFIG_SET = ConfigurationSetNameListenerType::ON_ACTIVATE_CONFIG_SET;
+
+class ConfigurationParamListener {
+public:
+    virtual ~ConfigurationParamListener() = default;
+    virtual void operator()(const char* config_set_name, const char* config_param_name) = 0;
+};
+class ConfigurationSetListener {
+public:
+    virtual ~ConfigurationSetListener() = default;
+    virtual void operator()(const coil::Properties& config_set) = 0;
+};
+class ConfigurationSetNameListener {
+public:
+    virtual ~ConfigurationSetNameListener() = default;
+    virtual void operator()(const char* config_set_name) = 0;
+};
+
+} // namespace RTC
+#endif

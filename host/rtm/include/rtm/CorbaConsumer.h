@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_CORBACONSUMER_H
+#define RTC_CORBACONSUMER_H
+#include <iostream>
+#include <omniORB4/CORBA.h>
+#include <utility>
+
+namespace RTC {
+
+/// A place for the reference of a required service; CorbaPort fills and empties it.
+class CorbaConsumerBase {
+public:
+    CorbaConsumerBase() = default;
+    CorbaConsumerBase(const CorbaConsumerBase& other) : m_objref(CORBA::Object::_duplicate(other.m_objref.in())) {}
+    CorbaConsumerBase& operator=(const CorbaConsumerBase& other) {
+        m_objref = CORBA::Object::_duplicate(other.m_objref.in());
+        return *this;
+    }
+    virtual ~CorbaConsumerBase() = default;
+
+    /// False: nil, or not an object this consumer can call.
+    virtual bool setObject(CORBA::Object_ptr obj) {
+        if (CORBA::is_nil(obj)) return false;
+        m_objref = CORBA::Object::_duplicate(obj);
+        return true;
+    }
+    /// Not duplicated.
+    virtual CORBA::Object_ptr getObject() { return m_objref.in(); }
+    virtual void releaseObject() { m_objref = CORBA::Object::_nil(); }
+
+protected:
+    CORBA::Object_var m_objref;
+};
+
+/// A required service of one interface. Calls without a provider throw a CORBA::SystemException.
+template <class ObjectType, typename ObjectTypePtr = typename ObjectType::_ptr_type,
+          typename ObjectTypeVar = typename ObjectType::_var_type>
+class CorbaConsumer : public CorbaConsumerBase {
+public:
+    CorbaConsumer() = default;
+    CorbaConsumer(const CorbaConsumer& other) : CorbaConsumerBase(other), m_var(ObjectType::_duplicate(other.m_var.in())) {}
+    CorbaConsumer& operator=(const CorbaConsumer& other) {
+        CorbaConsumerBase::operator=(other);
+        m_var = ObjectType::_duplicate(other.m_var.in());
+        return *this;
+    }
+
+    bool setObject(CORBA::Object_ptr obj) override {
+        releaseObject();
+        if (!CorbaConsumerBase::setObject(obj)) return false;
+        ObjectTypeVar narrowed = ObjectType::_narrow(m_objref.in());
+        if (CORBA::is_nil(narrowed.in())) {
+            releaseObject();
+            return false;
+        }
+        m_var = narrowed;
+        return true;
+    }
+    ObjectTypePtr _ptr() { return m_var.inout(); }
+    ObjectTypePtr operator->() { return m_var.inout(); }
+    void releaseObject() override {
+        CorbaConsumerBase::releaseObject();
+        m_var = ObjectType::_nil();
+    }
+
+protected:
+    ObjectTypeVar m_var;
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_FACTORY_H
+#define RTC_FACTORY_H
+#include <coil/Properties.h>
+#include <memory>
+#include <rtm/NumberingPolicy.h>
+
+namespace RTC {
+class Manager;
+class RTObject_impl;
+
+using RtcNewFunc = RTObject_impl* (*)(Manager*);
+using RtcDeleteFunc = void (*)(RTObject_impl*);
+
+template <class T_New>
+RTObject_impl* Create(Manager* manager) {
+    return new T_New(manager);
+}
+/// Gives up the creator's reference; a call from outside that is under way keeps the component until it ends.
+void deleteRTObject(RTObject_impl* rtc);
+template <class T_Delete>
+void Delete(RTObject_impl* rtc) {
+    deleteRTObject(rtc);
+}
+
+/// Makes and ends components of one type, and names them.
+class FactoryBase {
+public:
+    explicit FactoryBase(const coil::Properties& profile) : m_Profile(profile) {}
+    virtual ~FactoryBase() = default;
+    virtual RTObject_impl* create(Manager* manager) = 0;
+    virtual void destroy(RTObject_impl* comp) = 0;
+    virtual coil::Properties& profile() { return m_Profile; }
+    virtual int number() { return m_Number; }
+
+protected:
+    coil::Properties m_Profile;
+    int m_Number = -1;
+};
+
+class FactoryCXX : public FactoryBase {
+public:
+    FactoryCXX(const coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func)
+        : FactoryBase(profile), m_New(new_func), m_Delete(delete_func) {}
+    RTObject_impl* create(Manager* manager) override;
+    void destroy(RTObject_impl* comp) override;
+
+private:
+    RtcNewFunc m_New;
+    RtcDeleteFunc m_Delete;
+    RTM::ProcessUniquePolicy m_policy;
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_INPORT_H
+#define RTC_INPORT_H
+#include <algorithm>
+#include <rtm/InPortBase.h>
+#include <rtm/PortCallback.h>
+#include <string>
+#include <vector>
+
+namespace RTC {
+
+/// A data port that receives values of one IDL struct into a variable of its component. [owner's thread]
+template <class DataType>
+class InPort : public InPortBase {
+public:
+    InPort(const char* name, DataType& value)
+        : InPortBase(name, CORBA_Util::toRepositoryId<DataType>()), m_name(name), m_value(value),
+          m_status(1, DataPortStatus::PORT_OK) {
+        CdrMemoryStreamInit<DataType>();
+        addProperty("dataport.marshaling_types", coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
+    }
+    /// 1.x: the further arguments are those of the former buffer and mean nothing here.
+    InPort(const char* name, DataType& value, int /*bufsize*/, bool /*read_block*/ = false,
+           bool /*write_block*/ = false, int /*read_timeout*/ = 0, int /*write_timeout*/ = 0)
+        : InPort(name, value) {}
+
+    virtual const char* name() { return m_name.c_str(); }
+
+    /// Is there a value that was not read yet?
+    bool isNew() override { return InPortBase::isNew(); }
+    virtual bool isNew(std::string name) {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        auto* connector = readableLocked(name, false);
+        return connector != nullptr;
+    }
+    virtual bool isNew(coil::vstring& names) { return namesWhere(names, true); }
+    bool isEmpty() override { return InPortBase::isEmpty(); }
+    virtual bool isEmpty(std::string name) { return !isNew(name); }
+    virtual bool isEmpty(coil::vstring& names) { return namesWhere(names, false); }
+
+    /// The oldest value into the variable; with an empty buffer what its policy says (readback: the last value
+    /// again, true). False: not connected, nothing ever came, or a message that is not of this type.
+    bool read(std::string name = "") override {
+        if (m_OnRead != nullptr) (*m_OnRead)();
+        {
+            std::lock_guard<std::mutex> lock(m_connectorsMutex);
+            auto* connector = readableLocked(name, true);
+            if (connector == nullptr) return false;
+            m_status[0] = connector->read(m_value);
+        }
+        if (m_status[0] != DataPortStatus::PORT_OK) return false;
+        if (m_OnReadConvert != nullptr) m_value = (*m_OnReadConvert)(m_value);
+        return true;
+    }
+    virtual void update() { read(); }
+    void operator>>(DataType& rhs) {
+        read();
+        rhs = m_value;
+    }
+
+    DataPortStatus getStatus(int /*index*/) { return m_status[0]; }
+    DataPortStatusList getStatusList() { return m_status; }
+    void setOnRead(OnRead<DataType>* on_read) { m_OnRead = on_read; }
+    void setOnReadConvert(OnReadConvert<DataType>* on_rconvert) { m_OnReadConvert = on_rconvert; }
+
+    void stampReceived(ByteData& bytes) override {
+        CORBA_CdrSerializer<DataType> stream;
+        DataType data = DataType();
+        stream.isLittleEndian(bytes.getEndian());
+        stream.writeData(bytes.getBuffer(), bytes.getDataLength());
+        if (!stream.deserialize(data)) return;
+        stampIfPossible(data, 0);
+        stream.isLittleEndian(bytes.getEndian());
+        stream.serialize(data);
+        bytes.setDataLength(stream.getDataLength());
+        stream.readData(bytes.getBuffer(), bytes.getDataLength());
+    }
+
+private:
+    bool namesWhere(coil::vstring& names, bool has_data) {
+        names.clear();
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        for (auto* connector : m_connectors)
+            if ((connector->getBuffer()->readable() > 0) == has_data) names.push_back(connector->name());
+        return !names.empty();
+    }
+
+    std::string m_name;
+    DataType& m_value;
+    OnRead<DataType>* m_OnRead = nullptr;
+    OnReadConvert<DataType>* m_OnReadConvert = nullptr;
+    DataPortStatusList m_status;
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_INPORTBASE_H
+#define RTC_INPORTBASE_H
+#include <memory>
+#include <rtm/CdrBufferBase.h>
+#include <rtm/ConnectorListener.h>
+#include <rtm/DataPortStatus.h>
+#include <rtm/InPortConnector.h>
+#include <rtm/PortBase.h>
+
+namespace RTC {
+class DataInlet;
+
+/// A data port that receives. Connectors share one ring buffer, unless a connector asks for a buffer type of
+/// its own. Derive from it for a port whose type is known at run time only.
+class InPortBase : public PortBase {
+public:
+    using ConnectorList = std::vector<InPortConnector*>;
+
+    InPortBase(const char* name, const char* data_type);
+    ~InPortBase() override;
+    /// With the port's properties of rtc.conf, when the port is added to its component.
+    virtual void init(coil::Properties& prop);
+    virtual bool read(std::string name = "") = 0;
+    virtual bool isNew() { return readable() != nullptr; }
+    virtual bool isEmpty() { return readable() == nullptr; }
+
+    coil::Properties& properties() { return m_properties; }
+    const std::vector<InPortConnector*>& connectors() { return m_connectors; }
+    ConnectorInfoList getConnectorProfiles();
+    coil::vstring getConnectorIds();
+    coil::vstring getConnectorNames();
+    InPortConnector* getConnectorById(const char* id);
+    InPortConnector* getConnectorByName(const char* name);
+    bool getConnectorProfileById(const char* id, ConnectorInfo& prof);
+    bool getConnectorProfileByName(const char* name, ConnectorInfo& prof);
+    void activateInterfaces() override;
+    void deactivateInterfaces() override;
+
+    void addConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener,
+                                  bool autoclean = true);
+    void removeConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener);
+    void addConnectorListener(ConnectorListenerType type, ConnectorListener* listener, bool autoclean = true);
+    void removeConnectorListener(ConnectorListenerType type, ConnectorListener* listener);
+    ConnectorListenersBase* getListeners() { return &m_listeners; }
+    bool isLittleEndian() { return m_littleEndian; }
+
+    /// Ours: the local end of a connector, for an OutPort of this process; NULL when there is none.
+    std::shared_ptr<DataInlet> inlet(const char* connector_id);
+    /// Ours: puts the time into a message that has arrived (timestamp_policy on_received).
+    virtual void stampReceived(ByteData& bytes);
+
+protected:
+    ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
+    ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
+    void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
+    /// The connector to read next: one with data, NULL when none has any. Locks m_connectorsMutex.
+    InPortConnector* readable();
+    /// The same for a holder of m_connectorsMutex; `name` empty: any.
+    InPortConnector* readableLocked(const std::string& name, bool or_first);
+
+    bool m_singlebuffer = true;
+    CdrBufferBase* m_thebuffer = nullptr;
+    ConnectorList m_connectors;
+    bool m_littleEndian = true;
+    ConnectorListenersBase m_listeners;
+
+private:
+    ReturnCode_t addPushConnector(ConnectorProfile& connector_profile, const coil::Properties& prop);
+    ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
+    void addConnector(InPortConnector* connector);
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_INPORTCONNECTOR_H
+#define RTC_INPORTCONNECTOR_H
+#include <rtm/ConnectorListener.h>
+#include <rtm/Timestamp.h>
+#include <typeinfo>
+
+namespace RTC {
+
+/// The receiving end of a data connection. Its port reads it from one thread at a time.
+class InPortConnector : public ConnectorBase {
+public:
+    InPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners, CdrBufferBase* buffer);
+    ~InPortConnector() override;
+
+    const ConnectorInfo& profile() override { return m_profile; }
+    const char* id() override { return m_profile.id.c_str(); }
+    const char* name() override { return m_profile.name.c_str(); }
+    DataPortStatus disconnect() override = 0;
+    CdrBufferBase* getBuffer() override { return m_buffer; }
+    void activate() override {}
+    void deactivate() override {}
+
+    /// The oldest message into `stream`, in the byte order it came in.
+    virtual DataPortStatus read(ByteDataStreamBase* stream);
+    /// The oldest message as bytes.
+    virtual DataPortStatus read(ByteData& bytes);
+    template <class DataType>
+    DataPortStatus read(DataType& data) {
+        auto* stream = serializer<DataType>();
+        if (stream == nullptr) return DataPortStatus::PORT_ERROR;
+        DataPortStatus status = read(static_cast<ByteDataStreamBase*>(stream));
+        if (status != DataPortStatus::PORT_OK) return status;
+        if (!stream->deserialize(data)) return DataPortStatus::BUFFER_ERROR;
+        if (m_timestamp == TimestampPolicy::on_read) stampIfPossible(data, 0);
+        return status;
+    }
+
+    /// A message from the other end; ON_RECEIVED listeners first, then the buffer. [any-thread]
+    virtual BufferStatus write(ByteData& bytes);
+    virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
+    virtual bool isLittleEndian() { return m_littleEndian; }
+
+protected:
+    // Looked up once: the type of a connector never changes.
+    template <class DataType>
+    ByteDataStream<DataType>* serializer() {
+        if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
+            SerializerFactory::instance().deleteObject(m_cdr);
+            m_cdr = createSerializer<DataType>(m_marshaling_type);
+            m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
+            m_type = &typeid(DataType);
+            if (m_typed == nullptr)
+                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(), m_marshaling_type.c_str()));
+        }
+        return static_cast<ByteDataStream<DataType>*>(m_typed);
+    }
+    DataPortStatus report(BufferStatus status, ByteData& bytes);
+
+    Logger rtclog{"InPortConnector"};
+    ConnectorInfo m_profile;
+    ConnectorListenersBase* m_listeners;
+    CdrBufferBase* m_buffer;
+    bool m_littleEndian = true;
+    std::string m_marshaling_type;
+    TimestampPolicy m_timestamp;
+    ByteDataStreamBase* m_cdr = nullptr;
+
+private:
+    ByteData m_bytes;
+    void* m_typed = nullptr;
+    const std::type_info* m_type = nullptr;
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTM_LISTENERHOLDER_H
+#define RTM_LISTENERHOLDER_H
+#include <algorithm>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace RTM {
+namespace util {
+
+/// Listeners and whether they are deleted when they go. Called in the order they were added. [any-thread]
+template <class ListenerClass>
+class ListenerHolder {
+public:
+    ListenerHolder() = default;
+    ListenerHolder(const ListenerHolder&) = delete;
+    ListenerHolder& operator=(const ListenerHolder&) = delete;
+    virtual ~ListenerHolder() {
+        for (auto& entry : m_listeners)
+            if (entry.second) delete entry.first;
+    }
+    virtual void addListener(ListenerClass* listener, bool autoclean) {
+        std::lock_guard<std::recursive_mutex> lock(m_mutex);
+        m_listeners.emplace_back(listener, autoclean);
+    }
+    virtual void removeListener(ListenerClass* listener) {
+        std::lock_guard<std::recursive_mutex> lock(m_mutex);
+        auto found = std::find_if(m_listeners.begin(), m_listeners.end(),
+                                  [&](const std::pair<ListenerClass*, bool>& e) { return e.first == listener; });
+        if (found == m_listeners.end()) return;
+        if (found->second) delete found->first;
+        m_listeners.erase(found);
+    }
+    template <class Call>
+    void forEach(Call call) {
+        std::lock_guard<std::recursive_mutex> lock(m_mutex);
+        for (std::size_t i = 0; i < m_listeners.size(); ++i) call(*m_listeners[i].first);
+    }
+
+protected:
+    std::recursive_mutex m_mutex;
+    std::vector<std::pair<ListenerClass*, bool>> m_listeners;
+};
+
+} // namespace util
+} // namespace RTM
+#endif

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_MANAGER_H
+#define RTC_MANAGER_H
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <rtm/ECFactory.h>
+#include <rtm/Factory.h>
+#include <rtm/ManagerActionListener.h>
+#include <rtm/RTC.h>
+#include <rtm/RTObject.h>
+#include <rtm/SystemLogger.h>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace RTC {
+
+class Manager;
+using ModuleInitProc = void (*)(Manager*);
+
+/// Ours: what is wrong with rtc.conf, a module, a component or a connection it names; what() is one line.
+class ManagerError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// The one manager of a process: ORB, configuration, modules, components.
+/// init() [main-thread], then activateManager(), then runManager(). All other functions [any-thread].
+class Manager {
+public:
+    struct Options; // host/rtm/src/manager_options.hpp: what only rtm_host sets
+
+    /// Reads the command line (-f FILE, -o key:value, -d, -i, -p PORT) and rtc.conf, starts the ORB. When called
+    /// again the running manager is returned. Bad input ends the process with one line on standard error.
+    static Manager* init(int argc, char** argv);
+    /// The same without arguments, when init() was not called before.
+    static Manager& instance();
+    /// Ours: init() that throws ManagerError for bad input, with options of our host.
+    static Manager& start(int argc, char** argv, const Options& options);
+    ~Manager();
+    Manager(const Manager&) = delete;
+    Manager& operator=(const Manager&) = delete;
+
+    void setModuleInitProc(ModuleInitProc proc);
+    /// Loads, creates, connects and activates what the configuration names; calls the init procedure. Errors of the
+    /// configuration are logged and passed over, as in OpenRTM-aist.
+    bool activateManager();
+    /// Ours: the same, throwing ManagerError at the first error.
+    void activateOrThrow();
+    /// Blocks until terminate(), unless `no_block`.
+    void runManager(bool no_block = false);
+    /// Asks for the end: runManager() returns after an orderly stop. Safe in a signal handler.
+    static void terminate();
+    void join();
+    /// Deactivates and finalizes all components in reverse order of creation, ends the ORB.
+    /// Ours: false when a component would not stop in time and was left behind.
+    bool shutdown();
+    /// Ours: what shutdown() returned.
+    bool endedInOrder() const;
+
+    coil::Properties& getConfig();
+    std::string& getLogLevel();
+
+    // Modules
+    ReturnCode_t load(const std::string& file_name, const std::string& init_function);
+    /// Ours: throws ManagerError. `init_function` empty: `<file base name>Init`.
+    void loadOrThrow(const std::string& file_name, const std::string& init_function);
+    void unload(const char*) {}
+    void unloadAll() {}
+    std::vector<coil::Properties> getLoadedModules();
+    std::vector<coil::Properties> getLoadableModules();
+
+    // Factories
+    bool registerFactory(coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func);
+    std::vector<coil::Properties> getFactoryProfiles();
+    bool registerECFactory(const char* name, ECNewFunc new_func, ECDeleteFunc delete_func);
+    std::vector<std::string> getModulesFactories();
+
+    // Components
+    /// `Name` or `Name?key=value&...`; NULL when there is no such type or onInitialize() has failed.
+    RTObject_impl* createComponent(const char* comp_args);
+    /// Ours: throws ManagerError.
+    RTObject_impl& createOrThrow(const std::string& comp_args);
+    ExecutionContextBase* createContext(const char* ec_args);
+    bool registerComponent(RTObject_impl* comp);
+    bool unregisterComponent(RTObject_impl* comp);
+    void deleteComponent(RTObject_impl* comp);
+    void deleteComponent(const char* instance_name);
+    /// By instance name; NULL when there is none.
+    RTObject_impl* getComponent(const char* instance_name);
+    std::vector<RTObject_impl*> getComponents();
+    /// A component has left by exit(); it is deleted later by the manager's thread.
+    void notifyFinalized(RTObject_impl* comp);
+    void cleanupComponents();
+
+    /// Ours: one line of manager.components.preconnect, `A.p?port=B.q&key=value...`. Throws ManagerError.
+    void connectOrThrow(const std::string& line);
+    /// Ours: activates a component in its contexts. Throws ManagerError.
+    void activateComponentOrThrow(const std::string& instance_name);
+    /// Ours, lock-step: one cycle of the component's own contexts in the calling thread. Throws ManagerError.
+    void step(const std::string& instance_name);
+
+    /// Runs fn later in the manager's thread.
+    void invoke(std::function<void()> fn, std::chrono::nanoseconds delay = std::chrono::nanoseconds::zero());
+
+    void addManagerActionListener(RTM::ManagerActionListener* listener, bool autoclean = true);
+    void removeManagerActionListener(RTM::ManagerActionListener* listener);
+    void addModuleActionListener(RTM::ModuleActionListener* listener, bool autoclean = true);
+    void removeModuleActionListener(RTM::ModuleActionListener* listener);
+    void addRtcLifecycleActionListener(RTM::RtcLifecycleActionListener* listener, bool autoclean = true);
+    void removeRtcLifecycleActionListener(RTM::RtcLifecycleActionListener* listener);
+    void addNamingActionListener(RTM::NamingActionListener* listener, bool autoclean = true);
+    void removeNamingActionListener(RTM::NamingActionListener* listener);
+
+    // CORBA; references are the caller's (duplicated) for get..., the manager's for the...
+    CORBA::ORB_ptr theORB();
+    CORBA::ORB_ptr getORB();
+    PortableServer::POA_ptr thePOA();
+    PortableServer::POA_ptr getPOA();
+    /// Calls within the process go straight to the servant, without a dispatcher.
+    PortableServer::POA_ptr theShortCutPOA();
+    PortableServer::POA_ptr getShortCutPOA();
+    PortableServer::POAManager_ptr thePOAManager();
+    PortableServer::POAManager_ptr getPOAManager();
+
+    struct Impl;
+    Impl& impl() { return *m_impl; }
+
+private:
+    explicit Manager(const Options& options);
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_OUTPORT_H
+#define RTC_OUTPORT_H
+#include <coil/OS.h>
+#include <coil/TimeMeasure.h>
+#include <functional>
+#include <rtm/OutPortBase.h>
+#include <rtm/PortCallback.h>
+#include <string>
+#include <vector>
+
+namespace RTC {
+
+/// A data port that sends values of one IDL struct. [owner's thread]
+template <class DataType>
+class OutPort : public OutPortBase {
+public:
+    OutPort(const char* name, DataType& value)
+        : OutPortBase(name, CORBA_Util::toRepositoryId<DataType>()), m_name(name), m_value(value) {
+        CdrMemoryStreamInit<DataType>();
+        addProperty("dataport.marshaling_types", coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
+    }
+    /// 1.x: the length of the former buffer means nothing here.
+    OutPort(const char* name, DataType& value, int /*length*/) : OutPort(name, value) {}
+
+    virtual const char* name() { return m_name.c_str(); }
+
+    /// To every connector; true when all took it, false when one did not or when there is none.
+    /// Serialized once, however many there are.
+    virtual bool write(DataType& value) {
+        if (m_onWrite != nullptr) (*m_onWrite)(value);
+        if (m_onWriteConvert == nullptr) return send(value);
+        DataType converted = (*m_onWriteConvert)(value);
+        return send(converted);
+    }
+    bool write() override { return write(m_value); }
+    bool operator<<(DataType& value) { return write(value); }
+
+    DataPortStatus getStatus(int index) { return m_status.at(static_cast<std::size_t>(index)); }
+    DataPortStatusList getStatusList() { return m_status; }
+    void setOnWrite(OnWrite<DataType>* on_write) { m_onWrite = on_write; }
+    void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
+
+private:
+    bool send(DataType& value) {
+        std::vector<std::string> lost;
+        bool all_took_it = true;
+        {
+            std::lock_guard<std::mutex> lock(m_connectorsMutex);
+            if (m_connectors.empty()) return false;
+            m_status.resize(m_connectors.size());
+            OutPortConnector* first = m_connectors.front();
+            for (std::size_t i = 0; i < m_connectors.size(); ++i) {
+                OutPortConnector* connector = m_connectors[i];
+                const bool shared = i > 0 && connector->sendsLike(*first);
+                m_status[i] = shared ? connector->write(first->lastBytes()) : connector->write(value);
+                if (m_status[i] != DataPortStatus::PORT_OK) all_took_it = false;
+                if (m_status[i] == DataPortStatus::CONNECTION_LOST) lost.push_back(connector->id());
+            }
+        }
+        if (!lost.empty()) dropLost(lost);
+        return all_took_it;
+    }
+
+    std::string m_name;
+    DataType& m_value;
+    OnWrite<DataType>* m_onWrite = nullptr;
+    OnWriteConvert<DataType>* m_onWriteConvert = nullptr;
+    DataPortStatusList m_status;
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_OUTPORTCONNECTOR_H
+#define RTC_OUTPORTCONNECTOR_H
+#include <rtm/ConnectorListener.h>
+#include <rtm/Timestamp.h>
+#include <typeinfo>
+
+namespace RTC {
+
+/// The sending end of a data connection. Its port writes it from one thread at a time.
+class OutPortConnector : public ConnectorBase {
+public:
+    OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners);
+    ~OutPortConnector() override;
+
+    const ConnectorInfo& profile() override { return m_profile; }
+    const char* id() override { return m_profile.id.c_str(); }
+    const char* name() override { return m_profile.name.c_str(); }
+    DataPortStatus disconnect() override = 0;
+    CdrBufferBase* getBuffer() override { return nullptr; }
+    void activate() override {}
+    void deactivate() override {}
+
+    /// Sends what `stream` holds, which must be in the connector's byte order.
+    virtual DataPortStatus write(ByteDataStreamBase* stream);
+    /// Sends bytes that are already serialized (they say their byte order themselves).
+    virtual DataPortStatus write(ByteData& bytes) = 0;
+    template <class DataType>
+    DataPortStatus write(DataType& data) {
+        auto* stream = serializer<DataType>();
+        if (stream == nullptr) return DataPortStatus::PORT_ERROR;
+        stream->isLittleEndian(isLittleEndian());
+        bool serialized = false;
+        if (m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send) {
+            DataType stamped(data);
+            stampIfPossible(stamped, 0);
+            serialized = stream->serialize(stamped);
+        } else {
+            serialized = stream->serialize(data);
+        }
+        return serialized ? write(static_cast<ByteDataStreamBase*>(stream)) : DataPortStatus::PORT_ERROR;
+    }
+
+    virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
+    virtual bool isLittleEndian() { return m_littleEndian; }
+    /// Ours: could this connector send the bytes another one has serialized?
+    bool sendsLike(const OutPortConnector& other) const;
+    /// Ours: what the last write(stream) sent.
+    ByteData& lastBytes() { return m_bytes; }
+
+protected:
+    // Looked up once: the type of a connector never changes.
+    template <class DataType>
+    ByteDataStream<DataType>* serializer() {
+        if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
+            SerializerFactory::instance().deleteObject(m_cdr);
+            m_cdr = createSerializer<DataType>(m_marshaling_type);
+            m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
+            m_type = &typeid(DataType);
+            if (m_typed == nullptr)
+                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(), m_marshaling_type.c_str()));
+        }
+        return static_cast<ByteDataStream<DataType>*>(m_typed);
+    }
+
+    Logger rtclog{"OutPortConnector"};
+    ConnectorInfo m_profile;
+    bool m_littleEndian = true;
+    ConnectorListenersBase* m_listeners;
+    std::string m_marshaling_type;
+    TimestampPolicy m_timestamp;
+    ByteDataStreamBase* m_cdr = nullptr;
+
+private:
+    ByteData m_bytes;
+    void* m_typed = nullptr;
+    const std::type_info* m_type = nullptr;
+};
+
+} // namespace RTC
+#endif

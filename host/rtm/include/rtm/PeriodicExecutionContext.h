@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_PERIODICEXECUTIONCONTEXT_H
+#define RTC_PERIODICEXECUTIONCONTEXT_H
+#include <memory>
+#include <rtm/ExecutionContextBase.h>
+
+namespace RTC {
+class Manager;
+}
+
+namespace RTC_exp {
+
+/// A thread of its own with cycles in absolute time, on the grid of multiples of the period plus the phase;
+/// cycles that were overrun are skipped. While no component is active the thread sleeps.
+class PeriodicExecutionContext : public RTC::ExecutionContextServant<POA_RTC::ExecutionContextService> {
+public:
+    PeriodicExecutionContext();
+    ~PeriodicExecutionContext() override;
+
+protected:
+    RTC::ReturnCode_t onStarted() override;
+    RTC::ReturnCode_t onStopping() override;
+    RTC::ReturnCode_t onSetRate(double rate) override;
+    bool hasThread() const override;
+    void onRequest() override;
+
+private:
+    struct Worker;
+    std::shared_ptr<Worker> worker() const;
+    void run(Worker& worker);
+    void makeTick(Worker& worker);
+
+    mutable std::mutex m_workerMutex;
+    std::shared_ptr<Worker> m_worker;
+};
+
+} // namespace RTC_exp
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_PORTBASE_H
+#define RTC_PORTBASE_H
+#include <iostream>
+#include <mutex>
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/NVUtil.h>
+#include <rtm/PortCallback.h>
+#include <rtm/RTC.h>
+#include <rtm/SystemLogger.h>
+#include <string>
+
+namespace RTC {
+
+/// A port: a PortService servant from construction to destruction, and the connection protocol of RTM:
+/// connect() asks the first port of the profile to notify_connect(), which publishes what it provides,
+/// passes the profile on to the next port, and then subscribes to what the others have published.
+class PortBase : public virtual POA_RTC::PortService, public virtual PortableServer::RefCountServantBase {
+public:
+    explicit PortBase(const char* name = "");
+    ~PortBase() override;
+
+    PortProfile* get_port_profile() override;
+    const PortProfile& getPortProfile() const { return m_profile; }
+    ConnectorProfileList* get_connector_profiles() override;
+    ConnectorProfile* get_connector_profile(const char* connector_id) override;
+    ReturnCode_t connect(ConnectorProfile& connector_profile) override;
+    ReturnCode_t notify_connect(ConnectorProfile& connector_profile) override;
+    ReturnCode_t disconnect(const char* connector_id) override;
+    ReturnCode_t notify_disconnect(const char* connector_id) override;
+    ReturnCode_t disconnect_all() override;
+
+    /// Called when the component is activated, and before it is deactivated.
+    virtual void activateInterfaces() = 0;
+    virtual void deactivateInterfaces() = 0;
+
+    void setName(const char* name);
+    const char* getName() const { return m_profile.name; }
+    const PortProfile& getProfile() const { return m_profile; }
+    void setPortRef(PortService_ptr port_ref);
+    PortService_ptr getPortRef() const;
+    /// From now on the port is called `<instance>.<name>`.
+    void setOwner(RTObject_ptr owner);
+    /// Ours: the name is known before the owner can be asked.
+    void setOwner(RTObject_ptr owner, const char* instance_name);
+
+    void setOnPublishInterfaces(ConnectionCallback* callback) { m_onPublishInterfaces = callback; }
+    void setOnSubscribeInterfaces(ConnectionCallback* callback) { m_onSubscribeInterfaces = callback; }
+    void setOnConnected(ConnectionCallback* callback) { m_onConnected = callback; }
+    void setOnUnsubscribeInterfaces(ConnectionCallback* callback) { m_onUnsubscribeInterfaces = callback; }
+    void setOnDisconnected(ConnectionCallback* callback) { m_onDisconnected = callback; }
+    void setOnConnectionLost(ConnectionCallback* callback) { m_onConnectionLost = callback; }
+
+    /// Ours: why the last connect() or notify_connect() was refused; one line, empty when it was not.
+    std::string connectError() const;
+    /// Ours: no more calls from outside; called by the component before it dies.
+    void retire();
+
+protected:
+    virtual ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) = 0;
+    virtual ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
+    virtual void unsubscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
+    virtual ReturnCode_t connectNext(ConnectorProfile& connector_profile);
+    virtual ReturnCode_t disconnectNext(ConnectorProfile& connector_profile);
+
+    /// How many connectors at most; negative: any number.
+    virtual void setConnectionLimit(int limit_value) { m_connectionLimit = limit_value; }
+    virtual ReturnCode_t _publishInterfaces();
+    ReturnCode_t refuse(ReturnCode_t code, const std::string& why);
+
+    static bool isEmptyId(const ConnectorProfile& connector_profile);
+    static std::string getUUID();
+    static void setUUID(ConnectorProfile& connector_profile);
+    bool isExistingConnId(const char* id);
+    ConnectorProfile findConnProfile(const char* id);
+    CORBA::Long findConnProfileIndex(const char* id) const;
+    void updateConnectorProfile(const ConnectorProfile& connector_profile);
+    bool eraseConnectorProfile(const char* id);
+    bool appendInterface(const char* instance_name, const char* type_name, PortInterfacePolarity polarity);
+    bool deleteInterface(const char* name, PortInterfacePolarity polarity);
+
+    template <class ValueType>
+    void addProperty(const char* key, ValueType value) {
+        CORBA_SeqUtil::push_back(m_profile.properties, NVUtil::newNV(key, value));
+    }
+    void appendProperty(const char* key, const char* value) {
+        NVUtil::appendStringValue(m_profile.properties, key, value);
+    }
+
+    mutable Logger rtclog;
+    coil::Properties m_properties;
+    PortProfile m_profile;
+    RTC::PortService_var m_objref;
+    mutable std::mutex m_profile_mutex;
+    /// Guards the list of connectors; held by data ports while they write or read.
+    mutable std::mutex m_connectorsMutex;
+    std::string m_ownerInstanceName = "unknown";
+    int m_connectionLimit = -1;
+    ConnectionCallback* m_onPublishInterfaces = nullptr;
+    ConnectionCallback* m_onSubscribeInterfaces = nullptr;
+    ConnectionCallback* m_onConnected = nullptr;
+    ConnectionCallback* m_onUnsubscribeInterfaces = nullptr;
+    ConnectionCallback* m_onDisconnected = nullptr;
+    ConnectionCallback* m_onConnectionLost = nullptr;
+
+private:
+    ReturnCode_t establish(ConnectorProfile& connector_profile);
+    bool alreadyConnectedTo(const ConnectorProfile& connector_profile);
+
+    PortableServer::POA_var m_poa;
+    PortableServer::ObjectId_var m_oid;
+    bool m_retired = false;
+    mutable std::mutex m_errorMutex;
+    std::string m_connectError;
+};
+
+} // namespace RTC
+#endif

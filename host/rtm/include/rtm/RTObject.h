@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_RTOBJECT_H
+#define RTC_RTOBJECT_H
+#include <coil/Properties.h>
+#include <memory>
+#include <rtm/ComponentActionListener.h>
+#include <rtm/ConfigAdmin.h>
+#include <rtm/CorbaPort.h>
+#include <rtm/InPortBase.h>
+#include <rtm/OutPortBase.h>
+#include <rtm/PortAdmin.h>
+#include <rtm/PortBase.h>
+#include <rtm/RTC.h>
+#include <rtm/SystemLogger.h>
+#include <string>
+#include <vector>
+
+/// Handles of contexts a component only takes part in begin here.
+#define ECOTHER_OFFSET 1000
+
+namespace SDOPackage {
+class Configuration_impl;
+}
+
+namespace RTC {
+class ExecutionContextBase;
+class Manager;
+
+/// A component. Derive (from DataFlowComponentBase), override the on...() callbacks, add ports in
+/// onInitialize(). An execution context calls it; any result but RTC_OK, and any exception, of onActivated,
+/// onExecute and onStateUpdate leads to the ERROR state.
+class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent, public virtual PortableServer::RefCountServantBase {
+public:
+    explicit RTObject_impl(Manager* manager);
+    ~RTObject_impl() override;
+
+protected:
+    virtual ReturnCode_t onInitialize();
+    virtual ReturnCode_t onFinalize();
+    virtual ReturnCode_t onStartup(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onShutdown(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onActivated(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onDeactivated(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onExecute(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onAborting(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onError(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onReset(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onStateUpdate(RTC::UniqueId ec_id);
+    virtual ReturnCode_t onRateChanged(RTC::UniqueId ec_id);
+
+public:
+    // RTC::LightweightRTObject
+    ReturnCode_t initialize() override;
+    ReturnCode_t finalize() override;
+    ReturnCode_t exit() override;
+    CORBA::Boolean is_alive(ExecutionContext_ptr exec_context) override;
+    ExecutionContext_ptr get_context(UniqueId ec_id) override;
+    ExecutionContextList* get_owned_contexts() override;
+    ExecutionContextList* get_participating_contexts() override;
+    ExecutionContextHandle_t get_context_handle(ExecutionContext_ptr cxt) override;
+    UniqueId attach_context(ExecutionContext_ptr exec_context) override;
+    UniqueId bindContext(ExecutionContext_ptr exec_context);
+    ReturnCode_t detach_context(UniqueId ec_id) override;
+
+    // RTC::RTObject
+    ComponentProfile* get_component_profile() override;
+    PortServiceList* get_ports() override;
+
+    // RTC::ComponentAction and DataFlowComponentAction: what a context calls
+    ReturnCode_t on_initialize() override;
+    ReturnCode_t on_finalize() override;
+    ReturnCode_t on_startup(UniqueId ec_id) override;
+    ReturnCode_t on_shutdown(UniqueId ec_id) override;
+    ReturnCode_t on_activated(UniqueId ec_id) override;
+    ReturnCode_t on_deactivated(UniqueId ec_id) override;
+    ReturnCode_t on_aborting(UniqueId ec_id) override;
+    ReturnCode_t on_error(UniqueId ec_id) override;
+    ReturnCode_t on_reset(UniqueId ec_id) override;
+    ReturnCode_t on_execute(UniqueId ec_id) override;
+    ReturnCode_t on_state_update(UniqueId ec_id) override;
+    ReturnCode_t on_rate_changed(UniqueId ec_id) override;
+
+    // SDOPackage::SDO
+    SDOPackage::OrganizationList* get_owned_organizations() override;
+    char* get_sdo_id() override;
+    char* get_sdo_type() override;
+    SDOPackage::DeviceProfile* get_device_profile() override;
+    SDOPackage::ServiceProfileList* get_service_profiles() override;
+    SDOPackage::ServiceProfile* get_service_profile(const char* id) override;
+    SDOPackage::SDOService_ptr get_sdo_service(const char* id) override;
+    SDOPackage::Configuration_ptr get_configuration() override;
+    SDOPackage::Monitoring_ptr get_monitoring() override;
+    SDOPackage::OrganizationList* get_organizations() override;
+    SDOPackage::NVList* get_status_list() override;
+    CORBA::Any* get_status(const char* name) override;
+
+    const char* getInstanceName() const { return m_profile.instance_name; }
+    void setInstanceName(const char* instance_name);
+    const char* getTypeName() const { return m_profile.type_name; }
+    const char* getDescription() const { return m_profile.description; }
+    const char* getVersion() const { return m_profile.version; }
+    const char* getVendor() const { return m_profile.vendor; }
+    const char* getCategory() const { return m_profile.category; }
+    std::vector<std::string> getNamingNames();
+    void setObjRef(RTObject_ptr rtobj);
+    RTObject_ptr getObjRef() const { return RTC::RTObject::_duplicate(m_objref.in()); }
+    /// Merges properties; the profile follows them.
+    void setProperties(const coil::Properties& prop);
+    coil::Properties& getProperties() { return m_properties; }
+
+    template <typename VarType>
+    bool bindParameter(const char* param_name, VarType& var, const char* def_val,
+                       bool (*trans)(VarType&, const char*) = coil::stringTo) {
+        m_configsets.bindParameter(param_name, var, def_val, trans);
+        return true;
+    }
+    ConfigAdmin& getConfigService() { return m_configsets; }
+    void updateParameters(const char* config_set) { m_configsets.update(config_set); }
+
+    bool addPort(PortBase& port);
+    bool addPort(CorbaPort& port);
+    bool addInPort(const char* name, InPortBase& inport);
+    bool addOutPort(const char* name, OutPortBase& outport);
+    bool removeInPort(InPortBase& port);
+    bool removeOutPort(OutPortBase& port);
+    bool removePort(PortBase& port);
+    void registerPort(PortBase& port) { addPort(port); }
+    void registerPort(CorbaPort& port) { addPort(port); }
+    void registerInPort(const char* name, InPortBase& inport) { addInPort(name, inport); }
+    void registerOutPort(const char* name, OutPortBase& outport) { addOutPort(name, outport); }
+    void deletePort(PortBase& port) { removePort(port); }
+    void deletePortByName(const char* port_name);
+    const std::vector<InPortBase*>& getInPorts() const { return m_inports; }
+    const std::vector<OutPortBase*>& getOutPorts() const { return m_outports; }
+    /// Ours: all ports; get_ports() as local objects.
+    PortAdmin& getPortAdmin() { return m_portAdmin; }
+
+    ExecutionContext_ptr getExecutionContext(UniqueId ec_id) { return get_context(ec_id); }
+    double getExecutionRate(UniqueId ec_id);
+    ReturnCode_t setExecutionRate(UniqueId ec_id, double rate);
+    static bool isOwnExecutionContext(UniqueId ec_id) { return ec_id < ECOTHER_OFFSET; }
+    ReturnCode_t activate(UniqueId ec_id);
+    ReturnCode_t deactivate(UniqueId ec_id);
+    ReturnCode_t reset(UniqueId ec_id);
+    /// Ours: its own contexts, as local objects.
+    const std::vector<ExecutionContextBase*>& getOwnContexts() const { return m_eclist; }
+
+    bool readAll();
+    bool writeAll();
+    /// Read all InPorts before, write all OutPorts after onExecute; `completion`: go on after one that failed.
+    void setReadAll(bool read = true, bool completion = false);
+    void setWriteAll(bool write = true, bool completion = false);
+    void finalizePorts();
+    void finalizeContexts();
+
+    void addPreComponentActionListener(PreComponentActionListenerType type, PreComponentActionListener* listener,
+                                       bool autoclean = true);
+    void removePreComponentActionListener(PreComponentActionListenerType type, PreComponentActionListener* listener);
+    void addPostComponentActionListener(PostComponentActionListenerType type, PostComponentActionListener* listener,
+                                        bool autoclean = true);
+    void removePostComponentActionListener(PostComponentActionListenerType type, PostComponentActionListener* listener);
+    void addPortActionListener(PortActionListenerType type, PortActionListener* listener, bool autoclean = true);
+    void removePortActionListener(PortActionListenerType type, PortActionListener* listener);
+    void addExecutionContextActionListener(ExecutionContextActionListenerType type,
+                                           ExecutionContextActionListener* listener, bool autoclean = true);
+    void removeExecutionContextActionListener(ExecutionContextActionListenerType type,
+                                              ExecutionContextActionListener* listener);
+    void addConfigurationParamListener(ConfigurationParamListenerType type, ConfigurationParamListener* listener,
+                                       bool autoclean = true) {
+        m_configsets.addConfigurationParamListener(type, listener, autoclean);
+    }
+    void removeConfigurationParamListener(ConfigurationParamListenerType type, ConfigurationParamListener* listener) {
+        m_configsets.removeConfigurationParamListener(type, listener);
+    }
+    void addConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener,
+                                     bool autoclean = true) {
+        m_configsets.addConfigurationSetListener(type, listener, autoclean);
+    }
+    void removeConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener) {
+        m_configsets.removeConfigurationSetListener(type, listener);
+    }
+    void addConfigurationSetNameListener(ConfigurationSetNameListenerType type, ConfigurationSetNameListener* listener,
+                                         bool autoclean = true) {
+        m_configsets.addConfigurationSetNameListener(type, listener, autoclean);
+    }
+    void removeConfigurationSetNameListener(ConfigurationSetNameListenerType type,
+                                            ConfigurationSetNameListener* listener) {
+        m_configsets.removeConfigurationSetNameListener(type, listener);
+    }
+
+protected:
+    mutable Logger rtclog{"rtobject"};
+    Manager* m_pManager;
+    CORBA::ORB_var m_pORB;
+    PortableServer::POA_var m_pPOA;
+    ComponentProfile m_profile;
+    RTObject_var m_objref;
+    PortAdmin m_portAdmin;
+    std::vector<InPortBase*> m_inports;
+    std::vector<OutPortBase*> m_outports;
+    std::vector<ExecutionContextBase*> m_eclist;
+    coil::Properties m_properties;
+    ConfigAdmin m_configsets{m_properties.getNode("conf")};
+
+private:
+    template <class Callback>
+    ReturnCode_t guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
+                         PostComponentActionListenerType post, Callback callback);
+    void createContexts();
+    bool addNamed(const char* name, PortBase& port);
+
+    PortableServer::ObjectId_var m_oid;
+    mutable std::mutex m_contextsMutex;
+    std::vector<ExecutionContext_var> m_ecMine;
+    std::vector<ExecutionContext_var> m_ecOther;
+    SDOPackage::Configuration_impl* m_sdoConfiguration = nullptr;
+    ComponentActionListeners m_actionListeners;
+    bool m_created = true;
+    bool m_exiting = false;
+    bool m_readAll = false, m_readAllCompletion = false;
+    bool m_writeAll = false, m_writeAllCompletion = false;
+};
+using RtcBase = RTObject_impl;
+
+} // namespace RTC
+#endif

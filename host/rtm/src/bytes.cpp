@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Serialized messages: ByteData, ByteDataStreamBase, CORBA_CdrMemoryStream, and the factories of buffers and
+// serializers, whose one instance must live in this library.
+#include <algorithm>
+#include <cstring>
+#include <rtm/ByteData.h>
+#include <rtm/CORBA_CdrMemoryStream.h>
+#include <rtm/CdrBufferBase.h>
+
+template class coil::GlobalFactory<RTC::CdrBufferBase>;
+template class coil::GlobalFactory<RTC::ByteDataStreamBase>;
+
+namespace RTC {
+
+ByteData::ByteData() = default;
+ByteData::~ByteData() { delete[] m_buf; }
+ByteData::ByteData(const ByteData& other) { *this = other; }
+ByteData::ByteData(const ByteDataStreamBase& stream) { *this = stream; }
+
+ByteData& ByteData::operator=(const ByteData& other) {
+    if (this == &other) return *this;
+    writeData(other.m_buf, other.m_len);
+    m_little_endian = other.m_little_endian;
+    return *this;
+}
+
+ByteData& ByteData::operator=(const ByteDataStreamBase& stream) {
+    const unsigned long length = stream.getDataLength();
+    reserve(length);
+    m_len = length;
+    if (length > 0) stream.readData(m_buf, length);
+    return *this;
+}
+
+void ByteData::reserve(unsigned long length) {
+    if (length <= m_capacity) return;
+    const unsigned long capacity = std::max(length, 2 * m_capacity);
+    auto* grown = new unsigned char[capacity];
+    if (m_len > 0) std::memcpy(grown, m_buf, m_len);
+    delete[] m_buf;
+    m_buf = grown;
+    m_capacity = capacity;
+}
+
+void ByteData::readData(unsigned char* data, unsigned long length) const {
+    const unsigned long n = std::min(length, m_len);
+    if (n > 0) std::memcpy(data, m_buf, n);
+}
+
+void ByteData::writeData(const unsigned char* data, unsigned long length) {
+    reserve(length);
+    if (length > 0) std::memcpy(m_buf, data, length);
+    m_len = length;
+}
+
+void ByteData::setDataLength(unsigned long length) {
+    reserve(length);
+    if (length > m_len) std::memset(m_buf + m_len, 0, length - m_len);
+    m_len = length;
+}
+
+ByteDataStreamBase::~ByteDataStreamBase() = default;
+void ByteDataStreamBase::init(const coil::Properties&) {}
+void ByteDataStreamBase::isLittleEndian(bool) {}
+
+const unsigned char* CORBA_CdrMemoryStream::getBuffer() {
+    return static_cast<const unsigned char*>(m_cdr.bufPtr());
+}
+unsigned long CORBA_CdrMemoryStream::getCdrDataLength() const { return m_cdr.bufSize(); }
+
+void CORBA_CdrMemoryStream::writeCdrData(const unsigned char* buffer, unsigned long length) {
+    m_cdr.rewindPtrs();
+    m_cdr.setByteSwapFlag(m_endian);
+    m_cdr.put_octet_array(buffer, static_cast<int>(length));
+}
+
+void CORBA_CdrMemoryStream::readCdrData(unsigned char* buffer, unsigned long length) const {
+    const unsigned long n = std::min<unsigned long>(length, m_cdr.bufSize());
+    if (n > 0) std::memcpy(buffer, m_cdr.bufPtr(), n);
+}
+
+} // namespace RTC

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <rtm/ConfigAdmin.h>
+
+namespace RTC {
+
+using Lock = std::lock_guard<std::recursive_mutex>;
+
+void ConfigAdmin::add(std::unique_ptr<ConfigBase> param) {
+    Lock lock(m_mutex);
+    const std::string name = param->name;
+    m_params.push_back(std::move(param));
+    apply(m_activeId.c_str(), name.c_str());
+}
+
+bool ConfigAdmin::unbindParameter(const char* param_name) {
+    Lock lock(m_mutex);
+    auto found =
+        std::find_if(m_params.begin(), m_params.end(), [&](auto& p) { return p->name == param_name; });
+    if (found == m_params.end()) return false;
+    m_params.erase(found);
+    return true;
+}
+
+void ConfigAdmin::update() {
+    Lock lock(m_mutex);
+    m_changedParam.clear();
+    if (!m_changed || !m_active) return;
+    update(m_activeId.c_str());
+    m_changed = false;
+}
+
+void ConfigAdmin::update(const char* config_set) {
+    Lock lock(m_mutex);
+    if (!haveConfig(config_set)) return;
+    apply(config_set, nullptr);
+    notifyName(ON_UPDATE_CONFIG_SET, config_set);
+}
+
+void ConfigAdmin::update(const char* config_set, const char* config_param) {
+    Lock lock(m_mutex);
+    apply(config_set, config_param);
+}
+
+void ConfigAdmin::apply(const char* config_set, const char* only_param) {
+    const coil::Properties* set = m_configsets.hasKey(config_set);
+    if (set == nullptr) return;
+    for (auto& param : m_params) {
+        if (only_param != nullptr && param->name != only_param) continue;
+        if (set->hasKey(param->name.c_str()) == nullptr) continue;
+        if (!param->update(set->getProperty(param->name).c_str())) continue;
+        m_changedParam.push_back(param->name);
+        m_paramListeners.forEach([&](auto& listener) { listener(config_set, param->name.c_str()); });
+    }
+}
+
+bool ConfigAdmin::isExist(const char* param_name) const {
+    Lock lock(m_mutex);
+    return std::any_of(m_params.begin(), m_params.end(), [&](auto& p) { return p->name == param_name; });
+}
+
+bool ConfigAdmin::haveConfig(const char* config_id) const {
+    Lock lock(m_mutex);
+    return m_configsets.hasKey(config_id) != nullptr;
+}
+
+std::vector<coil::Properties*> ConfigAdmin::getConfigurationSets() const {
+    Lock lock(m_mutex);
+    std::vector<coil::Properties*> sets;
+    for (auto* set : m_configsets.getLeaf()) sets.push_back(set);
+    return sets;
+}
+
+coil::Properties ConfigAdmin::getConfigurationSet(const char* config_id) const {
+    Lock lock(m_mutex);
+    const coil::Properties* set = m_configsets.hasKey(config_id);
+    return set == nullptr ? coil::Properties(config_id) : *set;
+}
+
+bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) {
+    Lock lock(m_mutex);
+    if (std::string(config_set.getName()).empty() || !haveConfig(config_set.getName())) return false;
+    m_configsets.getNode(config_set.getName()) << config_set;
+    m_changed = true;
+    notifySet(ON_SET_CONFIG_SET, config_set);
+    return true;
+}
+
+bool ConfigAdmin::addConfigurationSet(const coil::Properties& config_set) {
+    Lock lock(m_mutex);
+    if (std::string(config_set.getName()).empty() || haveConfig(config_set.getName())) return false;
+    m_configsets.getNode(config_set.getName()) << config_set;
+    m_newConfig.push_back(config_set.getName());
+    notifySet(ON_ADD_CONFIG_SET, config_set);
+    return true;
+}
+
+bool ConfigAdmin::removeConfigurationSet(const char* config_id) {
+    Lock lock(m_mutex);
+    auto found = std::find(m_newConfig.begin(), m_newConfig.end(), config_id); // only those that were added
+    if (m_activeId == config_id || found == m_newConfig.end()) return false;
+    delete m_configsets.removeNode(config_id);
+    m_newConfig.erase(found);
+    notifyName(ON_REMOVE_CONFIG_SET, config_id);
+    return true;
+}
+
+bool ConfigAdmin::activateConfigurationSet(const char* config_id) {
+    Lock lock(m_mutex);
+    // Sets whose name begins with __ describe parameters, they hold no values.
+    if (config_id == nullptr || std::string(config_id).compare(0, 2, "__") == 0 || !haveConfig(config_id))
+        return false;
+    m_activeId = config_id;
+    m_active = true;
+    m_changed = true;
+    notifyName(ON_ACTIVATE_CONFIG_SET, config_id);
+    return true;
+}
+
+void ConfigAdmin::notifySet(ConfigurationSetListenerType type, const coil::Properties& set) {
+    m_setListeners[static_cast<std::size_t>(type)].forEach([&](auto& listener) { listener(set); });
+}
+void ConfigAdmin::notifyName(ConfigurationSetNameListenerType type, const char* name) {
+    m_nameListeners[static_cast<std::size_t>(type)].forEach([&](auto& listener) { listener(name); });
+}
+
+void ConfigAdmin::addConfigurationParamListener(ConfigurationParamListenerType,
+                                                ConfigurationParamListener* listener, bool autoclean) {
+    m_paramListeners.addListener(listener, autoclean);
+}
+void ConfigAdmin::removeConfigurationParamListener(ConfigurationParamListenerType,
+                                                   ConfigurationParamListener* listener) {
+    m_paramListeners.removeListener(listener);
+}
+void ConfigAdmin::addConfigurationSetListener(ConfigurationSetListenerType type,
+                                              ConfigurationSetListener* listener, bool autoclean) {
+    m_setListeners.at(static_cast<std::size_t>(type)).addListener(listener, autoclean);
+}
+void ConfigAdmin::removeConfigurationSetListener(ConfigurationSetListenerType type,
+                                                 ConfigurationSetListener* listener) {
+    m_setListeners.at(static_cast<std::size_t>(type)).removeListener(listener);
+}
+void ConfigAdmin::addConfigurationSetNameListener(ConfigurationSetNameListenerType type,
+                                                  ConfigurationSetNameListener* listener, bool autoclean) {
+    m_nameListeners.at(static_cast<std::size_t>(type)).addListener(listener, autoclean);
+}
+void ConfigAdmin::removeConfigurationSetNameListener(ConfigurationSetNameListenerType type,
+                                                     ConfigurationSetNameListener* listener) {
+    m_nameListeners.at(static_cast<std::size_t>(type)).removeListener(listener);
+}
+
+} // namespace RTC

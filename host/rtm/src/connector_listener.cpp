@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <rtm/ConnectorListener.h>
+#include <rtm/Timestamp.h>
+
+namespace RTC {
+
+const char* ConnectorDataListener::toString(ConnectorDataListenerType type) {
+    static const char* const names[] = {"ON_BUFFER_WRITE",     "ON_BUFFER_FULL",   "ON_BUFFER_WRITE_TIMEOUT",
+                                        "ON_BUFFER_OVERWRITE", "ON_BUFFER_READ",   "ON_SEND",
+                                        "ON_RECEIVED",         "ON_RECEIVER_FULL", "ON_RECEIVER_TIMEOUT",
+                                        "ON_RECEIVER_ERROR"};
+    return type < ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM ? names[static_cast<int>(type)] : "";
+}
+
+const char* ConnectorListener::toString(ConnectorListenerType type) {
+    static const char* const names[] = {"ON_BUFFER_EMPTY",   "ON_BUFFER_READ_TIMEOUT", "ON_SENDER_EMPTY",
+                                        "ON_SENDER_TIMEOUT", "ON_SENDER_ERROR",        "ON_CONNECT",
+                                        "ON_DISCONNECT"};
+    return type < ConnectorListenerType::CONNECTOR_LISTENER_NUM ? names[static_cast<int>(type)] : "";
+}
+
+ConnectorDataListener::~ConnectorDataListener() = default;
+ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInfo& info, ByteData& data,
+                                                                    const std::string&) {
+    cdrMemoryStream stream;
+    stream.setByteSwapFlag(data.getEndian());
+    stream.put_octet_array(data.getBuffer(), static_cast<int>(data.getDataLength()));
+    (*this)(static_cast<const ConnectorInfo&>(info), static_cast<const cdrMemoryStream&>(stream));
+    return NO_CHANGE;
+}
+void ConnectorDataListener::operator()(const ConnectorInfo&, const cdrMemoryStream&) {}
+
+ConnectorListener::~ConnectorListener() = default;
+ConnectorListener::ReturnCode ConnectorListener::operator()(ConnectorInfo& info) {
+    (*this)(static_cast<const ConnectorInfo&>(info));
+    return NO_CHANGE;
+}
+void ConnectorListener::operator()(const ConnectorInfo&) {}
+
+template <class Listener>
+ConnectorListeners::Holder<Listener>::~Holder() {
+    for (auto& entry : listeners)
+        if (entry.second) delete entry.first;
+}
+
+template <class Listener>
+void ConnectorListeners::Holder<Listener>::add(Listener* listener, bool autoclean) {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    listeners.emplace_back(listener, autoclean);
+    count.store(listeners.size(), std::memory_order_release);
+}
+
+template <class Listener>
+bool ConnectorListeners::Holder<Listener>::remove(Listener* listener) {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    auto found = std::find_if(listeners.begin(), listeners.end(),
+                              [&](auto& entry) { return entry.first == listener; });
+    if (found == listeners.end()) return false;
+    if (found->second) delete found->first;
+    listeners.erase(found);
+    count.store(listeners.size(), std::memory_order_release);
+    return true;
+}
+
+ConnectorListeners::~ConnectorListeners() = default;
+
+bool ConnectorListeners::addListener(ConnectorDataListenerType type, ConnectorDataListener* listener,
+                                     bool autoclean) {
+    if (index(type) >= data_.size() || listener == nullptr) return false;
+    data_[index(type)].add(listener, autoclean);
+    return true;
+}
+bool ConnectorListeners::addListener(ConnectorListenerType type, ConnectorListener* listener,
+                                     bool autoclean) {
+    if (index(type) >= info_.size() || listener == nullptr) return false;
+    info_[index(type)].add(listener, autoclean);
+    return true;
+}
+bool ConnectorListeners::removeListener(ConnectorDataListenerType type, ConnectorDataListener* listener) {
+    return index(type) < data_.size() && data_[index(type)].remove(listener);
+}
+bool ConnectorListeners::removeListener(ConnectorListenerType type, ConnectorListener* listener) {
+    return index(type) < info_.size() && info_[index(type)].remove(listener);
+}
+
+ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type, ConnectorInfo& info,
+                                                       ByteData& data, const std::string& marshalingtype) {
+    auto& holder = data_[index(type)];
+    std::lock_guard<std::recursive_mutex> lock(holder.mutex);
+    auto result = ConnectorListenerStatus::NO_CHANGE;
+    for (std::size_t i = 0; i < holder.listeners.size(); ++i)
+        result = result | (*holder.listeners[i].first)(info, data, marshalingtype);
+    return result;
+}
+
+ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorListenerType type, ConnectorInfo& info) {
+    auto& holder = info_[index(type)];
+    std::lock_guard<std::recursive_mutex> lock(holder.mutex);
+    auto result = ConnectorListenerStatus::NO_CHANGE;
+    for (std::size_t i = 0; i < holder.listeners.size(); ++i)
+        result = result | (*holder.listeners[i].first)(info);
+    return result;
+}
+
+TimestampPolicy timestampPolicy(const coil::Properties& properties) {
+    const std::string policy = coil::normalize(properties.getProperty("timestamp_policy"));
+    if (policy == "on_write") return TimestampPolicy::on_write;
+    if (policy == "on_send") return TimestampPolicy::on_send;
+    if (policy == "on_received") return TimestampPolicy::on_received;
+    if (policy == "on_read") return TimestampPolicy::on_read;
+    return TimestampPolicy::none;
+}
+
+} // namespace RTC

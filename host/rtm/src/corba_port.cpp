@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <rtm/CorbaPort.h>
+#include <rtm/Manager.h>
+
+namespace RTC {
+
+/// A servant with an object id of its own, reachable while it is activated.
+class CorbaPort::Provider {
+  public:
+    Provider(const char* type, const char* instance, PortableServer::ServantBase& servant)
+        : descriptor_(std::string(type) + "." + instance), servant_(&servant),
+          poa_(Manager::instance().getShortCutPOA()) {
+        id_ = poa_->activate_object(servant_);
+        CORBA::Object_var reference = poa_->id_to_reference(id_.in());
+        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(reference.in());
+        ior_ = ior.in();
+        poa_->deactivate_object(id_.in());
+    }
+    ~Provider() { deactivate(); }
+
+    void activate() {
+        if (active_) return;
+        poa_->activate_object_with_id(id_.in(), servant_);
+        active_ = true;
+    }
+    void deactivate() {
+        if (!active_) return;
+        active_ = false;
+        try {
+            poa_->deactivate_object(id_.in());
+        } catch (const CORBA::Exception&) {
+            // the ORB has gone down before: nothing is left to deactivate
+        }
+    }
+    const std::string& descriptor() const { return descriptor_; }
+    const std::string& ior() const { return ior_; }
+
+  private:
+    std::string descriptor_;
+    PortableServer::ServantBase* servant_;
+    PortableServer::POA_var poa_;
+    PortableServer::ObjectId_var id_;
+    std::string ior_;
+    bool active_ = false;
+};
+
+CorbaPort::CorbaPort(const char* name) : PortBase(name) { addProperty("port.port_type", "CorbaPort"); }
+CorbaPort::~CorbaPort() { retire(); }
+
+void CorbaPort::init(coil::Properties& prop) {
+    m_properties << prop;
+    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    int limit = -1;
+    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
+        setConnectionLimit(limit);
+}
+
+bool CorbaPort::registerProvider(const char* instance_name, const char* type_name,
+                                 PortableServer::ServantBase& provider) {
+    if (!appendInterface(instance_name, type_name, PROVIDED)) return false;
+    try {
+        m_providers.push_back(std::make_unique<Provider>(type_name, instance_name, provider));
+        return true;
+    } catch (const CORBA::Exception& e) {
+        RTC_ERROR(("provider %s.%s cannot be activated: %s", type_name, instance_name, e._name()));
+        deleteInterface(instance_name, PROVIDED);
+        return false;
+    }
+}
+
+bool CorbaPort::registerConsumer(const char* instance_name, const char* type_name,
+                                 CorbaConsumerBase& consumer) {
+    if (!appendInterface(instance_name, type_name, REQUIRED)) return false;
+    m_consumers.push_back({type_name, instance_name, &consumer, ""});
+    return true;
+}
+
+void CorbaPort::activateInterfaces() {
+    for (auto& provider : m_providers) {
+        try {
+            provider->activate();
+        } catch (const CORBA::Exception& e) {
+            RTC_ERROR(("provider %s cannot be activated: %s", provider->descriptor().c_str(), e._name()));
+        }
+    }
+}
+void CorbaPort::deactivateInterfaces() {
+    for (auto& provider : m_providers) provider->deactivate();
+}
+
+// <component>.port.<port>.<polarity>.<type>.<instance>
+std::string CorbaPort::key(const char* polarity, const std::string& descriptor) const {
+    const std::string name(m_profile.name);
+    return m_ownerInstanceName + ".port." + name.substr(name.rfind('.') + 1) + "." + polarity + "." +
+           descriptor;
+}
+
+ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
+    const ReturnCode_t allowed = _publishInterfaces();
+    if (allowed != RTC_OK) return allowed;
+    for (auto& provider : m_providers) {
+        CORBA_SeqUtil::push_back(
+            profile.properties,
+            NVUtil::newNV(key("provided", provider->descriptor()).c_str(), provider->ior().c_str()));
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(("port." + provider->descriptor()).c_str(),
+                                                                   provider->ior().c_str()));
+    }
+    return RTC_OK;
+}
+
+// An explicit mapping first, else the provider of the same type and instance name; empty when there is none.
+std::string CorbaPort::providerFor(const NVList& properties, const Consumer& consumer) const {
+    const std::string mapped = NVUtil::toString(properties, key("required", consumer.descriptor()).c_str());
+    if (mapped == "nil" || mapped == "null") return mapped;
+    const std::string ior = mapped.empty() ? "" : NVUtil::toString(properties, mapped.c_str());
+    return ior.empty() ? NVUtil::toString(properties, ("port." + consumer.descriptor()).c_str()) : ior;
+}
+
+ReturnCode_t CorbaPort::subscribeInterfaces(const ConnectorProfile& profile) {
+    const bool strict = NVUtil::isStringValue(profile.properties, "port.connection.strictness", "strict");
+    for (auto& consumer : m_consumers) {
+        const std::string ior = providerFor(profile.properties, consumer);
+        if (!ior.empty() && give(ior, consumer)) continue;
+        const std::string why = std::string(getName()) + ": no provider for " + consumer.type +
+                                ", instance name " + consumer.instance + ", on the other side";
+        if (strict) return refuse(RTC_ERROR, why);
+        if (ior.empty()) RTC_DEBUG(("%s", why.c_str()));
+    }
+    return RTC_OK;
+}
+
+bool CorbaPort::give(const std::string& ior, Consumer& consumer) {
+    if (ior == "nil" || ior == "null") return true;
+    try {
+        CORBA::Object_var object = Manager::instance().theORB()->string_to_object(ior.c_str());
+        if (!consumer.consumer->setObject(object.in())) {
+            RTC_ERROR(("%s: what %s was given is not a %s", getName(), consumer.instance.c_str(),
+                       consumer.type.c_str()));
+            return false;
+        }
+    } catch (const CORBA::SystemException& e) {
+        RTC_ERROR(("%s: the provider for %s cannot be reached: %s", getName(), consumer.instance.c_str(),
+                   e._name()));
+        return false;
+    }
+    consumer.ior = ior;
+    return true;
+}
+
+void CorbaPort::unsubscribeInterfaces(const ConnectorProfile& profile) {
+    for (auto& consumer : m_consumers) {
+        if (consumer.ior.empty() || providerFor(profile.properties, consumer) != consumer.ior) continue;
+        consumer.consumer->releaseObject();
+        consumer.ior.clear();
+    }
+}
+
+} // namespace RTC

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_port.hpp"
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/Manager.h>
+#include <rtm/NVUtil.h>
+
+namespace RTC {
+
+coil::Properties connector_properties(const coil::Properties& port, const ConnectorProfile& profile,
+                                      const char* side) {
+    coil::Properties all = NVUtil::toProperties(profile.properties);
+    coil::Properties merged(port);
+    merged << all.getNode("dataport");
+    merged << all.getNode(std::string("dataport.") + side);
+    return merged;
+}
+
+ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties) {
+    coil::vstring ports;
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
+        CORBA::String_var ior = Manager::instance().theORB()->object_to_string(profile.ports[i]);
+        ports.push_back(ior.in());
+    }
+    return ConnectorInfo(profile.name, profile.connector_id, ports, properties);
+}
+
+CORBA::Object_ptr published_object(const ConnectorProfile& profile, const std::string& key) {
+    const CORBA::Long index = NVUtil::find_index(profile.properties, (key + "_ref").c_str());
+    CORBA::Object_var object;
+    if (index >= 0 &&
+        (profile.properties[static_cast<CORBA::ULong>(index)].value >>= CORBA::Any::to_object(object.out())))
+        return object._retn();
+    const std::string ior = NVUtil::toString(profile.properties, (key + "_ior").c_str());
+    return ior.empty() ? CORBA::Object::_nil() : Manager::instance().theORB()->string_to_object(ior.c_str());
+}
+
+void publish_object(ConnectorProfile& profile, const std::string& key, CORBA::Object_ptr object,
+                    const std::string& ior) {
+    CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV((key + "_ior").c_str(), ior.c_str()));
+    CORBA::Any reference;
+    reference <<= object;
+    CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNVAny((key + "_ref").c_str(), reference));
+}
+
+} // namespace RTC

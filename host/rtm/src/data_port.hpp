@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What both kinds of data ports do with connection profiles.
+#pragma once
+#include <rtm/ConnectorBase.h>
+#include <string>
+
+namespace RTC {
+
+/// The properties of a connector as one side sees them: the port's own, then `dataport.*`, then
+/// `dataport.<side>.*` (side: inport or outport); keys without those prefixes.
+coil::Properties connector_properties(const coil::Properties& port, const ConnectorProfile& profile,
+                                      const char* side);
+
+ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);
+
+/// A reference published as an object or as an IOR under `<key>_ref` and `<key>_ior`; nil when there is none.
+CORBA::Object_ptr published_object(const ConnectorProfile& profile, const std::string& key);
+void publish_object(ConnectorProfile& profile, const std::string& key, CORBA::Object_ptr object,
+                    const std::string& ior);
+
+} // namespace RTC

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all execution contexts share: participants, transitions, the cycle.
+#include "participant.hpp"
+#include <coil/stringutil.h>
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/ExecutionContextBase.h>
+#include <rtm/Manager.h>
+
+namespace RTC {
+
+ExecutionContextBase::ExecutionContextBase(const char* name) : rtclog(name) {}
+ExecutionContextBase::~ExecutionContextBase() = default;
+
+void deleteExecutionContext(ExecutionContextBase* context) {
+    if (auto* servant = dynamic_cast<PortableServer::ServantBase*>(context)) servant->_remove_ref();
+}
+
+void ExecutionContextBase::init(coil::Properties& props) {
+    m_properties << props;
+    double rate = 0, phase_ms = 0, timeout = 0;
+    if (coil::stringTo(rate, m_properties.getProperty("rate").c_str()) && rate > 0) m_rate = rate;
+    if (coil::stringTo(phase_ms, m_properties.getProperty("phase").c_str()))
+        m_phase = std::chrono::nanoseconds(static_cast<std::int64_t>(phase_ms * 1e6));
+    m_sync = coil::toBool(m_properties.getProperty("sync_transition"), "YES", "NO", true);
+    if (coil::stringTo(timeout, m_properties.getProperty("transition_timeout").c_str()) && timeout > 0)
+        m_timeout = std::chrono::nanoseconds(static_cast<std::int64_t>(timeout * 1e9));
+}
+
+ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
+    RTObject_var ref = rtc->getObjRef();
+    const UniqueId id = rtc->bindContext(m_objref.in());
+    if (id < 0) return RTC_ERROR;
+    std::lock_guard<std::mutex> lock(m_mutex);
+    m_owner = ref;
+    m_participants.push_back(std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()));
+    return RTC_OK;
+}
+
+bool ExecutionContextBase::isRunning() const {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return m_running;
+}
+
+ReturnCode_t ExecutionContextBase::start() {
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        if (m_running) return PRECONDITION_NOT_MET;
+        m_running = true;
+    }
+    forEach(&RTC_impl::RTObjectStateMachine::startup);
+    return onStarted();
+}
+
+ReturnCode_t ExecutionContextBase::stop() {
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        if (!m_running) return PRECONDITION_NOT_MET;
+        m_running = false;
+    }
+    const ReturnCode_t result = onStopping();
+    if (result == RTC_OK) forEach(&RTC_impl::RTObjectStateMachine::shutdown);
+    return result;
+}
+
+double ExecutionContextBase::getRate() const {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return m_rate;
+}
+
+std::chrono::nanoseconds ExecutionContextBase::getPeriod() const {
+    return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / getRate() + 0.5));
+}
+
+ReturnCode_t ExecutionContextBase::setRate(double rate) {
+    if (!(rate > 0)) return BAD_PARAMETER;
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        m_rate = rate;
+    }
+    onSetRate(rate);
+    forEach(&RTC_impl::RTObjectStateMachine::rateChanged);
+    return RTC_OK;
+}
+
+void ExecutionContextBase::forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)()) {
+    for (auto& participant : participants()) (participant.get()->*call)();
+}
+
+std::vector<ExecutionContextBase::Participant> ExecutionContextBase::participants() const {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return m_participants;
+}
+
+ExecutionContextBase::Participant ExecutionContextBase::find(LightweightRTObject_ptr comp) {
+    if (CORBA::is_nil(comp)) return nullptr;
+    for (auto& participant : participants())
+        if (participant->is(comp)) return participant;
+    return nullptr;
+}
+
+ReturnCode_t ExecutionContextBase::addComponent(LightweightRTObject_ptr comp) {
+    if (CORBA::is_nil(comp)) return BAD_PARAMETER;
+    if (find(comp)) return PRECONDITION_NOT_MET;
+    try {
+        const UniqueId id = comp->attach_context(m_objref.in());
+        std::lock_guard<std::mutex> lock(m_mutex);
+        m_participants.push_back(std::make_shared<RTC_impl::RTObjectStateMachine>(id, comp));
+        return RTC_OK;
+    } catch (const CORBA::SystemException&) {
+        return RTC_ERROR;
+    }
+}
+
+ReturnCode_t ExecutionContextBase::removeComponent(LightweightRTObject_ptr comp) {
+    Participant leaving = find(comp);
+    if (!leaving) return BAD_PARAMETER;
+    if (leaving->state() != INACTIVE_STATE) return PRECONDITION_NOT_MET;
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        std::erase(m_participants, leaving);
+    }
+    try {
+        comp->detach_context(comp->get_context_handle(m_objref.in()));
+    } catch (const CORBA::SystemException&) {
+        RTC_WARN(("a component that was removed cannot be reached"));
+    }
+    return RTC_OK;
+}
+
+LifeCycleState ExecutionContextBase::getComponentState(LightweightRTObject_ptr comp) {
+    Participant participant = find(comp);
+    return participant ? participant->state() : CREATED_STATE;
+}
+
+const char* ExecutionContextBase::getStateString(LifeCycleState state) {
+    static const char* const names[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
+    return state <= ERROR_STATE ? names[state] : "unknown";
+}
+
+ExecutionContextProfile* ExecutionContextBase::getProfile() {
+    ExecutionContextProfile_var profile = new ExecutionContextProfile;
+    profile->kind = m_kind;
+    profile->rate = getRate();
+    profile->owner = RTObject::_duplicate(m_owner.in());
+    for (auto& participant : participants()) {
+        RTObject_var one = RTObject::_narrow(participant->reference());
+        if (!CORBA::is_nil(one.in()) && !one->_is_equivalent(m_owner.in()))
+            CORBA_SeqUtil::push_back(profile->participants, one);
+    }
+    NVUtil::copyFromProperties(profile->properties, m_properties);
+    return profile._retn();
+}
+
+void ExecutionContextBase::retire() {
+    stop();
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        m_participants.clear();
+        m_owner = RTObject::_nil();
+    }
+    try {
+        PortableServer::POA_ptr poa = Manager::instance().thePOA();
+        PortableServer::ObjectId_var id = poa->servant_to_id(servant());
+        poa->deactivate_object(id.in());
+    } catch (const CORBA::Exception&) {
+        // deactivated before, or the ORB is gone
+    }
+}
+
+} // namespace RTC

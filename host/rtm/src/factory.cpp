@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <rtm/Factory.h>
+#include <rtm/RTObject.h>
+
+namespace RTM {
+
+std::string ProcessUniquePolicy::onCreate(void* object) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    auto free = std::find(objects_.begin(), objects_.end(), nullptr);
+    const auto number = free - objects_.begin();
+    if (free == objects_.end())
+        objects_.push_back(object);
+    else
+        *free = object;
+    return std::to_string(number);
+}
+
+void ProcessUniquePolicy::onDelete(void* object) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    std::replace(objects_.begin(), objects_.end(), object, static_cast<void*>(nullptr));
+}
+
+} // namespace RTM
+
+namespace RTC {
+
+RTObject_impl* FactoryCXX::create(Manager* manager) {
+    std::unique_ptr<RTObject_impl, RtcDeleteFunc> object(m_New(manager), m_Delete);
+    if (object == nullptr) return nullptr;
+    ++m_Number;
+    object->setProperties(m_Profile);
+    const std::string name = m_Profile.getProperty("type_name") + m_policy.onCreate(object.get());
+    object->setInstanceName(name.c_str());
+    return object.release();
+}
+
+void FactoryCXX::destroy(RTObject_impl* comp) {
+    --m_Number;
+    m_policy.onDelete(comp);
+    m_Delete(comp);
+}
+
+} // namespace RTC

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_port.hpp"
+#include "in_port_connectors.hpp"
+#include "local_object.hpp"
+#include <rtm/InPortBase.h>
+#include <rtm/OutPortBase.h>
+
+namespace RTC {
+
+InPortBase::InPortBase(const char* name, const char* data_type)
+    : PortBase(name), m_thebuffer(new CdrRingBuffer) {
+    addProperty("port.port_type", "DataInPort");
+    addProperty("dataport.data_type", data_type);
+    addProperty("dataport.subscription_type", "Any");
+    addProperty("dataport.dataflow_type", "push, pull");
+    addProperty("dataport.interface_type", "corba_cdr, direct");
+}
+
+InPortBase::~InPortBase() {
+    retire();
+    for (auto* connector : m_connectors) delete connector;
+    delete m_thebuffer;
+}
+
+void InPortBase::init(coil::Properties& prop) {
+    m_properties << prop;
+    if (const auto* node = m_properties.findNode("buffer")) m_thebuffer->init(*node);
+    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    int limit = -1;
+    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
+        setConnectionLimit(limit);
+}
+
+ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
+    const ReturnCode_t allowed = _publishInterfaces();
+    if (allowed != RTC_OK) return allowed;
+    const coil::Properties prop = connector_properties(m_properties, profile, "inport");
+    const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
+    if (flow == "pull") return RTC_OK;
+    if (flow != "push")
+        return refuse(BAD_PARAMETER,
+                      std::string(getName()) + ": dataflow_type is " + flow + ", expected push or pull");
+    return addPushConnector(profile, prop);
+}
+
+ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    const std::string type = coil::eraseBothEndsBlank(prop.getProperty("buffer_type", "ring_buffer"));
+    CdrBufferBase* buffer = m_thebuffer;
+    const bool own = type != "ring_buffer" || !m_singlebuffer;
+    if (own) {
+        buffer = CdrBufferFactory::instance().createObject(type);
+        if (buffer == nullptr)
+            return refuse(BAD_PARAMETER, std::string(getName()) + ": there is no buffer type " + type +
+                                             "; add it to RTC::CdrBufferFactory before connecting");
+    }
+    if (own || info.properties.findNode("buffer") != nullptr) buffer->init(info.properties.getNode("buffer"));
+    auto* connector = new InPortPushConnector(*this, info, buffer, own);
+    publish_object(profile, "dataport.corba_cdr.inport", connector->servant().reference(),
+                   connector->servant().ior());
+    addConnector(connector);
+    return RTC_OK;
+}
+
+ReturnCode_t InPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
+    const coil::Properties prop = connector_properties(m_properties, profile, "inport");
+    if (coil::normalize(prop.getProperty("dataflow_type", "push")) != "pull") return RTC_OK;
+    return addPullConnector(profile, prop);
+}
+
+ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
+        auto* port = local_object<OutPortBase>(profile.ports[i]);
+        auto outlet = port ? port->outlet(profile.connector_id) : nullptr;
+        if (outlet == nullptr) continue;
+        addConnector(new InPortPullConnector(*this, info, outlet));
+        return RTC_OK;
+    }
+    CORBA::Object_var object = published_object(profile, "dataport.corba_cdr.outport");
+    OpenRTM::OutPortCdr_var remote = OpenRTM::OutPortCdr::_unchecked_narrow(object.in());
+    if (CORBA::is_nil(remote.in()))
+        return refuse(RTC_ERROR,
+                      std::string(getName()) + ": the other side offers no corba_cdr reference to pull from");
+    addConnector(new InPortPullConnector(*this, info, remote.in()));
+    return RTC_OK;
+}
+
+void InPortBase::addConnector(InPortConnector* connector) {
+    ConnectorInfo info = connector->profile();
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        m_connectors.push_back(connector);
+    }
+    m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
+}
+
+void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
+    std::unique_ptr<InPortConnector> leaving;
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        for (auto it = m_connectors.begin(); it != m_connectors.end(); ++it) {
+            if (std::string((*it)->id()) != static_cast<const char*>(profile.connector_id)) continue;
+            leaving.reset(*it);
+            m_connectors.erase(it);
+            break;
+        }
+    }
+    if (!leaving) return;
+    // Outside the lock: a listener on its way may be reading this port.
+    leaving->disconnect();
+    ConnectorInfo info = leaving->profile();
+    m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
+}
+
+std::shared_ptr<DataInlet> InPortBase::inlet(const char* connector_id) {
+    auto* connector = dynamic_cast<InPortPushConnector*>(getConnectorById(connector_id));
+    return connector ? connector->inlet() : nullptr;
+}
+
+InPortConnector* InPortBase::readable() {
+    std::lock_guard<std::mutex> lock(m_connectorsMutex);
+    return readableLocked("", false);
+}
+
+InPortConnector* InPortBase::readableLocked(const std::string& name, bool or_first) {
+    InPortConnector* first = nullptr;
+    for (auto* connector : m_connectors) {
+        if (!name.empty() && name != connector->name()) continue;
+        if (first == nullptr) first = connector;
+        if (connector->getBuffer()->readable() > 0) return connector;
+    }
+    return or_first ? first : nullptr;
+}
+
+void InPortBase::stampReceived(ByteData&) {}
+void InPortBase::activateInterfaces() {}
+void InPortBase::deactivateInterfaces() {}
+
+} // namespace RTC

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "in_port_connectors.hpp"
+#include <rtm/InPortBase.h>
+
+namespace RTC {
+
+InPortConnector::InPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners,
+                                 CdrBufferBase* buffer)
+    : m_profile(info), m_listeners(listeners), m_buffer(buffer),
+      m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
+      m_timestamp(timestampPolicy(info.properties)) {}
+
+InPortConnector::~InPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
+
+DataPortStatus InPortConnector::read(ByteDataStreamBase* stream) {
+    const DataPortStatus status = read(m_bytes);
+    if (status != DataPortStatus::PORT_OK) return status;
+    stream->isLittleEndian(m_bytes.getEndian());
+    stream->writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
+    return status;
+}
+
+DataPortStatus InPortConnector::read(ByteData& bytes) { return report(m_buffer->read(bytes), bytes); }
+
+DataPortStatus InPortConnector::report(BufferStatus status, ByteData& bytes) {
+    switch (status) {
+    case BufferStatus::OK:
+        m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);
+        return DataPortStatus::PORT_OK;
+    case BufferStatus::EMPTY:
+        m_listeners->notify(ConnectorListenerType::ON_BUFFER_EMPTY, m_profile);
+        return DataPortStatus::BUFFER_EMPTY;
+    case BufferStatus::TIMEOUT:
+        m_listeners->notify(ConnectorListenerType::ON_BUFFER_READ_TIMEOUT, m_profile);
+        return DataPortStatus::BUFFER_TIMEOUT;
+    case BufferStatus::PRECONDITION_NOT_MET:
+        return DataPortStatus::PRECONDITION_NOT_MET;
+    default:
+        return DataPortStatus::BUFFER_ERROR;
+    }
+}
+
+BufferStatus InPortConnector::write(ByteData& bytes) { return m_buffer->write(bytes); }
+
+InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer,
+                                         bool own)
+    : InPortConnector(info, port.getListeners(), buffer), own_(own),
+      inlet_(std::make_shared<DataInlet>(port, info, *buffer)),
+      servant_(new InPortCdrServant(
+          inlet_, info.properties.getProperty("serializer.cdr.endian", "little").compare(0, 3, "big") != 0)) {
+}
+
+InPortPushConnector::~InPortPushConnector() {
+    disconnect();
+    if (own_) CdrBufferFactory::instance().deleteObject(m_buffer);
+}
+
+DataPortStatus InPortPushConnector::disconnect() {
+    inlet_->close();
+    return DataPortStatus::PORT_OK;
+}
+
+BufferStatus InPortPushConnector::write(ByteData& bytes) {
+    return inlet_->receive(bytes) == DataPortStatus::PORT_OK ? BufferStatus::OK : BufferStatus::BUFFER_ERROR;
+}
+
+InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
+                                         std::shared_ptr<DataOutlet> local)
+    : InPortConnector(info, port.getListeners(), &local->buffer()), local_(std::move(local)) {}
+
+InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
+                                         OpenRTM::OutPortCdr_ptr remote)
+    : InPortConnector(info, port.getListeners(), &unused_), remote_(OpenRTM::OutPortCdr::_duplicate(remote)) {
+}
+
+DataPortStatus InPortPullConnector::read(ByteData& bytes) {
+    const DataPortStatus status = local_ ? local_->fetch(bytes) : fetch(bytes);
+    if (status == DataPortStatus::PORT_OK)
+        m_listeners->notify(ConnectorDataListenerType::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
+    return status;
+}
+
+DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
+    try {
+        OpenRTM::CdrData_var data;
+        const DataPortStatus status = from_wire(remote_->get(data.out()));
+        bytes.isLittleEndian(m_littleEndian);
+        bytes.writeData(data->get_buffer(), data->length());
+        return status == DataPortStatus::RECV_EMPTY ? DataPortStatus::BUFFER_EMPTY : status;
+    } catch (const CORBA::SystemException&) {
+        m_listeners->notify(ConnectorListenerType::ON_SENDER_ERROR, m_profile);
+        return DataPortStatus::CONNECTION_LOST;
+    }
+}
+
+} // namespace RTC

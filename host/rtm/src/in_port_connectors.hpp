@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two kinds of receiving ends.
+#pragma once
+#include "cdr_servants.hpp"
+#include <rtm/InPortConnector.h>
+
+namespace RTC {
+
+/// The other end pushes into an inlet.
+class InPortPushConnector : public InPortConnector {
+  public:
+    /// `own`: the buffer came from CdrBufferFactory for this connector alone.
+    InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer, bool own);
+    ~InPortPushConnector() override;
+    DataPortStatus disconnect() override;
+    BufferStatus write(ByteData& bytes) override;
+    std::shared_ptr<DataInlet> inlet() const { return inlet_; }
+    const ServantHolder& servant() const { return servant_; }
+
+  private:
+    bool own_;
+    std::shared_ptr<DataInlet> inlet_;
+    ServantHolder servant_;
+};
+
+/// This end fetches: from an outlet of this process or by corba_cdr.
+class InPortPullConnector : public InPortConnector {
+  public:
+    InPortPullConnector(InPortBase& port, ConnectorInfo& info, std::shared_ptr<DataOutlet> local);
+    InPortPullConnector(InPortBase& port, ConnectorInfo& info, OpenRTM::OutPortCdr_ptr remote);
+    using InPortConnector::read;
+    DataPortStatus read(ByteData& bytes) override;
+    DataPortStatus disconnect() override { return DataPortStatus::PORT_OK; }
+
+  private:
+    DataPortStatus fetch(ByteData& bytes);
+
+    std::shared_ptr<DataOutlet> local_;
+    OpenRTM::OutPortCdr_var remote_;
+    CdrRingBuffer unused_;
+};
+
+} // namespace RTC

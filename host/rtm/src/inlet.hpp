@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <rtm/ConnectorListener.h>
+#include <rtm/Timestamp.h>
+#include <shared_mutex>
+
+namespace RTC {
+class InPortBase;
+
+/// Where messages for one connector arrive, from a writer of this process or from the ORB. It outlives the
+/// connector: who still holds it when the connection is gone gets CONNECTION_LOST. [any-thread]
+class DataInlet {
+  public:
+    DataInlet(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer);
+
+    /// ON_RECEIVED listeners, then the buffer, then ON_BUFFER_WRITE (or what came of it).
+    DataPortStatus receive(ByteData& bytes);
+    /// Returns when no message is on its way through.
+    void close();
+
+  private:
+    DataPortStatus store(ByteData& bytes);
+
+    std::shared_mutex open_mutex_; // shared by receivers, exclusive to close
+    bool open_ = true;
+    InPortBase& port_;
+    ConnectorListeners& listeners_;
+    ConnectorInfo info_;
+    CdrBufferBase& buffer_;
+    std::string marshaling_type_;
+    TimestampPolicy timestamp_;
+};
+
+} // namespace RTC

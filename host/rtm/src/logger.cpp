@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <atomic>
+#include <coil/stringutil.h>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+#include <rtm/SystemLogger.h>
+#include <sstream>
+#include <vector>
+
+namespace RTC {
+namespace {
+
+constexpr std::array<const char*, 9> level_names{"SILENT", "FATAL", "ERROR",   "WARN",    "INFO",
+                                                 "DEBUG",  "TRACE", "VERBOSE", "PARANOID"};
+std::atomic<int> process_level{Logger::RTL_INFO};
+
+// Files stay open to the end of the process: components log from their destructors, too.
+struct Outputs {
+    std::mutex mutex;
+    std::vector<std::FILE*> files;
+};
+Outputs& outputs() {
+    static auto* the_outputs = new Outputs;
+    return *the_outputs;
+}
+
+std::string now() {
+    timespec t;
+    clock_gettime(CLOCK_REALTIME, &t);
+    tm local;
+    localtime_r(&t.tv_sec, &local);
+    char text[32];
+    const std::size_t n = std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &local);
+    return std::string(text, n) + coil::sprintf(".%03ld", t.tv_nsec / 1000000);
+}
+
+} // namespace
+
+bool Logger::setLevel(const char* level) {
+    const std::string wanted = coil::toUpper(coil::eraseBothEndsBlank(level));
+    for (std::size_t i = 0; i < level_names.size(); ++i) {
+        if (wanted != level_names[i]) continue;
+        process_level = static_cast<int>(i);
+        return true;
+    }
+    return false;
+}
+
+int Logger::processLevel() { return process_level.load(std::memory_order_relaxed); }
+
+bool Logger::addOutput(const std::string& file_name) {
+    std::FILE* file = file_name == "stdout"   ? stdout
+                      : file_name == "stderr" ? stderr
+                                              : std::fopen(file_name.c_str(), "a");
+    if (file == nullptr) return false;
+    std::lock_guard<std::mutex> lock(outputs().mutex);
+    outputs().files.push_back(file);
+    return true;
+}
+
+void Logger::write(int level, const std::string& message) const {
+    if (level < 0 || level >= static_cast<int>(level_names.size())) return;
+    const std::string line = "[" + now() + "] [" +
+                             coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
+                             ": " + message + "\n";
+    std::lock_guard<std::mutex> lock(outputs().mutex);
+    if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
+    for (std::FILE* file : outputs().files) {
+        std::fputs(line.c_str(), file);
+        std::fflush(file);
+    }
+}
+
+void Logger::write(int level, const coil::Properties& properties) const {
+    std::ostringstream text;
+    text << properties;
+    write(level, text.str());
+}
+
+} // namespace RTC

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Creating, finding and deleting components.
+#include "host/plugin/find_library.hpp"
+#include "manager_impl.hpp"
+#include <algorithm>
+#include <rtm/RTObject.h>
+
+namespace RTC {
+namespace {
+
+// What a component takes over from rtc.conf; values set there win over those of its own profile.
+coil::Properties inherited(const coil::Properties& config, const coil::Properties& profile) {
+    coil::Properties out;
+    auto take = [&](const std::string& key) {
+        const std::string set = config.getProperty(key);
+        const bool only_default = set == config.getDefault(key);
+        if (!set.empty() && !(only_default && !profile.getProperty(key).empty())) out.setProperty(key, set);
+    };
+    for (const char* key : {"config.version", "openrtm.name", "openrtm.version", "naming.formats"}) take(key);
+    if (const auto* contexts = config.findNode("exec_cxt"))
+        for (const auto& key : contexts->propertyNames()) take("exec_cxt." + key);
+    return out;
+}
+
+// <category>.<name>.config_file, and what rtc.conf says below <category>.<name>.
+void configure_from(const Manager::Impl& impl, const std::string& node_name, coil::Properties& out) {
+    const auto* node = impl.config.findNode(node_name);
+    if (node == nullptr) return;
+    const std::string file = node->getProperty("config_file");
+    if (!file.empty()) {
+        std::filesystem::path path(coil::replaceEnv(file));
+        if (path.is_relative() && !std::filesystem::exists(path)) path = impl.conf_file.parent_path() / path;
+        read_conf_file(path, out);
+    }
+    out << *node;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+    return names.empty() ? "none" : coil::flatten(names);
+}
+
+} // namespace
+
+RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
+    std::string args = comp_args;
+    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.preCreate(args); });
+    ComponentArguments wanted = parse_component_arguments(args);
+    const std::string type = wanted.id.getProperty("implementation_id");
+
+    std::unique_lock<std::recursive_mutex> lock(m_impl->mutex);
+    FactoryBase* factory = m_impl->find_factory(wanted.id);
+    if (factory == nullptr)
+        throw ManagerError("there is no component type " + type + " (known: " +
+                           listed(getModulesFactories()) + "); name its library in manager.modules.preload");
+    RTObject_impl* component = nullptr;
+    try {
+        component = factory->create(this);
+    } catch (const std::exception& e) {
+        throw ManagerError("component type " + type + " cannot be created: " + e.what());
+    } catch (const CORBA::Exception& e) {
+        throw ManagerError("component type " + type + " cannot be created: CORBA exception " + e._name());
+    }
+    if (component == nullptr) throw ManagerError("component type " + type + " cannot be created");
+    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.postCreate(component); });
+
+    auto give_up = [&](const std::string& why) {
+        component->finalizePorts();
+        component->finalizeContexts();
+        factory->destroy(component);
+        throw ManagerError(why);
+    };
+    const std::string name = wanted.properties.getProperty("instance_name", component->getInstanceName());
+    if (getComponent(name.c_str()) != nullptr) give_up("there is already a component " + name);
+    component->setInstanceName(name.c_str());
+
+    coil::Properties properties = inherited(m_impl->config, factory->profile());
+    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.preConfigure(properties); });
+    try {
+        configure_from(*m_impl, std::string(component->getCategory()) + "." + component->getTypeName(),
+                       properties);
+        configure_from(*m_impl, std::string(component->getCategory()) + "." + name, properties);
+    } catch (const ManagerError& e) {
+        give_up(e.what());
+    }
+    properties << wanted.properties;
+    for (const auto& key : wanted.properties.propertyNames()) // ?gain=2 for the configuration parameter gain
+        if (factory->profile().findNode("conf.default." + key) != nullptr)
+            properties.setProperty("conf.default." + key, wanted.properties.getProperty(key));
+    properties.setProperty("instance_name", name);
+    component->setProperties(properties);
+    component->getProperties().setProperty(
+        "naming.names", format_name(component->getProperties().getProperty("naming.formats"),
+                                    component->getProperties(), m_impl->config));
+    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.postConfigure(properties); });
+
+    m_impl->listeners.rtclifecycle_.forEach([](auto& listener) { listener.preInitialize(); });
+    if (component->initialize() != RTC_OK)
+        give_up("component " + name + " does not start: its onInitialize has failed");
+    m_impl->listeners.rtclifecycle_.forEach([](auto& listener) { listener.postInitialize(); });
+    m_impl->components.push_back({component, factory});
+    m_impl->ever_had_components = true;
+    lock.unlock();
+    registerComponent(component);
+    return *component;
+}
+
+RTObject_impl* Manager::createComponent(const char* comp_args) {
+    Logger& rtclog = m_impl->log;
+    try {
+        return &createOrThrow(comp_args);
+    } catch (const ManagerError& e) {
+        RTC_ERROR(("%s", e.what()));
+        return nullptr;
+    }
+}
+
+bool Manager::registerComponent(RTObject_impl* comp) {
+    if (!m_impl->naming) return true;
+    Logger& rtclog = m_impl->log;
+    coil::vstring names = comp->getNamingNames();
+    m_impl->listeners.naming_.forEach([&](auto& listener) { listener.preBind(comp, names); });
+    RTObject_var ref = comp->getObjRef();
+    bool all = true;
+    for (const auto& name : names)
+        for (const auto& refusal : m_impl->naming->bind(name, ref.in())) {
+            RTC_WARN(("%s", refusal.c_str()));
+            all = false;
+        }
+    m_impl->listeners.naming_.forEach([&](auto& listener) { listener.postBind(comp, names); });
+    return all;
+}
+
+bool Manager::unregisterComponent(RTObject_impl* comp) {
+    if (!m_impl->naming) return true;
+    coil::vstring names = comp->getNamingNames();
+    m_impl->listeners.naming_.forEach([&](auto& listener) { listener.preUnbind(comp, names); });
+    for (const auto& name : names) m_impl->naming->unbind(name);
+    m_impl->listeners.naming_.forEach([&](auto& listener) { listener.postUnbind(comp, names); });
+    return true;
+}
+
+RTObject_impl* Manager::getComponent(const char* instance_name) {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    for (auto& component : m_impl->components)
+        if (std::string(component.object->getInstanceName()) == instance_name) return component.object;
+    return nullptr;
+}
+
+std::vector<RTObject_impl*> Manager::getComponents() {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    std::vector<RTObject_impl*> all;
+    for (auto& component : m_impl->components) all.push_back(component.object);
+    return all;
+}
+
+void Manager::deleteComponent(RTObject_impl* comp) {
+    if (comp->exit() == RTC_OK) cleanupComponents();
+}
+
+void Manager::deleteComponent(const char* instance_name) {
+    if (RTObject_impl* comp = getComponent(instance_name)) deleteComponent(comp);
+}
+
+void Manager::notifyFinalized(RTObject_impl* comp) {
+    unregisterComponent(comp);
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    auto found = std::find_if(m_impl->components.begin(), m_impl->components.end(),
+                              [&](auto& entry) { return entry.object == comp; });
+    if (found == m_impl->components.end()) return;
+    m_impl->finalized.push_back(*found);
+    m_impl->components.erase(found);
+}
+
+void Manager::cleanupComponents() {
+    std::vector<Impl::Component> leaving;
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        leaving.swap(m_impl->finalized);
+    }
+    for (auto& component : leaving) component.factory->destroy(component.object);
+}
+
+} // namespace RTC

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manager's state. Internal to host/rtm.
+#pragma once
+#include "conf_file.hpp"
+#include "host/plugin/library.hpp"
+#include "manager_options.hpp"
+#include "naming.hpp"
+#include <atomic>
+#include <map>
+#include <rtm/ManagerActionListener.h>
+
+namespace RTC {
+
+struct Manager::Impl {
+    Options options;
+    coil::Properties config;
+    std::filesystem::path conf_file; // empty: none was read
+    Logger log{"manager"};
+    ModuleInitProc init_proc = nullptr;
+
+    CORBA::ORB_var orb;
+    PortableServer::POA_var poa, shortcut_poa;
+    PortableServer::POAManager_var poa_manager;
+    std::unique_ptr<Naming> naming; // NULL: off
+
+    struct Module {
+        std::string name;
+        std::shared_ptr<tandem::plugin::Library> library;
+    };
+    struct Component {
+        RTObject_impl* object;
+        FactoryBase* factory;
+    };
+    struct ContextType {
+        ECNewFunc create;
+        ECDeleteFunc destroy;
+    };
+    mutable std::recursive_mutex mutex; // guards what follows
+    std::vector<Module> modules;
+    std::vector<std::unique_ptr<FactoryBase>> factories;
+    std::map<std::string, ContextType> contexts;
+    std::vector<Component> components; // in the order of their creation
+    std::vector<Component> finalized;  // have left, wait for their deletion
+    std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks;
+    bool ever_had_components = false;
+    bool shut_down = false;
+    std::atomic<bool> ended_in_order{true};
+
+    RTM::ManagerActionListeners listeners;
+
+    FactoryBase* find_factory(const coil::Properties& id);
+    std::vector<std::filesystem::path> module_dirs() const;
+    void run_due_tasks();
+};
+
+/// Command line and rtc.conf into properties. Throws ManagerError.
+void read_configuration(Manager::Impl& impl, int argc, char** argv);
+/// Throws ManagerError when the ORB cannot start, for an endpoint that is taken, say.
+void start_orb(Manager::Impl& impl);
+
+/// `Name`, `Name?a=1&b=2`, `RTC:vendor:category:Name:language:version`. Throws ManagerError.
+struct ComponentArguments {
+    coil::Properties id;
+    coil::Properties properties;
+};
+ComponentArguments parse_component_arguments(const std::string& args);
+
+/// %n, %h ... of naming.formats.
+std::string format_name(const std::string& format, const coil::Properties& component,
+                        const coil::Properties& config);
+
+} // namespace RTC

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loading libraries of components, and the types they register.
+#include "host/plugin/find_library.hpp"
+#include "manager_impl.hpp"
+#include <rtm/RTObject.h>
+
+namespace RTC {
+
+std::vector<std::filesystem::path> Manager::Impl::module_dirs() const {
+    std::vector<std::filesystem::path> dirs;
+    for (const auto& dir : coil::split(config.getProperty("manager.modules.load_path"), ",", true)) {
+        dirs.emplace_back(coil::replaceEnv(dir));
+        // A configuration folder can be moved as a whole.
+        if (!conf_file.empty() && dirs.back().is_relative())
+            dirs.push_back(conf_file.parent_path() / dirs.back());
+    }
+    dirs.insert(dirs.end(), options.plugin_path.begin(), options.plugin_path.end());
+    return dirs;
+}
+
+namespace {
+
+// /a/libName.so -> Name
+std::string base_name(const std::string& file_name) {
+    std::string name = std::filesystem::path(file_name).filename().string();
+    return name.substr(0, name.find('.'));
+}
+
+std::string init_symbol(tandem::plugin::Library& library, const std::string& base) {
+    std::vector<std::string> tried{base + "Init"};
+    if (base.compare(0, 3, "lib") == 0) tried.push_back(base.substr(3) + "Init");
+    tried.emplace_back("rtc_init"); // old components
+    for (const auto& symbol : tried)
+        if (library.has(symbol)) return symbol;
+    throw ManagerError("module " + library.path().string() + " has no function " + tried[0] +
+                       "; export it (extern \"C\"), or name another as file(function)");
+}
+
+} // namespace
+
+void Manager::loadOrThrow(const std::string& file_name, const std::string& init_function) {
+    std::string name = file_name, function = init_function;
+    m_impl->listeners.module_.forEach([&](auto& listener) { listener.preLoad(name, function); });
+    std::shared_ptr<tandem::plugin::Library> library;
+    try {
+        library = tandem::plugin::Library::load(tandem::plugin::find_library(name, m_impl->module_dirs()));
+        const std::string symbol = function.empty() ? init_symbol(*library, base_name(name)) : function;
+        {
+            // Kept for ever: objects and code of a component may be in use to the end of the process.
+            std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+            m_impl->modules.push_back({name, library});
+        }
+        library->symbol<void(Manager*)>(symbol)(this);
+    } catch (const tandem::plugin::Error& e) {
+        throw ManagerError(e.what());
+    }
+    m_impl->listeners.module_.forEach([&](auto& listener) { listener.postLoad(name, function); });
+}
+
+ReturnCode_t Manager::load(const std::string& file_name, const std::string& init_function) {
+    Logger& rtclog = m_impl->log;
+    try {
+        loadOrThrow(file_name, init_function);
+        return RTC_OK;
+    } catch (const ManagerError& e) {
+        RTC_ERROR(("%s", e.what()));
+        return RTC_ERROR;
+    }
+}
+
+std::vector<coil::Properties> Manager::getLoadedModules() {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    std::vector<coil::Properties> modules;
+    for (auto& module : m_impl->modules) {
+        modules.emplace_back();
+        modules.back().setProperty("module_file_name", module.name);
+        modules.back().setProperty("module_file_path", module.library->path().string());
+    }
+    return modules;
+}
+
+std::vector<coil::Properties> Manager::getLoadableModules() { return {}; }
+
+bool Manager::registerFactory(coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func) {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    coil::Properties id;
+    for (const char* key : {"implementation_id", "vendor", "category", "version", "language"})
+        id.setProperty(key, profile.getProperty(key));
+    if (m_impl->find_factory(id) != nullptr) return false;
+    m_impl->factories.push_back(std::make_unique<FactoryCXX>(profile, new_func, delete_func));
+    return true;
+}
+
+FactoryBase* Manager::Impl::find_factory(const coil::Properties& id) {
+    for (auto& factory : factories) {
+        bool same = true;
+        for (const char* key : {"implementation_id", "vendor", "category", "version", "language"}) {
+            const std::string wanted = id.getProperty(key);
+            same = same && (wanted.empty() || wanted == factory->profile().getProperty(key));
+        }
+        if (same) return factory.get();
+    }
+    return nullptr;
+}
+
+std::vector<coil::Properties> Manager::getFactoryProfiles() {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    std::vector<coil::Properties> profiles;
+    for (auto& factory : m_impl->factories) profiles.push_back(factory->profile());
+    return profiles;
+}
+
+std::vector<std::string> Manager::getModulesFactories() {
+    std::vector<std::string> names;
+    for (auto& profile : getFactoryProfiles()) names.push_back(profile.getProperty("implementation_id"));
+    return names;
+}
+
+bool Manager::registerECFactory(const char* name, ECNewFunc new_func, ECDeleteFunc delete_func) {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    return m_impl->contexts.emplace(name, Impl::ContextType{new_func, delete_func}).second;
+}
+
+ExecutionContextBase* Manager::createContext(const char* ec_args) {
+    const std::string args(ec_args);
+    // In lock-step nothing may run on its own, whatever a component asks for.
+    const std::string type = m_impl->options.lockstep ? "SynchExtTriggerEC" : args.substr(0, args.find('?'));
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    auto found = m_impl->contexts.find(type);
+    return found == m_impl->contexts.end() ? nullptr : found->second.create();
+}
+
+} // namespace RTC

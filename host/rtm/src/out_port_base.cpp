@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "data_port.hpp"
+#include "local_object.hpp"
+#include "out_port_connectors.hpp"
+#include <rtm/InPortBase.h>
+#include <rtm/OutPortBase.h>
+
+namespace RTC {
+
+OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(name) {
+    addProperty("port.port_type", "DataOutPort");
+    addProperty("dataport.data_type", data_type);
+    addProperty("dataport.subscription_type", "flush, new, periodic");
+    addProperty("dataport.dataflow_type", "push, pull");
+    addProperty("dataport.interface_type", "corba_cdr, direct");
+}
+
+OutPortBase::~OutPortBase() {
+    retire();
+    for (auto* connector : m_connectors) delete connector;
+}
+
+void OutPortBase::init(coil::Properties& prop) {
+    m_properties << prop;
+    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    int limit = -1;
+    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
+        setConnectionLimit(limit);
+}
+
+ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
+    const ReturnCode_t allowed = _publishInterfaces();
+    if (allowed != RTC_OK) return allowed;
+    const coil::Properties prop = connector_properties(m_properties, profile, "outport");
+    const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
+    return flow == "pull" ? addPullConnector(profile, prop) : RTC_OK;
+}
+
+ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    auto* connector = new OutPortPullConnector(*this, info);
+    publish_object(profile, "dataport.corba_cdr.outport", connector->servant().reference(),
+                   connector->servant().ior());
+    addConnector(connector);
+    return RTC_OK;
+}
+
+ReturnCode_t OutPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
+    const coil::Properties prop = connector_properties(m_properties, profile, "outport");
+    const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
+    return flow == "push" ? addPushConnectors(profile, prop) : RTC_OK;
+}
+
+ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    bool local = false;
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
+        auto* port = local_object<InPortBase>(profile.ports[i]);
+        auto inlet = port ? port->inlet(profile.connector_id) : nullptr;
+        if (inlet == nullptr) continue;
+        addConnector(new OutPortPushConnector(*this, info, inlet));
+        local = true;
+    }
+    if (local || profile.ports.length() < 2) return RTC_OK;
+    CORBA::Object_var object = published_object(profile, "dataport.corba_cdr.inport");
+    OpenRTM::InPortCdr_var remote = OpenRTM::InPortCdr::_unchecked_narrow(object.in());
+    if (CORBA::is_nil(remote.in()))
+        return refuse(RTC_ERROR,
+                      std::string(getName()) + ": the other side offers no corba_cdr reference to push to");
+    addConnector(new OutPortPushConnector(*this, info, remote.in()));
+    return RTC_OK;
+}
+
+void OutPortBase::addConnector(OutPortConnector* connector) {
+    ConnectorInfo info = connector->profile();
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        m_connectors.push_back(connector);
+    }
+    m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
+}
+
+void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
+    std::vector<std::unique_ptr<OutPortConnector>> leaving;
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        for (std::size_t i = m_connectors.size(); i-- > 0;) {
+            if (std::string(m_connectors[i]->id()) != static_cast<const char*>(profile.connector_id))
+                continue;
+            leaving.emplace_back(m_connectors[i]);
+            m_connectors.erase(m_connectors.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+    }
+    for (auto& connector : leaving) {
+        connector->disconnect();
+        ConnectorInfo info = connector->profile();
+        m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
+    }
+}
+
+std::shared_ptr<DataOutlet> OutPortBase::outlet(const char* connector_id) {
+    auto* connector = dynamic_cast<OutPortPullConnector*>(getConnectorById(connector_id));
+    return connector ? connector->outlet() : nullptr;
+}
+
+void OutPortBase::dropLost(const std::vector<std::string>& connector_ids) {
+    for (const auto& id : connector_ids) {
+        RTC_WARN(("%s: the receiver of connection %s is gone", getName(), id.c_str()));
+        if (m_onConnectionLost != nullptr) {
+            ConnectorProfile profile = findConnProfile(id.c_str());
+            (*m_onConnectionLost)(profile);
+        }
+        disconnect(id.c_str());
+    }
+}
+
+void OutPortBase::activateInterfaces() {}
+void OutPortBase::deactivateInterfaces() {}
+
+} // namespace RTC

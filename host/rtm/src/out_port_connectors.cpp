@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "out_port_connectors.hpp"
+#include <rtm/OutPortBase.h>
+
+namespace RTC {
+
+OutPortConnector::OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners)
+    : m_profile(info),
+      m_littleEndian(info.properties.getProperty("serializer.cdr.endian", "little").compare(0, 3, "big") !=
+                     0),
+      m_listeners(listeners), m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
+      m_timestamp(timestampPolicy(info.properties)) {}
+
+OutPortConnector::~OutPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
+
+DataPortStatus OutPortConnector::write(ByteDataStreamBase* stream) {
+    m_bytes = *stream;
+    m_bytes.isLittleEndian(isLittleEndian());
+    return write(m_bytes);
+}
+
+bool OutPortConnector::sendsLike(const OutPortConnector& other) const {
+    auto stamps = [](TimestampPolicy p) {
+        return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
+    };
+    return m_littleEndian == other.m_littleEndian && m_marshaling_type == other.m_marshaling_type &&
+           !stamps(m_timestamp) && !stamps(other.m_timestamp);
+}
+
+OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
+                                           std::shared_ptr<DataInlet> local)
+    : OutPortConnector(info, port.getListeners()), local_(std::move(local)),
+      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {}
+
+OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
+                                           OpenRTM::InPortCdr_ptr remote)
+    : OutPortConnector(info, port.getListeners()), remote_(OpenRTM::InPortCdr::_duplicate(remote)),
+      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {}
+
+OutPortPushConnector::~OutPortPushConnector() { disconnect(); }
+
+DataPortStatus OutPortPushConnector::disconnect() {
+    publisher_.reset();
+    return DataPortStatus::PORT_OK;
+}
+
+DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
+    m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_WRITE, m_profile, bytes, m_marshaling_type);
+    return publisher_ ? publisher_->write(bytes) : deliver(bytes);
+}
+
+DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
+    using Type = ConnectorDataListenerType;
+    m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
+    const DataPortStatus status = local_ ? local_->receive(bytes) : put(bytes);
+    switch (status) {
+    case DataPortStatus::PORT_OK:
+        m_listeners->notify(Type::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
+        break;
+    case DataPortStatus::BUFFER_FULL:
+    case DataPortStatus::SEND_FULL:
+        m_listeners->notify(Type::ON_RECEIVER_FULL, m_profile, bytes, m_marshaling_type);
+        break;
+    case DataPortStatus::BUFFER_TIMEOUT:
+    case DataPortStatus::SEND_TIMEOUT:
+        m_listeners->notify(Type::ON_RECEIVER_TIMEOUT, m_profile, bytes, m_marshaling_type);
+        break;
+    default:
+        m_listeners->notify(Type::ON_RECEIVER_ERROR, m_profile, bytes, m_marshaling_type);
+    }
+    return status;
+}
+
+DataPortStatus OutPortPushConnector::put(ByteData& bytes) {
+    const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
+    try {
+        return from_wire(remote_->put(OpenRTM::CdrData(length, length, bytes.getBuffer(), false)));
+    } catch (const CORBA::SystemException&) {
+        return DataPortStatus::CONNECTION_LOST;
+    }
+}
+
+OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)
+    : OutPortConnector(info, port.getListeners()),
+      outlet_(std::make_shared<DataOutlet>(*port.getListeners(), info)),
+      servant_(new OutPortCdrServant(outlet_)) {}
+
+OutPortPullConnector::~OutPortPullConnector() { disconnect(); }
+
+DataPortStatus OutPortPullConnector::disconnect() {
+    outlet_->close();
+    return DataPortStatus::PORT_OK;
+}
+
+DataPortStatus OutPortPullConnector::write(ByteData& bytes) { return outlet_->put(bytes); }
+
+} // namespace RTC

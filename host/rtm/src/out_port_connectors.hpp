@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kinds of sending ends.
+#pragma once
+#include "cdr_servants.hpp"
+#include "publisher.hpp"
+#include <rtm/OutPortConnector.h>
+
+namespace RTC {
+class OutPortBase;
+
+/// Pushes to an inlet of this process, or by corba_cdr to another; at once or through a publisher thread,
+/// as the property subscription_type says (flush, new, periodic).
+class OutPortPushConnector : public OutPortConnector {
+  public:
+    OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::shared_ptr<DataInlet> local);
+    OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, OpenRTM::InPortCdr_ptr remote);
+    ~OutPortPushConnector() override;
+    using OutPortConnector::write;
+    DataPortStatus write(ByteData& bytes) override;
+    DataPortStatus disconnect() override;
+    CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
+
+  private:
+    DataPortStatus deliver(ByteData& bytes);
+    DataPortStatus put(ByteData& bytes);
+
+    std::shared_ptr<DataInlet> local_;
+    OpenRTM::InPortCdr_var remote_;
+    std::unique_ptr<Publisher> publisher_;
+};
+
+/// Keeps messages until the other end fetches them.
+class OutPortPullConnector : public OutPortConnector {
+  public:
+    OutPortPullConnector(OutPortBase& port, ConnectorInfo& info);
+    ~OutPortPullConnector() override;
+    using OutPortConnector::write;
+    DataPortStatus write(ByteData& bytes) override;
+    DataPortStatus disconnect() override;
+    CdrBufferBase* getBuffer() override { return &outlet_->buffer(); }
+    std::shared_ptr<DataOutlet> outlet() const { return outlet_; }
+    const ServantHolder& servant() const { return servant_; }
+
+  private:
+    std::shared_ptr<DataOutlet> outlet_;
+    ServantHolder servant_;
+};
+
+} // namespace RTC

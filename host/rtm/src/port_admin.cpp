@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <rtm/PortAdmin.h>
+
+namespace RTC {
+
+std::vector<PortBase*> PortAdmin::ports() const {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return ports_;
+}
+
+PortServiceList* PortAdmin::getPortServiceList() const {
+    PortServiceList_var list = new PortServiceList;
+    for (auto* port : ports()) CORBA_SeqUtil::push_back(list.inout(), PortService_var(port->getPortRef()));
+    return list._retn();
+}
+
+PortProfileList PortAdmin::getPortProfileList() const {
+    PortProfileList list;
+    for (auto* port : ports()) CORBA_SeqUtil::push_back(list, PortProfile_var(port->get_port_profile()).in());
+    return list;
+}
+
+PortBase* PortAdmin::getPort(const char* port_name) const {
+    const std::string wanted(port_name);
+    for (auto* port : ports()) {
+        const std::string name(port->getName());
+        if (name == wanted || name.substr(name.rfind('.') + 1) == wanted) return port;
+    }
+    return nullptr;
+}
+
+PortService_ptr PortAdmin::getPortRef(const char* port_name) const {
+    PortBase* port = getPort(port_name);
+    return port ? port->getPortRef() : PortService::_nil();
+}
+
+bool PortAdmin::addPort(PortBase& port) {
+    if (getPort(port.getName()) != nullptr) return false;
+    std::lock_guard<std::mutex> lock(mutex_);
+    ports_.push_back(&port);
+    return true;
+}
+
+bool PortAdmin::removePort(PortBase& port) {
+    port.disconnect_all();
+    port.deactivateInterfaces();
+    std::lock_guard<std::mutex> lock(mutex_);
+    auto found = std::find(ports_.begin(), ports_.end(), &port);
+    if (found == ports_.end()) return false;
+    ports_.erase(found);
+    return true;
+}
+
+void PortAdmin::activatePorts() {
+    for (auto* port : ports()) port->activateInterfaces();
+}
+void PortAdmin::deactivatePorts() {
+    for (auto* port : ports()) port->deactivateInterfaces();
+}
+void PortAdmin::finalizePorts() {
+    for (auto* port : ports()) {
+        removePort(*port);
+        port->retire();
+    }
+}
+
+} // namespace RTC

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// A port as an object: identity, profile, list of connectors.
+#include <coil/UUID.h>
+#include <coil/stringutil.h>
+#include <rtm/Manager.h>
+#include <rtm/PortBase.h>
+
+namespace RTC {
+
+PortBase::PortBase(const char* name) : rtclog(name), m_poa(Manager::instance().getPOA()) {
+    m_objref = this->_this();
+    m_oid = m_poa->servant_to_id(this);
+    m_profile.name = CORBA::string_dup(name);
+    m_profile.port_ref = RTC::PortService::_duplicate(m_objref.in());
+    m_profile.owner = RTC::RTObject::_nil();
+}
+
+PortBase::~PortBase() { retire(); }
+
+void PortBase::retire() {
+    if (m_retired) return;
+    m_retired = true;
+    try {
+        m_poa->deactivate_object(m_oid.in());
+    } catch (const CORBA::Exception&) {
+        // the ORB has gone down before: nothing is left to deactivate
+    }
+}
+
+PortProfile* PortBase::get_port_profile() {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    return new PortProfile(m_profile);
+}
+
+ConnectorProfileList* PortBase::get_connector_profiles() {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    return new ConnectorProfileList(m_profile.connector_profiles);
+}
+
+ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
+    return new ConnectorProfile(findConnProfile(connector_id));
+}
+
+void PortBase::setName(const char* name) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    m_profile.name = CORBA::string_dup(name);
+    rtclog.setName(name);
+}
+
+void PortBase::setPortRef(PortService_ptr port_ref) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    m_profile.port_ref = RTC::PortService::_duplicate(port_ref);
+}
+
+PortService_ptr PortBase::getPortRef() const {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    return RTC::PortService::_duplicate(m_profile.port_ref);
+}
+
+void PortBase::setOwner(RTObject_ptr owner) {
+    RTC::ComponentProfile_var profile = owner->get_component_profile();
+    setOwner(owner, profile->instance_name);
+}
+
+void PortBase::setOwner(RTObject_ptr owner, const char* instance_name) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    const std::string former(m_profile.name);
+    const std::string name = std::string(instance_name) + "." + former.substr(former.rfind('.') + 1);
+    m_ownerInstanceName = instance_name;
+    m_profile.owner = RTC::RTObject::_duplicate(owner);
+    m_profile.name = CORBA::string_dup(name.c_str());
+    rtclog.setName(name.c_str());
+}
+
+std::string PortBase::connectError() const {
+    std::lock_guard<std::mutex> lock(m_errorMutex);
+    return m_connectError;
+}
+
+ReturnCode_t PortBase::refuse(ReturnCode_t code, const std::string& why) {
+    RTC_DEBUG(("%s", why.c_str()));
+    std::lock_guard<std::mutex> lock(m_errorMutex);
+    m_connectError = why;
+    return code;
+}
+
+bool PortBase::isEmptyId(const ConnectorProfile& profile) { return profile.connector_id[0] == '\0'; }
+
+std::string PortBase::getUUID() { return coil::UUID_Generator().generateUUID()->to_string(); }
+
+void PortBase::setUUID(ConnectorProfile& profile) {
+    profile.connector_id = CORBA::string_dup(getUUID().c_str());
+}
+
+bool PortBase::isExistingConnId(const char* id) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    return findConnProfileIndex(id) >= 0;
+}
+
+// The caller holds m_profile_mutex.
+CORBA::Long PortBase::findConnProfileIndex(const char* id) const {
+    return CORBA_SeqUtil::find(m_profile.connector_profiles,
+                               [id](const ConnectorProfile& p) { return std::string(p.connector_id) == id; });
+}
+
+ConnectorProfile PortBase::findConnProfile(const char* id) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    const CORBA::Long index = findConnProfileIndex(id);
+    return index < 0 ? ConnectorProfile() : m_profile.connector_profiles[static_cast<CORBA::ULong>(index)];
+}
+
+void PortBase::updateConnectorProfile(const ConnectorProfile& profile) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    const CORBA::Long index = findConnProfileIndex(profile.connector_id);
+    if (index < 0)
+        CORBA_SeqUtil::push_back(m_profile.connector_profiles, profile);
+    else
+        m_profile.connector_profiles[static_cast<CORBA::ULong>(index)] = profile;
+}
+
+bool PortBase::eraseConnectorProfile(const char* id) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    const CORBA::Long index = findConnProfileIndex(id);
+    if (index < 0) return false;
+    CORBA_SeqUtil::erase(m_profile.connector_profiles, static_cast<CORBA::ULong>(index));
+    return true;
+}
+
+bool PortBase::appendInterface(const char* instance_name, const char* type_name,
+                               PortInterfacePolarity polarity) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    auto same = [&](const PortInterfaceProfile& p) {
+        return p.polarity == polarity && std::string(p.instance_name) == instance_name;
+    };
+    if (CORBA_SeqUtil::find(m_profile.interfaces, same) >= 0) return false;
+    PortInterfaceProfile profile;
+    profile.instance_name = CORBA::string_dup(instance_name);
+    profile.type_name = CORBA::string_dup(type_name);
+    profile.polarity = polarity;
+    CORBA_SeqUtil::push_back(m_profile.interfaces, profile);
+    return true;
+}
+
+bool PortBase::deleteInterface(const char* name, PortInterfacePolarity polarity) {
+    std::lock_guard<std::mutex> lock(m_profile_mutex);
+    const CORBA::Long index = CORBA_SeqUtil::find(m_profile.interfaces, [&](const PortInterfaceProfile& p) {
+        return p.polarity == polarity && std::string(p.instance_name) == name;
+    });
+    if (index < 0) return false;
+    CORBA_SeqUtil::erase(m_profile.interfaces, static_cast<CORBA::ULong>(index));
+    return true;
+}
+
+} // namespace RTC

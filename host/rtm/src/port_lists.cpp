@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looking connectors up, and listeners: the same for both kinds of data ports.
+#include <rtm/InPortBase.h>
+#include <rtm/OutPortBase.h>
+
+namespace RTC {
+namespace {
+
+template <class Connectors, class Get>
+auto collect(std::mutex& mutex, Connectors& connectors, Get get) {
+    std::lock_guard<std::mutex> lock(mutex);
+    std::vector<std::decay_t<decltype(get(*connectors.front()))>> all;
+    for (auto* connector : connectors) all.push_back(get(*connector));
+    return all;
+}
+
+template <class Connectors, class Matches>
+auto first_of(std::mutex& mutex, Connectors& connectors, Matches matches) -> typename Connectors::value_type {
+    std::lock_guard<std::mutex> lock(mutex);
+    for (auto* connector : connectors)
+        if (matches(*connector)) return connector;
+    return nullptr;
+}
+
+bool copy_profile(ConnectorBase* connector, ConnectorInfo& out) {
+    if (connector == nullptr) return false;
+    out = connector->profile();
+    return true;
+}
+
+} // namespace
+
+const char* toString(DataPortStatus status) {
+    static const char* const names[] = {"PORT_OK",         "PORT_ERROR",   "BUFFER_ERROR",
+                                        "BUFFER_FULL",     "BUFFER_EMPTY", "BUFFER_TIMEOUT",
+                                        "SEND_FULL",       "SEND_TIMEOUT", "RECV_EMPTY",
+                                        "RECV_TIMEOUT",    "INVALID_ARGS", "PRECONDITION_NOT_MET",
+                                        "CONNECTION_LOST", "UNKNOWN_ERROR"};
+    return names[static_cast<std::uint8_t>(status)];
+}
+
+#define TANDEM_DATA_PORT_LISTS(Port, Connector)                                                              \
+    ConnectorInfoList Port::getConnectorProfiles() {                                                         \
+        return collect(m_connectorsMutex, m_connectors,                                                      \
+                       [](Connector& c) { return ConnectorInfo(c.profile()); });                             \
+    }                                                                                                        \
+    coil::vstring Port::getConnectorIds() {                                                                  \
+        return collect(m_connectorsMutex, m_connectors, [](Connector& c) { return std::string(c.id()); });   \
+    }                                                                                                        \
+    coil::vstring Port::getConnectorNames() {                                                                \
+        return collect(m_connectorsMutex, m_connectors, [](Connector& c) { return std::string(c.name()); }); \
+    }                                                                                                        \
+    Connector* Port::getConnectorById(const char* id) {                                                      \
+        return first_of(m_connectorsMutex, m_connectors,                                                     \
+                        [&](Connector& c) { return std::string(c.id()) == id; });                            \
+    }                                                                                                        \
+    Connector* Port::getConnectorByName(const char* name) {                                                  \
+        return first_of(m_connectorsMutex, m_connectors,                                                     \
+                        [&](Connector& c) { return std::string(c.name()) == name; });                        \
+    }                                                                                                        \
+    bool Port::getConnectorProfileById(const char* id, ConnectorInfo& prof) {                                \
+        return copy_profile(getConnectorById(id), prof);                                                     \
+    }                                                                                                        \
+    bool Port::getConnectorProfileByName(const char* name, ConnectorInfo& prof) {                            \
+        return copy_profile(getConnectorByName(name), prof);                                                 \
+    }                                                                                                        \
+    void Port::addConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener,     \
+                                        bool autoclean) {                                                    \
+        m_listeners.addListener(type, listener, autoclean);                                                  \
+    }                                                                                                        \
+    void Port::removeConnectorDataListener(ConnectorDataListenerType type,                                   \
+                                           ConnectorDataListener* listener) {                                \
+        m_listeners.removeListener(type, listener);                                                          \
+    }                                                                                                        \
+    void Port::addConnectorListener(ConnectorListenerType type, ConnectorListener* listener,                 \
+                                    bool autoclean) {                                                        \
+        m_listeners.addListener(type, listener, autoclean);                                                  \
+    }                                                                                                        \
+    void Port::removeConnectorListener(ConnectorListenerType type, ConnectorListener* listener) {            \
+        m_listeners.removeListener(type, listener);                                                          \
+    }
+
+TANDEM_DATA_PORT_LISTS(InPortBase, InPortConnector)
+TANDEM_DATA_PORT_LISTS(OutPortBase, OutPortConnector)
+
+} // namespace RTC

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// A component's ports, profile, properties and listeners.
+#include <rtm/RTObject.h>
+
+namespace RTC {
+
+ComponentProfile* RTObject_impl::get_component_profile() {
+    ComponentProfile_var profile = new ComponentProfile(m_profile);
+    NVUtil::copyFromProperties(profile->properties, m_properties);
+    profile->port_profiles = m_portAdmin.getPortProfileList();
+    return profile._retn();
+}
+
+PortServiceList* RTObject_impl::get_ports() { return m_portAdmin.getPortServiceList(); }
+
+void RTObject_impl::setInstanceName(const char* instance_name) {
+    m_properties["instance_name"] = instance_name;
+    m_profile.instance_name = CORBA::string_dup(instance_name);
+    rtclog.setName(instance_name);
+}
+
+std::vector<std::string> RTObject_impl::getNamingNames() {
+    return coil::split(m_properties.getProperty("naming.names"), ",");
+}
+
+void RTObject_impl::setObjRef(RTObject_ptr rtobj) { m_objref = RTC::RTObject::_duplicate(rtobj); }
+
+void RTObject_impl::setProperties(const coil::Properties& prop) {
+    m_properties << prop;
+    auto text = [this](const char* key) { return CORBA::string_dup(m_properties.getProperty(key).c_str()); };
+    m_profile.instance_name = text("instance_name");
+    m_profile.type_name = text("type_name");
+    m_profile.description = text("description");
+    m_profile.version = text("version");
+    m_profile.vendor = text("vendor");
+    m_profile.category = text("category");
+    rtclog.setName(m_profile.instance_name);
+}
+
+bool RTObject_impl::addNamed(const char* name, PortBase& port) {
+    // What rtc.conf says of all data ports of a kind is there for each of them.
+    port.setOwner(m_objref.in(), m_profile.instance_name);
+    if (m_portAdmin.addPort(port)) {
+        m_actionListeners.portaction_[0].forEach([&](auto& listener) { listener(port.getPortProfile()); });
+        return true;
+    }
+    RTC_ERROR(("%s: there is already a port %s", getInstanceName(), name));
+    return false;
+}
+
+bool RTObject_impl::addPort(PortBase& port) { return addNamed(port.getName(), port); }
+
+bool RTObject_impl::addPort(CorbaPort& port) {
+    const std::string name(port.getName());
+    coil::Properties& node = m_properties.getNode("port.corbaport." + name.substr(name.rfind('.') + 1));
+    if (const auto* common = m_properties.findNode("port.corba")) node << *common;
+    port.init(node);
+    return addNamed(name.c_str(), port);
+}
+
+bool RTObject_impl::addInPort(const char* name, InPortBase& inport) {
+    coil::Properties& node = m_properties.getNode(std::string("port.inport.") + name);
+    if (const auto* common = m_properties.findNode("port.inport.dataport")) node << *common;
+    if (!addNamed(name, inport)) return false;
+    inport.init(node);
+    m_inports.push_back(&inport);
+    return true;
+}
+
+bool RTObject_impl::addOutPort(const char* name, OutPortBase& outport) {
+    coil::Properties& node = m_properties.getNode(std::string("port.outport.") + name);
+    if (const auto* common = m_properties.findNode("port.outport.dataport")) node << *common;
+    if (!addNamed(name, outport)) return false;
+    outport.init(node);
+    m_outports.push_back(&outport);
+    return true;
+}
+
+bool RTObject_impl::removeInPort(InPortBase& port) {
+    std::erase(m_inports, &port);
+    return removePort(static_cast<PortBase&>(port));
+}
+bool RTObject_impl::removeOutPort(OutPortBase& port) {
+    std::erase(m_outports, &port);
+    return removePort(static_cast<PortBase&>(port));
+}
+
+bool RTObject_impl::removePort(PortBase& port) {
+    std::erase_if(m_inports, [&](InPortBase* p) { return static_cast<PortBase*>(p) == &port; });
+    std::erase_if(m_outports, [&](OutPortBase* p) { return static_cast<PortBase*>(p) == &port; });
+    if (!m_portAdmin.removePort(port)) return false;
+    m_actionListeners.portaction_[1].forEach([&](auto& listener) { listener(port.getPortProfile()); });
+    return true;
+}
+
+void RTObject_impl::deletePortByName(const char* port_name) {
+    if (PortBase* port = m_portAdmin.getPort(port_name)) removePort(*port);
+}
+
+#define TANDEM_ACTION_LISTENERS(Kind, table)                                                                 \
+    void RTObject_impl::add##Kind(Kind##Type type, Kind* listener, bool autoclean) {                         \
+        m_actionListeners.table.at(m_actionListeners.at(type)).addListener(listener, autoclean);             \
+    }                                                                                                        \
+    void RTObject_impl::remove##Kind(Kind##Type type, Kind* listener) {                                      \
+        m_actionListeners.table.at(m_actionListeners.at(type)).removeListener(listener);                     \
+    }
+TANDEM_ACTION_LISTENERS(PreComponentActionListener, preaction_)
+TANDEM_ACTION_LISTENERS(PostComponentActionListener, postaction_)
+TANDEM_ACTION_LISTENERS(PortActionListener, portaction_)
+TANDEM_ACTION_LISTENERS(ExecutionContextActionListener, ecaction_)
+
+} // namespace RTC

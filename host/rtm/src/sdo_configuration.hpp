@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <rtm/RTObject.h>
+
+namespace SDOPackage {
+
+/// The configuration sets of a component as tools see and set them.
+class Configuration_impl : public POA_SDOPackage::Configuration {
+  public:
+    explicit Configuration_impl(RTC::ConfigAdmin& sets);
+    void retire();
+
+    CORBA::Boolean set_device_profile(const DeviceProfile& dProfile) override;
+    CORBA::Boolean add_service_profile(const ServiceProfile& sProfile) override;
+    CORBA::Boolean add_organization(Organization_ptr organization) override;
+    CORBA::Boolean remove_service_profile(const char* id) override;
+    CORBA::Boolean remove_organization(const char* organization_id) override;
+    ParameterList* get_configuration_parameters() override;
+    NVList* get_configuration_parameter_values() override;
+    CORBA::Any* get_configuration_parameter_value(const char* name) override;
+    CORBA::Boolean set_configuration_parameter(const char* name, const CORBA::Any& value) override;
+    ConfigurationSetList* get_configuration_sets() override;
+    ConfigurationSet* get_configuration_set(const char* config_id) override;
+    CORBA::Boolean set_configuration_set_values(const ConfigurationSet& set) override;
+    ConfigurationSet* get_active_configuration_set() override;
+    CORBA::Boolean add_configuration_set(const ConfigurationSet& set) override;
+    CORBA::Boolean remove_configuration_set(const char* config_id) override;
+    CORBA::Boolean activate_configuration_set(const char* config_id) override;
+
+  private:
+    RTC::ConfigAdmin& sets_;
+    PortableServer::POA_var poa_;
+    PortableServer::ObjectId_var id_;
+};
+
+} // namespace SDOPackage
