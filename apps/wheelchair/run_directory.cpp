@@ -177,8 +177,10 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
         for (const auto& [name, value] : parameters_of(member.name, options, path(), link_))
             conf += fmt::format("conf.default.{}: {}\n", name, value);
         const auto file = path() / "rtm" / (member.name + "0.conf");
-        write_file(file, conf + fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n",
-                                            member.phase_ms));
+        conf += fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n"
+                            "exec_cxt.periodic.priority: {}\n",
+                            member.phase_ms, member.priority);
+        write_file(file, conf);
         files += fmt::format("wheelchair.{}0.config_file: {}\n", member.name, file.string());
         modules.push_back(member.name + ".so");
         create.push_back(member.name);

@@ -6,32 +6,30 @@ namespace tandem::wheelchair {
 namespace {
 
 // JoystickComp reads what HWComp published 6 ms before; ControlComp is looking out when JoystickComp sends;
-// HWComp applies the voltages 4 ms later.
-constexpr double hw_phase = 5.0, joystick_phase = 1.0, control_phase = 0.5;
+// HWComp applies the voltages 4 ms later. ControlComp's looking out must keep nobody from a core, so its
+// priority is lowest.
+const Member hw{"HWComp", 5.0, 7}, joystick{"JoystickComp", 1.0, 6}, control{"ControlComp", 0.5, 5};
 
-std::vector<Wire> all_wires(const std::string& joystick) {
-    return {{Wire::data, "HWComp", "joystickPos", joystick, "joystickPos"},
-            {Wire::data, joystick, "reference", "ControlComp", "reference"},
+std::vector<Wire> all_wires(const std::string& stick) {
+    return {{Wire::data, "HWComp", "joystickPos", stick, "joystickPos"},
+            {Wire::data, stick, "reference", "ControlComp", "reference"},
             {Wire::data, "HWComp", "wheelSpeed", "ControlComp", "wheelSpeed"},
             {Wire::data, "ControlComp", "refVoltage", "HWComp", "refVoltage"},
-            {Wire::service, joystick, "chair", "HWComp", "chair"},
-            {Wire::service, "ControlComp", "joystick", joystick, "joystick"}};
+            {Wire::service, stick, "chair", "HWComp", "chair"},
+            {Wire::service, "ControlComp", "joystick", stick, "joystick"}};
 }
 
 } // namespace
 
 std::vector<Member> opros_members(Configuration configuration) {
-    if (configuration == Configuration::opros)
-        return {{"HWComp", hw_phase}, {"JoystickComp", joystick_phase}, {"ControlComp", control_phase}};
-    if (configuration == Configuration::mixed)
-        return {{"HWComp", hw_phase}, {adaptor, 0.0}, {"ControlComp", control_phase}};
+    if (configuration == Configuration::opros) return {hw, joystick, control};
+    if (configuration == Configuration::mixed) return {hw, {adaptor, 0.0, 0}, control};
     return {};
 }
 
 std::vector<Member> rtm_members(Configuration configuration) {
-    if (configuration == Configuration::rtm)
-        return {{"HWComp", hw_phase}, {"JoystickComp", joystick_phase}, {"ControlComp", control_phase}};
-    if (configuration == Configuration::mixed) return {{"JoystickComp", joystick_phase}};
+    if (configuration == Configuration::rtm) return {hw, joystick, control};
+    if (configuration == Configuration::mixed) return {joystick};
     return {};
 }
 

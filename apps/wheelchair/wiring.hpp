@@ -14,6 +14,7 @@ namespace tandem::wheelchair {
 struct Member {
     std::string name;
     double phase_ms; // place in the 10 ms grid, real time: hardware, then joystick, then control in one chain
+    int priority;    // real-time, where permitted; the same as in the OPRoS component profiles
 };
 
 /// A connection; for data the sender first, for services the one who calls.

@@ -24,16 +24,21 @@ void look_away() {
 
 } // namespace
 
-/// Looks out for a new reference for at most poll_us. Ticks and references share one grid in real time, so a
-/// reference is read the moment it becomes visible: what is measured is the transport and not the phase of
-/// two timers.
+/// Looks out for this tick's reference for at most poll_us. Ticks and references share one grid in real time, so the
+/// reference is read the moment it becomes visible: what is measured is the transport and not the phase of two timers.
+/// One left over from the tick before does not end the look-out, or ControlComp would stay a tick behind for good.
 ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
     const double give_up = monotonic_seconds() + poll_seconds_;
+    Read read{0, monotonic_seconds()};
     for (;;) {
         const auto in = ports.references();
         const double now = monotonic_seconds();
-        if (in.newest) reference_ = *in.newest;
-        if (in.newest || now >= give_up) return {in.count, now};
+        if (in.newest) {
+            reference_ = *in.newest;
+            read = {read.count + in.count, now};
+        }
+        const bool of_this_tick = in.newest && now - reference_.stamp < 0.5 * tick_seconds;
+        if (of_this_tick || now >= give_up) return read;
         look_away();
     }
 }
