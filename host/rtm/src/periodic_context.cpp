@@ -18,6 +18,7 @@ struct PeriodicExecutionContext::Worker {
     bool ending = false;
     bool ended = false;
     bool requested = false;
+    bool hangs = false; // a stop has waited in vain
     std::thread thread;
 };
 
@@ -78,8 +79,10 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
         stopping->tick->interrupt();
         stopping->wake.notify_all();
         if (insideCycle()) return RTC::RTC_OK; // the thread ends after this cycle
-        if (!stopping->wake.wait_for(lock, RTC::host_options().stop_timeout, [&] { return stopping->ended; }))
-            return RTC::RTC_ERROR; // it hangs in a callback; its component must be left behind
+        if (stopping->hangs && !stopping->ended) return RTC::RTC_ERROR;
+        stopping->hangs =
+            !stopping->wake.wait_for(lock, RTC::host_options().stop_timeout, [&] { return stopping->ended; });
+        if (stopping->hangs) return RTC::RTC_ERROR; // in a callback; its component must be left behind
     }
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == stopping) {

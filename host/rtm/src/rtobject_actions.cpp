@@ -40,13 +40,12 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
     return result;
 }
 
-#define TANDEM_GUARDED(ACTION, callback)                                                                     \
-    guarded(#callback, ec_id, PreComponentActionListenerType::PRE_ON_##ACTION,                                     \
-            PostComponentActionListenerType::POST_ON_##ACTION, [&]() -> ReturnCode_t
+using Pre = PreComponentActionListenerType;
+using Post = PostComponentActionListenerType;
 
 ReturnCode_t RTObject_impl::on_initialize() {
-    const UniqueId ec_id = 0;
-    const ReturnCode_t result = TANDEM_GUARDED(INITIALIZE, onInitialize) { return onInitialize(); });
+    const ReturnCode_t result = guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE,
+                                        [&] { return onInitialize(); });
     const std::string wanted = m_properties.getProperty("configuration.active_config", "default");
     const std::string set = m_configsets.haveConfig(wanted.c_str()) ? wanted : "default";
     m_configsets.activateConfigurationSet(set.c_str());
@@ -55,20 +54,22 @@ ReturnCode_t RTObject_impl::on_initialize() {
 }
 
 ReturnCode_t RTObject_impl::on_finalize() {
-    const UniqueId ec_id = 0;
-    return TANDEM_GUARDED(FINALIZE, onFinalize) { return onFinalize(); });
+    return guarded("onFinalize", 0, Pre::PRE_ON_FINALIZE, Post::POST_ON_FINALIZE,
+                   [&] { return onFinalize(); });
 }
 
 ReturnCode_t RTObject_impl::on_startup(UniqueId ec_id) {
-    return TANDEM_GUARDED(STARTUP, onStartup) { return onStartup(ec_id); });
+    return guarded("onStartup", ec_id, Pre::PRE_ON_STARTUP, Post::POST_ON_STARTUP,
+                   [&] { return onStartup(ec_id); });
 }
 
 ReturnCode_t RTObject_impl::on_shutdown(UniqueId ec_id) {
-    return TANDEM_GUARDED(SHUTDOWN, onShutdown) { return onShutdown(ec_id); });
+    return guarded("onShutdown", ec_id, Pre::PRE_ON_SHUTDOWN, Post::POST_ON_SHUTDOWN,
+                   [&] { return onShutdown(ec_id); });
 }
 
 ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
-    return TANDEM_GUARDED(ACTIVATED, onActivated) {
+    return guarded("onActivated", ec_id, Pre::PRE_ON_ACTIVATED, Post::POST_ON_ACTIVATED, [&] {
         m_configsets.update();
         const ReturnCode_t result = onActivated(ec_id);
         m_portAdmin.activatePorts();
@@ -77,18 +78,19 @@ ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_deactivated(UniqueId ec_id) {
-    return TANDEM_GUARDED(DEACTIVATED, onDeactivated) {
+    return guarded("onDeactivated", ec_id, Pre::PRE_ON_DEACTIVATED, Post::POST_ON_DEACTIVATED, [&] {
         m_portAdmin.deactivatePorts();
         return onDeactivated(ec_id);
     });
 }
 
 ReturnCode_t RTObject_impl::on_aborting(UniqueId ec_id) {
-    return TANDEM_GUARDED(ABORTING, onAborting) { return onAborting(ec_id); });
+    return guarded("onAborting", ec_id, Pre::PRE_ON_ABORTING, Post::POST_ON_ABORTING,
+                   [&] { return onAborting(ec_id); });
 }
 
 ReturnCode_t RTObject_impl::on_error(UniqueId ec_id) {
-    return TANDEM_GUARDED(ERROR, onError) {
+    return guarded("onError", ec_id, Pre::PRE_ON_ERROR, Post::POST_ON_ERROR, [&] {
         const ReturnCode_t result = onError(ec_id);
         m_configsets.update();
         return result;
@@ -96,11 +98,11 @@ ReturnCode_t RTObject_impl::on_error(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
-    return TANDEM_GUARDED(RESET, onReset) { return onReset(ec_id); });
+    return guarded("onReset", ec_id, Pre::PRE_ON_RESET, Post::POST_ON_RESET, [&] { return onReset(ec_id); });
 }
 
 ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) {
-    return TANDEM_GUARDED(EXECUTE, onExecute) {
+    return guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, [&] {
         if (m_readAll) readAll();
         const ReturnCode_t result = onExecute(ec_id);
         if (m_writeAll) writeAll();
@@ -109,7 +111,7 @@ ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_state_update(UniqueId ec_id) {
-    return TANDEM_GUARDED(STATE_UPDATE, onStateUpdate) {
+    return guarded("onStateUpdate", ec_id, Pre::PRE_ON_STATE_UPDATE, Post::POST_ON_STATE_UPDATE, [&] {
         const ReturnCode_t result = onStateUpdate(ec_id);
         m_configsets.update();
         return result;
@@ -117,7 +119,8 @@ ReturnCode_t RTObject_impl::on_state_update(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_rate_changed(UniqueId ec_id) {
-    return TANDEM_GUARDED(RATE_CHANGED, onRateChanged) { return onRateChanged(ec_id); });
+    return guarded("onRateChanged", ec_id, Pre::PRE_ON_RATE_CHANGED, Post::POST_ON_RATE_CHANGED,
+                   [&] { return onRateChanged(ec_id); });
 }
 
 bool RTObject_impl::readAll() {

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Components for the tests, written as users write theirs.
+#pragma once
+#include "CalculatorSkel.h"
+#include <atomic>
+#include <numeric>
+#include <rtm/CorbaPort.h>
+#include <rtm/DataFlowComponentBase.h>
+#include <rtm/DataInPort.h>
+#include <rtm/DataOutPort.h>
+#include <rtm/Manager.h>
+#include <rtm/idl/BasicDataTypeSkel.h>
+
+namespace testing {
+
+/// Sends 1, 2, 3 ...; a parameter gives the step.
+class Counter : public RTC::DataFlowComponentBase {
+  public:
+    explicit Counter(RTC::Manager* manager) : DataFlowComponentBase(manager), out_("out", value_) {}
+    RTC::ReturnCode_t onInitialize() override {
+        addOutPort("out", out_);
+        bindParameter("step", step_, "1");
+        value_.data = 0;
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        value_.data += step_;
+        setTimestamp(value_);
+        out_.write();
+        return RTC::RTC_OK;
+    }
+    RTC::TimedLong value_{};
+    int step_ = 0;
+    RTC::OutPort<RTC::TimedLong> out_;
+};
+
+/// Reads what comes, and keeps the sum.
+class Summer : public RTC::DataFlowComponentBase {
+  public:
+    explicit Summer(RTC::Manager* manager) : DataFlowComponentBase(manager), in_("in", value_) {}
+    RTC::ReturnCode_t onInitialize() override {
+        addInPort("in", in_);
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        while (in_.isNew()) {
+            in_.read();
+            sum_ += value_.data;
+            ++received_;
+        }
+        return RTC::RTC_OK;
+    }
+    RTC::TimedLong value_{};
+    RTC::InPort<RTC::TimedLong> in_;
+    std::atomic<long> sum_{0}, received_{0};
+};
+
+/// Provides the service.
+class Calculator : public POA_Testing::Calculator, public PortableServer::RefCountServantBase {
+  public:
+    char* name() override { return CORBA::string_dup("calculator"); }
+    CORBA::Double sum(const Testing::Numbers& values) override {
+        ++calls_;
+        return std::accumulate(values.get_buffer(), values.get_buffer() + values.length(), 0.0);
+    }
+    Testing::Range range_of(const Testing::Numbers& values) override {
+        ++calls_;
+        Testing::Range range{0, 0};
+        for (CORBA::ULong i = 0; i < values.length(); ++i) {
+            range.low = i == 0 ? values[i] : std::min(range.low, values[i]);
+            range.high = i == 0 ? values[i] : std::max(range.high, values[i]);
+        }
+        return range;
+    }
+    CORBA::Long divide(CORBA::Long dividend, CORBA::Long divisor, CORBA::Long& rest) override {
+        rest = dividend % divisor;
+        return dividend / divisor;
+    }
+    void set_mode(Testing::Mode) override {}
+    CORBA::Long calls() override { return calls_; }
+    void calls(CORBA::Long n) override { calls_ = n; }
+    RTC::TimedDouble stamped(const RTC::TimedDouble& value) override { return value; }
+
+  private:
+    std::atomic<CORBA::Long> calls_{0};
+};
+
+class CalculatorProvider : public RTC::DataFlowComponentBase {
+  public:
+    explicit CalculatorProvider(RTC::Manager* manager)
+        : DataFlowComponentBase(manager), port_("calculator") {}
+    RTC::ReturnCode_t onInitialize() override {
+        port_.registerProvider("calc", "Testing::Calculator", servant_);
+        addPort(port_);
+        return RTC::RTC_OK;
+    }
+    RTC::CorbaPort port_;
+    Calculator servant_;
+};
+
+class CalculatorConsumer : public RTC::DataFlowComponentBase {
+  public:
+    explicit CalculatorConsumer(RTC::Manager* manager)
+        : DataFlowComponentBase(manager), port_("calculator") {}
+    RTC::ReturnCode_t onInitialize() override {
+        port_.registerConsumer("calc", "Testing::Calculator", calculator_);
+        addPort(port_);
+        return RTC::RTC_OK;
+    }
+    RTC::CorbaPort port_;
+    RTC::CorbaConsumer<Testing::Calculator> calculator_;
+};
+
+/// Records its callbacks; does in one of them what it is told: "fail" or "throw".
+class Recorder : public RTC::DataFlowComponentBase {
+  public:
+    explicit Recorder(RTC::Manager* manager) : DataFlowComponentBase(manager) {}
+    RTC::ReturnCode_t onInitialize() override { return note("initialize"); }
+    RTC::ReturnCode_t onFinalize() override { return note("finalize"); }
+    RTC::ReturnCode_t onStartup(RTC::UniqueId) override { return note("startup"); }
+    RTC::ReturnCode_t onShutdown(RTC::UniqueId) override { return note("shutdown"); }
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return note("activated"); }
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return note("deactivated"); }
+    RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return note("aborting"); }
+    RTC::ReturnCode_t onError(RTC::UniqueId) override { return note("error"); }
+    RTC::ReturnCode_t onReset(RTC::UniqueId) override { return note("reset"); }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return note("execute"); }
+    RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override { return note("update"); }
+
+    /// The callbacks since the last call, and forgets them.
+    static std::string story() { return std::exchange(notes(), ""); }
+    static std::string& trouble_in() {
+        static std::string callback;
+        return callback;
+    }
+    static bool& throws() {
+        static bool yes = false;
+        return yes;
+    }
+
+  private:
+    static std::string& notes() {
+        static std::string all;
+        return all;
+    }
+    static RTC::ReturnCode_t note(const char* callback) {
+        notes() += std::string(notes().empty() ? "" : " ") + callback;
+        if (trouble_in() != callback) return RTC::RTC_OK;
+        if (throws()) throw std::runtime_error("as told");
+        return RTC::RTC_ERROR;
+    }
+};
+
+template <class Component>
+void register_as(RTC::Manager& manager, const char* name) {
+    coil::Properties profile;
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, name);
+    profile.setProperty("description", "for tests");
+    profile.setProperty("version", "1.0");
+    profile.setProperty("vendor", "Tandem");
+    profile.setProperty("category", "test");
+    profile.setProperty("conf.default.step", "1");
+    manager.registerFactory(profile, RTC::Create<Component>, RTC::Delete<Component>);
+}
+
+inline void register_all(RTC::Manager& manager) {
+    register_as<Counter>(manager, "Counter");
+    register_as<Summer>(manager, "Summer");
+    register_as<CalculatorProvider>(manager, "CalculatorProvider");
+    register_as<CalculatorConsumer>(manager, "CalculatorConsumer");
+    register_as<Recorder>(manager, "Recorder");
+}
+
+} // namespace testing
