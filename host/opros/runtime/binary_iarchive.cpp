@@ -11,7 +11,12 @@ namespace {
 // Malformed counts must not make us allocate what the bytes cannot hold: each element takes at least one
 // byte.
 std::size_t bytes_left(std::istream& in) {
-    return in.rdbuf() ? static_cast<std::size_t>(std::max<std::streamsize>(in.rdbuf()->in_avail(), 0)) : 0;
+    const auto here = in.tellg();
+    in.seekg(0, std::ios::end);
+    const auto end = in.tellg();
+    in.clear();
+    in.seekg(here);
+    return here < 0 || end < here ? 0 : static_cast<std::size_t>(end - here);
 }
 } // namespace
 
@@ -109,6 +114,11 @@ iarchive& binary_iarchive::load(std::wstring& value) {
 }
 
 iarchive& binary_iarchive::read_class_head(const std::string& name) {
+    // The entries of a map are its keys and values, one after the other.
+    return name.rfind("std::pair<", 0) == 0 ? *this : read_container_name(name);
+}
+
+iarchive& binary_iarchive::read_container_name(const std::string& name) {
     expect(CLASS_CODE);
     std::string given(checked(get_bytes<std::uint16_t>()), '\0');
     m_is->read(given.data(), static_cast<std::streamsize>(given.size()));

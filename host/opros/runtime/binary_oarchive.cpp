@@ -65,6 +65,11 @@ oarchive& binary_oarchive::save(const std::wstring& value) {
 }
 
 oarchive& binary_oarchive::write_class_head(const std::string& name) {
+    // The entries of a map are its keys and values, one after the other.
+    return name.rfind("std::pair<", 0) == 0 ? *this : write_container_name(name);
+}
+
+oarchive& binary_oarchive::write_container_name(const std::string& name) {
     m_os->put(CLASS_CODE);
     put_bytes(static_cast<std::uint16_t>(name.size()));
     m_os->write(name.data(), static_cast<std::streamsize>(static_cast<std::uint16_t>(name.size())));

@@ -18,7 +18,11 @@ class InputDataPortImpl {
 
     void push(const opros_any& value) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        queue_.push() = value;
+        // Copied into a value of this port's own making: that of the source may belong to a library that goes
+        // first.
+        opros_any& slot = queue_.push();
+        if (slot.empty()) slot = port_.sample();
+        slot = value;
     }
 
     opros_any* next(bool take) {

@@ -35,6 +35,7 @@ void Application::load(const ApplicationProfile& profile) {
         auto dirs = options_.plugin_dirs;
         dirs.insert(dirs.begin(), profile.place.file.parent_path());
         components_.push_back(std::make_unique<ComponentHost>(entry, read_component_profile(file), dirs));
+        libraries_.push_back(components_.back()->library());
     }
 }
 

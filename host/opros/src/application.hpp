@@ -52,6 +52,8 @@ class Application {
     void connect_all(const ApplicationProfile& profile);
 
     ApplicationOptions options_;
+    // A value in one component's queue may be of another one's making: libraries go after all components.
+    std::vector<std::shared_ptr<plugin::Library>> libraries_;
     std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
     std::vector<ComponentHost*> order_;
     WorkerPool workers_;

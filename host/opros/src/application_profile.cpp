@@ -8,7 +8,7 @@ namespace {
 
 PortReference port_reference(const XmlFile& xml, const pugi::xml_node& connection, const char* end) {
     const pugi::xml_node node = connection.child(end);
-    if (!node) xml.fail(connection, "<port_connection> lacks its <" + std::string(end) + ">");
+    if (!node) xml.fail(connection, std::string("<port_connection> lacks its <").append(end).append(">"));
     return {xml.required_attribute(node, "component_name"), xml.required_attribute(node, "port_name")};
 }
 
@@ -33,7 +33,7 @@ void read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, Applicat
         profile.subcomponents.push_back(std::move(component));
     }
     if (profile.subcomponents.empty())
-        xml.fail(root, "<" + std::string(root.name()) + "> lists no <subcomponent> in <subcomponents>");
+        xml.fail(root, "the application lists no <subcomponent> in <subcomponents>");
 }
 
 void require_component(const XmlFile& xml, const pugi::xml_node& node, const ApplicationProfile& profile,

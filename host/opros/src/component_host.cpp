@@ -4,13 +4,28 @@
 #include "host/opros/src/load_component.hpp"
 
 #include <MethodInvokeException.h>
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
 namespace tandem::engine {
+namespace {
+
+// The common ones are decimal, those of device components hexadecimal in their definitions.
+std::string code_text(ReturnType code) {
+    return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
+}
+
+// What repeats in every cycle is told ever more rarely: 1, 2, 4, 8, ...
+bool is_worth_telling(std::uint64_t count) { return (count & (count - 1)) == 0; }
+
+} // namespace
 
 ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
                              const std::vector<std::filesystem::path>& dirs)
-    : name_(entry.name), profile_(std::move(profile)), component_(load_component(profile_, dirs)) {
+    : name_(entry.name), profile_(std::move(profile)) {
+    auto loaded = load_component(profile_, dirs);
+    library_ = std::move(loaded.library);
+    component_ = std::move(loaded.component);
     component_->setId(name_);
     for (const auto& [key, value] : profile_.properties) component_->setProperty(key, value);
     for (const auto& [key, value] : entry.properties) component_->setProperty(key, value);
@@ -39,7 +54,8 @@ std::string ComponentHost::guarded(const char* what, const std::function<void()>
     } catch (const MethodInvokeException& error) {
         // A service that fails now may work in the next cycle: the real engine, too, leaves the component
         // ACTIVE.
-        spdlog::warn("component {}: {}: {}", name_, what, error.what());
+        if (is_worth_telling(++failed_calls_))
+            spdlog::warn("component {}: {}: {} ({} so far)", name_, what, error.what(), failed_calls_.load());
         return "";
     } catch (const std::exception& error) {
         return fail(what, error.what());
@@ -53,8 +69,9 @@ bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::
     const std::string thrown = guarded(what, [&] { result = (component_.get()->*step)(); });
     if (thrown.empty() && result == OPROS_SUCCESS) return true;
     if (thrown.empty())
-        spdlog::error("component {}: {} failed with code {:#x} (callback: {:d})", name_, what, result,
-                      component_->getErrorInfo());
+        spdlog::error(
+            "component {}: {} failed, its callback returned code {}; it is left out, the others go on", name_,
+            what, code_text(component_->getErrorInfo()));
     return false;
 }
 
@@ -79,7 +96,7 @@ void ComponentHost::destroy() {
 void ComponentHost::report_code(const char* what, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
-        spdlog::warn("component {}: {} returns code {:d}", name_, what, code);
+        spdlog::warn("component {}: {} returns code {}", name_, what, code_text(code));
     last = code;
 }
 

@@ -26,6 +26,7 @@ class ComponentHost {
     const std::string& name() const { return name_; }
     const ComponentProfile& profile() const { return profile_; }
     Component& component() { return *component_; }
+    const std::shared_ptr<plugin::Library>& library() const { return library_; }
     bool active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
     /// Initialisation or start has failed: the component takes no part.
     bool failed() const { return failed_; }
@@ -57,9 +58,11 @@ class ComponentHost {
 
     std::string name_;
     ComponentProfile profile_;
+    std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
     std::atomic<bool> failed_{false};
     bool error_reported_ = false;
+    std::atomic<std::uint64_t> failed_calls_{0};
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
     std::uint64_t needed_triggers_ = 0;
     std::atomic<std::uint64_t> triggers_{0};

@@ -37,8 +37,8 @@ Component* make(plugin::Library& library) {
 
 } // namespace
 
-std::shared_ptr<Component> load_component(const ComponentProfile& profile,
-                                          const std::vector<std::filesystem::path>& dirs) {
+LoadedComponent load_component(const ComponentProfile& profile,
+                               const std::vector<std::filesystem::path>& dirs) {
     try {
         std::vector<std::filesystem::path> search{profile.place.file.parent_path()};
         search.insert(search.end(), dirs.begin(), dirs.end());
@@ -46,7 +46,7 @@ std::shared_ptr<Component> load_component(const ComponentProfile& profile,
         check_version(*library);
         void (*release)(Component*) = [](Component* dying) { delete dying; };
         if (library->has("releaseComponent")) release = library->symbol<void(Component*)>("releaseComponent");
-        return plugin::own(library, make(*library), release);
+        return {library, plugin::own(library, make(*library), release)};
     } catch (const std::runtime_error& error) {
         throw SetupError(profile.library_place, error.what());
     }

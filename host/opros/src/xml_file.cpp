@@ -25,6 +25,8 @@ std::string read_all(const std::filesystem::path& file) {
     return bytes.str();
 }
 
+std::string tag(const char* name) { return std::string("<").append(name).append(">"); }
+
 } // namespace
 
 XmlFile::XmlFile(const std::filesystem::path& file) : file_(file), bytes_(read_all(file)) {
@@ -53,9 +55,9 @@ pugi::xml_node XmlFile::root(std::initializer_list<const char*> names) const {
     std::string expected;
     for (const char* name : names) {
         if (std::string(root.name()) == name) return root;
-        expected += (expected.empty() ? "<" : " or <") + std::string(name) + ">";
+        expected.append(expected.empty() ? "" : " or ").append(tag(name));
     }
-    fail(root, "root element is <" + std::string(root.name()) + ">, expected " + expected);
+    fail(root, "root element is " + tag(root.name()) + ", expected " + expected);
 }
 
 std::string XmlFile::text(const pugi::xml_node& node, const char* child) {
@@ -65,14 +67,13 @@ std::string XmlFile::text(const pugi::xml_node& node, const char* child) {
 std::string XmlFile::required_text(const pugi::xml_node& node, const char* child) const {
     std::string value = text(node, child);
     if (value.empty())
-        fail(node.child(child) ? node.child(child) : node,
-             "<" + std::string(node.name()) + "> lacks its <" + child + ">");
+        fail(node.child(child) ? node.child(child) : node, tag(node.name()) + " lacks its " + tag(child));
     return value;
 }
 
 std::string XmlFile::required_attribute(const pugi::xml_node& node, const char* name) const {
     std::string value = trimmed(node.attribute(name).value());
-    if (value.empty()) fail(node, "<" + std::string(node.name()) + "> lacks its attribute " + name);
+    if (value.empty()) fail(node, tag(node.name()) + " lacks its attribute " + name);
     return value;
 }
 
@@ -82,7 +83,7 @@ double XmlFile::number(const pugi::xml_node& node, const char* child, double oth
     double number = 0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
     if (error != std::errc() || end != value.data() + value.size())
-        fail(node.child(child), "<" + std::string(child) + "> is '" + value + "', expected a number");
+        fail(node.child(child), tag(child) + " is '" + value + "', expected a number");
     return number;
 }
 

@@ -23,6 +23,7 @@ class binary_iarchive : public iarchive {
     virtual iarchive& load(std::wstring& value);
     virtual iarchive& load_binary(char** p, long& size);
     virtual iarchive& read_class_head(const std::string& name);
+    virtual iarchive& read_container_name(const std::string& name);
     virtual std::size_t read_sequence_head();
     virtual long read_array_head(long size, char code, char bytes);
     virtual iarchive& read_array_end(long size, char code, char bytes);

@@ -24,6 +24,7 @@ class binary_oarchive : public oarchive {
     virtual oarchive& save(const std::wstring& value);
     virtual oarchive& save_binary(const char* p, long size);
     virtual oarchive& write_class_head(const std::string& name);
+    virtual oarchive& write_container_name(const std::string& name);
     virtual oarchive& write_sequence_head(std::size_t count);
     virtual oarchive& write_array_head(long size, char code, char bytes);
     virtual oarchive& write_array_end(long size, char code, char bytes);

@@ -29,6 +29,7 @@ class iarchive : public archive {
 
     virtual iarchive& read_class_head(const std::string&) { return *this; }
     virtual iarchive& read_class_end(const std::string&) { return *this; }
+    virtual iarchive& read_container_name(const std::string&) { return *this; }
     /// How many elements the caller is to load: the archive's to say, checked against what it has left.
     virtual std::size_t read_sequence_head() = 0;
     virtual iarchive& read_sequence_end() { return *this; }
@@ -76,9 +77,12 @@ template <typename T> void load_value(iarchive& ar, T& value, by_enumeration) {
 }
 template <typename T, typename Way> void load_value(iarchive& ar, T& value, Way how) {
     const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
-    ar.read_class_head(name);
+    if (!is_container<T>::value)
+        ar.read_class_head(name);
+    else if (ar.keeps_names())
+        ar.read_container_name(name);
     load_class(ar, value, how);
-    ar.read_class_end(name);
+    if (!is_container<T>::value) ar.read_class_end(name);
 }
 
 } // namespace detail

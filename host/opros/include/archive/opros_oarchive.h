@@ -36,9 +36,12 @@ class oarchive : public archive {
     OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_ELEMENTS)
 #undef OPROS_SAVE_ELEMENTS
 
-    /// A class begins and ends. The name is empty when the archive does not keep names.
+    /// A class begins and ends; the standard containers are no classes. The name is empty when the archive does not
+    /// keep names.
     virtual oarchive& write_class_head(const std::string&) { return *this; }
     virtual oarchive& write_class_end(const std::string&) { return *this; }
+    /// The sequence that follows is a container of this name: only for archives that keep names.
+    virtual oarchive& write_container_name(const std::string&) { return *this; }
     /// So many elements of one type follow, a number that may be another one next time.
     virtual oarchive& write_sequence_head(std::size_t count) = 0;
     virtual oarchive& write_sequence_end() { return *this; }
@@ -86,9 +89,12 @@ template <typename T> void save_value(oarchive& ar, const T& value, by_enumerati
 }
 template <typename T, typename Way> void save_value(oarchive& ar, const T& value, Way how) {
     const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
-    ar.write_class_head(name);
+    if (!is_container<T>::value)
+        ar.write_class_head(name);
+    else if (ar.keeps_names())
+        ar.write_container_name(name);
     save_class(ar, const_cast<T&>(value), how); // users' save() is not const
-    ar.write_class_end(name);
+    if (!is_container<T>::value) ar.write_class_end(name);
 }
 
 } // namespace detail

@@ -6,12 +6,37 @@
 
 #include <archive/opros_access.h>
 
+#include <deque>
+#include <list>
+#include <map>
+#include <queue>
+#include <set>
+#include <stack>
 #include <type_traits>
 #include <utility>
+#include <valarray>
+#include <vector>
 
 namespace opros {
 namespace archive {
 namespace detail {
+
+/// The standard containers: archives see them as sequences, not as classes.
+template <typename T> struct is_container : std::false_type {};
+template <typename T, typename A> struct is_container<std::vector<T, A>> : std::true_type {};
+template <typename T, typename A> struct is_container<std::deque<T, A>> : std::true_type {};
+template <typename T, typename A> struct is_container<std::list<T, A>> : std::true_type {};
+template <typename T> struct is_container<std::valarray<T>> : std::true_type {};
+template <typename T, typename C, typename A> struct is_container<std::set<T, C, A>> : std::true_type {};
+template <typename T, typename C, typename A> struct is_container<std::multiset<T, C, A>> : std::true_type {};
+template <typename T, typename C> struct is_container<std::queue<T, C>> : std::true_type {};
+template <typename T, typename C> struct is_container<std::stack<T, C>> : std::true_type {};
+template <typename T, typename C, typename L>
+struct is_container<std::priority_queue<T, C, L>> : std::true_type {};
+template <typename K, typename T, typename C, typename A>
+struct is_container<std::map<K, T, C, A>> : std::true_type {};
+template <typename K, typename T, typename C, typename A>
+struct is_container<std::multimap<K, T, C, A>> : std::true_type {};
 
 template <typename T> struct has_members {
     template <typename U>

@@ -28,7 +28,6 @@ namespace opros {
 std::string readable_name(const std::type_info& type);
 } // namespace opros
 
-inline std::string typeName(void*) { return "void"; }
 inline std::string typeName(bool*) { return "bool"; }
 inline std::string typeName(short*) { return "short"; }
 inline std::string typeName(unsigned short*) { return "unsigned short"; }
@@ -86,6 +85,9 @@ template <typename T> std::string name_of(T*, long) { return readable_name(typei
 
 template <typename T, bool is_enumeration> struct name_selector {
     static std::string name() { return name_of(static_cast<T*>(0), 0); }
+};
+template <> struct name_selector<void, false> {
+    static std::string name() { return "void"; }
 };
 template <typename T> struct name_selector<T, true> {
     static std::string name() { return "Enum"; }

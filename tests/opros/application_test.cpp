@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rt/step_client.hpp"
+#include "tests/opros/running.hpp"
+
+using tandem::engine::Application;
+
+namespace {
+const std::string both = Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml");
+
+std::filesystem::path maker_and_printer(const Folder& folder, const std::string& maker_properties = "",
+                                        const std::string& connections = "", const std::string& rest = "") {
+    folder.component("M", "maker.dll", "<type>periodic</type><period>10</period>", maker_properties);
+    folder.component("P", "printer");
+    return folder.application(both, connections, rest);
+}
+std::string trouble(const std::string& kind) { return "<property name=\"trouble\">" + kind + "</property>"; }
+std::string library_error(const std::string& library) {
+    const Folder folder;
+    folder.component("C", library);
+    return setup_error(folder.application(Folder::sub("C", "C.xml")), test_options(folder));
+}
+} // namespace
+
+TEST_CASE(
+    "components get their names and properties, those of the application first, before they initialise") {
+    const Folder folder;
+    folder.component("M", "maker.dll", "<type>passive</type>",
+                     "<property name=\"a\">1</property><property name=\"b\">2</property>");
+    const auto file = folder.application(
+        Folder::sub("Name", "M.xml", "<properties><property name=\"b\">3</property></properties>"));
+    Application application(file, test_options(folder));
+    CHECK(recorder(application, "Name").calls == std::vector<std::string>{"initialize Name 13"});
+    auto& component = application.find("Name")->component();
+    CHECK(component.getProperty("_opros_xx_internal_xx_Component_Path") ==
+          (folder.path() / "res" / "").string());
+    CHECK(state(application, "Name") == OPROS_CS_READY);
+}
+
+TEST_CASE("an application starts, is stepped and stops in order") {
+    const Folder folder;
+    Application application(maker_and_printer(folder), test_options(folder));
+    application.start();
+    CHECK(state(application, "M") == OPROS_CS_ACTIVE);
+    application.step("M");
+    application.step("M");
+    CHECK(recorder(application, "M").executions == 2);
+    CHECK(recorder(application, "M").updates == 2);
+    application.stop();
+    CHECK(state(application, "M") == OPROS_CS_INACTIVE);
+    application.step("M");
+    CHECK(recorder(application, "M").executions == 2);
+    CHECK_THROWS_WITH(application.step("X"), Catch::Contains("no component 'X'") && Catch::Contains("M, P"));
+}
+
+TEST_CASE("data, events and service calls cross between components") {
+    const Folder folder;
+    const auto file = maker_and_printer(folder, "<property name=\"calls\">yes</property>",
+                                        Folder::connect("data", "M", "numbers", "P", "numbers") +
+                                            Folder::connect("event", "M", "news", "P", "news") +
+                                            Folder::connect("service", "M", "math", "P", "math"));
+    Application application(file, test_options(folder));
+    application.start();
+    application.step("M");
+    application.step("P");
+    Recorder& printer = recorder(application, "P");
+    CHECK(printer.last_number == 1);
+    CHECK(printer.last_event == "tick: cycle 1");
+    CHECK(printer.calls == std::vector<std::string>{"noted"});
+    CHECK(recorder(application, "M").last_number == 1.5);
+    CHECK(recorder(application, "M").calls.back() == "turned turned hand");
+}
+
+TEST_CASE("a component that throws goes to ERROR and the others go on") {
+    const std::string kind = GENERATE("execute throws", "execute throws a number");
+    const Folder folder;
+    Application application(maker_and_printer(folder, trouble(kind)), test_options(folder));
+    application.start();
+    application.step("M");
+    CHECK_THROWS_WITH(application.step("M"), Catch::Contains("component M: onExecute threw an exception"));
+    CHECK(state(application, "M") == OPROS_CS_ERROR);
+    CHECK(recorder(application, "M").calls.back() == "error");
+    application.step("P");
+    CHECK(recorder(application, "P").executions == 1);
+    application.step("M");
+    CHECK(recorder(application, "M").executions == 2);
+}
+
+TEST_CASE("a component that cannot initialise or start is left out, with its connections") {
+    const std::string kind = GENERATE("initialize fails", "initialize throws", "start fails");
+    const Folder folder;
+    Application application(
+        maker_and_printer(folder, trouble(kind), Folder::connect("data", "M", "numbers", "P", "numbers")),
+        test_options(folder));
+    application.start();
+    CHECK(application.find("M")->failed());
+    CHECK(state(application, "M") != OPROS_CS_ACTIVE);
+    CHECK(state(application, "P") == OPROS_CS_ACTIVE);
+}
+
+TEST_CASE("a failing service call and a returned error leave the component ACTIVE") {
+    const std::string kind = GENERATE("call", "returns an error");
+    const Folder folder;
+    Application application(maker_and_printer(folder, trouble(kind)), test_options(folder));
+    application.start();
+    application.step("M");
+    application.step("M");
+    CHECK(state(application, "M") == OPROS_CS_ACTIVE);
+    CHECK(recorder(application, "M").executions == 2);
+}
+
+TEST_CASE("a library that cannot be used is one line at the place of its name") {
+    CHECK_THAT(library_error("missing.dll"), Catch::Contains("C.xml:3: library 'missing.dll' not found") &&
+                                                 Catch::Contains("libmissing.dll.so"));
+    CHECK_THAT(library_error("no_factory"),
+               Catch::Contains("C.xml:3:") && Catch::Contains("does not export getComponent"));
+    CHECK_THAT(library_error("throwing_factory"), Catch::Contains("threw an exception: out of arms"));
+    CHECK_THAT(library_error("null_factory"), Catch::Contains("returned NULL"));
+}
+
+TEST_CASE("the same library may serve several components") {
+    const Folder folder;
+    folder.component("M", "maker");
+    Application application(folder.application(Folder::sub("A", "M.xml") + Folder::sub("B", "M.xml")),
+                            test_options(folder));
+    CHECK(recorder(application, "A").calls[0] == "initialize A ");
+    CHECK(recorder(application, "B").calls[0] == "initialize B ");
+}
+
+TEST_CASE("a component is stepped through the lock-step socket") {
+    const Folder folder;
+    Application application(maker_and_printer(folder), test_options(folder));
+    application.start();
+    tandem::rt::StepClient client(folder.path() / "step", std::chrono::seconds(10));
+    client.step("M");
+    CHECK(recorder(application, "M").executions == 1);
+    CHECK_THROWS_WITH(client.step("X"), Catch::Contains("no component 'X'"));
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/opros/running.hpp"
+
+namespace {
+std::string connection_error(const std::string& type, const std::string& from, const std::string& to) {
+    const Folder folder;
+    folder.component("M", "maker");
+    folder.component("P", "printer");
+    const std::string message =
+        setup_error(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"),
+                                       std::string("\n") + Folder::connect(type, "M", from, "P", to)),
+                    test_options(folder));
+    CHECK(message.find('\n') == std::string::npos);
+    return message;
+}
+} // namespace
+
+TEST_CASE("a port that does not exist is an error that lists those that do") {
+    CHECK_THAT(
+        connection_error("data", "number", "numbers"),
+        Catch::Contains(
+            "app.xml:8: component 'M' has no port 'number', its data ports are: numbers, poses, words"));
+    CHECK_THAT(connection_error("event", "news", "paper"), Catch::Contains("its event ports are: news"));
+}
+
+TEST_CASE("a port of the wrong direction or kind is an error") {
+    CHECK_THAT(connection_error("data", "news", "numbers"),
+               Catch::Contains("M.news is not an output data port"));
+    CHECK_THAT(connection_error("service", "math", "numbers"),
+               Catch::Contains("P.numbers is not a provided service port"));
+}
+
+TEST_CASE("ports of different types are not connected, and the error names both types") {
+    CHECK_THAT(
+        connection_error("data", "numbers", "counts"),
+        Catch::Contains(
+            "app.xml:8: type mismatch: output M.numbers is std::vector<double>, input P.counts is int"));
+}
+
+TEST_CASE("a method that the provided port lacks is an error") {
+    const Folder folder;
+    folder.component("M", "maker");
+    const std::string message =
+        setup_error(folder.application(Folder::sub("M", "M.xml"),
+                                       Folder::connect("service", "M", "math", "M", "opros.symbol")),
+                    test_options(folder));
+    CHECK_THAT(message, Catch::Contains("app.xml:7: component 'M' has no port 'opros.symbol'"));
+}

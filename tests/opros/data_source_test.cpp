@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/opros/recording_archive.hpp"
+
+#include <InputDataPort.h>
+
+#include <catch2/catch.hpp>
+#include <deque>
+#include <memory>
+
+namespace {
+
+/// Encoded numbers that wait outside the component.
+class Outside : public DataPortSource {
+  public:
+    void send(double value) {
+        BinaryPipe pipe;
+        pipe.out << value;
+        waiting.push_back(pipe.bytes.str());
+    }
+    opros::archive::iarchive* next() override {
+        if (waiting.empty()) return nullptr;
+        bytes_ = std::istringstream(waiting.front());
+        archive_ = std::make_unique<opros::archive::binary_iarchive>(&bytes_);
+        return archive_.get();
+    }
+    void done() override {
+        waiting.pop_front();
+        ++finished;
+    }
+    void undecodable(const std::string& why) override { complaint = why; }
+
+    std::deque<std::string> waiting;
+    std::string complaint;
+    int finished = 0;
+
+  private:
+    std::istringstream bytes_;
+    std::unique_ptr<opros::archive::binary_iarchive> archive_;
+};
+
+double pop(InputDataPort<double>& port) {
+    const std::unique_ptr<opros_any> any(port.pop());
+    return any ? port.getContent(*any) : -1;
+}
+
+} // namespace
+
+TEST_CASE("with LAST the consumer gets the newest value of a source, and the others are used up") {
+    InputDataPort<double> port(OPROS_LAST, 1);
+    Outside outside;
+    REQUIRE(port.addSource(&outside) == OPROS_SUCCESS);
+    CHECK(port.pop() == nullptr);
+    for (double value : {1., 2., 3.}) outside.send(value);
+    CHECK(pop(port) == 3);
+    CHECK(outside.finished == 3);
+    CHECK(port.pop() == nullptr);
+}
+
+TEST_CASE("with FIFO the consumer gets every value in order, and a full queue leaves the rest outside") {
+    InputDataPort<double> port(OPROS_FIFO, 2);
+    Outside outside;
+    port.addSource(&outside);
+    for (double value : {1., 2., 3.}) outside.send(value);
+    CHECK(port.getSize() == 2);
+    CHECK(outside.waiting.size() == 1);
+    CHECK(pop(port) == 1);
+    CHECK(pop(port) == 2);
+    CHECK(pop(port) == 3);
+}
+
+TEST_CASE("pushed values and those of a source meet in one queue") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    double pushed = 7;
+    port.push(pushed);
+    outside.send(8);
+    CHECK(pop(port) == 7);
+    CHECK(pop(port) == 8);
+}
+
+TEST_CASE("a value that cannot be decoded is dropped, reported and costs no other value") {
+    InputDataPort<double> port(OPROS_LAST, 1);
+    Outside outside;
+    port.addSource(&outside);
+    outside.send(5);
+    outside.waiting.push_back("junk");
+    CHECK(pop(port) == 5);
+    CHECK_FALSE(outside.complaint.empty());
+    CHECK(outside.finished == 2);
+}
+
+TEST_CASE("a removed source is not asked any more") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    port.removeSource(&outside);
+    outside.send(1);
+    CHECK(port.getSize() == 0);
+    CHECK(outside.waiting.size() == 1);
+}
+
+TEST_CASE("reset discards what waits in the sources, too") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    outside.send(1);
+    port.reset();
+    CHECK(outside.waiting.empty());
+}
+
+TEST_CASE("a port whose type cannot be archived takes no source") {
+    struct Local {
+        int n = 0;
+    };
+    InputDataPort<Local> port;
+    Outside outside;
+    CHECK(port.addSource(&outside) == OPROS_UNSUPPORTED_METHOD);
+    CHECK(port.addSource(nullptr) == OPROS_BAD_INPUT_PARAMETER);
+}
+
+TEST_CASE("a value can be pushed from an archive") {
+    InputDataPort<double> port;
+    BinaryPipe pipe;
+    pipe.out << 2.5;
+    CHECK(static_cast<InputDataPortInterface&>(port).push(pipe.in) == OPROS_SUCCESS);
+    CHECK(pop(port) == 2.5);
+}

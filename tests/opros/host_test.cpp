@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program, as a process.
+#include "tests/opros/folder.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <poll.h>
+#include <sys/wait.h>
+
+namespace {
+
+class Process {
+  public:
+    explicit Process(const std::vector<std::string>& arguments) {
+        int out[2];
+        REQUIRE(pipe(out) == 0);
+        pid_ = fork();
+        if (pid_ == 0) {
+            dup2(out[1], STDOUT_FILENO);
+            dup2(out[1], STDERR_FILENO);
+            close(out[0]);
+            std::vector<char*> argv;
+            for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+            argv.push_back(nullptr);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+        close(out[1]);
+        output_ = out[0];
+    }
+    ~Process() {
+        if (pid_ > 0) {
+            kill(pid_, SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
+        close(output_);
+    }
+
+    /// Reads until the text has come, the process ends, or 60 s are over.
+    bool says(const std::string& text) {
+        while (said.find(text) == std::string::npos) {
+            pollfd readable{output_, POLLIN, 0};
+            char chunk[512];
+            if (poll(&readable, 1, 60000) <= 0) return false;
+            const ssize_t got = read(output_, chunk, sizeof chunk);
+            if (got <= 0) return false;
+            said.append(chunk, static_cast<std::size_t>(got));
+        }
+        return true;
+    }
+    void signal(int number) { kill(pid_, number); }
+    int exit_code() {
+        says("no program says this");
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    std::string said;
+
+  private:
+    pid_t pid_;
+    int output_;
+};
+
+std::filesystem::path one_component(const Folder& folder, const std::string& library) {
+    folder.component("M", library, "<type>periodic</type><period>10</period>");
+    return folder.application(Folder::sub("M", "M.xml"));
+}
+
+} // namespace
+
+TEST_CASE("the host says ready when all is started and stops in order on a signal") {
+    const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker.dll")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(number);
+    CHECK(host.exit_code() == 0);
+}
+
+TEST_CASE("the host takes all its options") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", "/nowhere", "--plugin-path", FIXTURES, "--cpu", "0",
+                  "--tick-spin", "50", "--parent-death", "--workers", "2", "--lockstep",
+                  folder.path() / "step", one_component(folder, "maker")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+}
+
+TEST_CASE("bad input is one line on standard error and exit code 1") {
+    const Folder folder;
+    Process host({OPROS_HOST, one_component(folder, "nothing.dll")});
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::StartsWith("opros_host: ") &&
+                              Catch::Contains("M.xml:3: library 'nothing.dll' not found"));
+    CHECK(std::count(host.said.begin(), host.said.end(), '\n') == 1);
+    Process missing({OPROS_HOST, "/nowhere/app.xml"});
+    CHECK(missing.exit_code() == 1);
+    CHECK_THAT(missing.said, Catch::Contains("/nowhere/app.xml"));
+}
