@@ -84,7 +84,7 @@ std::string final_pose(const RunResult& r) {
 
 bool Report::good() const {
     for (const RunResult& r : runs)
-        if (!r.failures.empty() || !r.complete()) return false;
+        if (!r.failures.empty() || !r.incidents.empty() || !r.complete()) return false;
     return all_pass(pairs) &&
            std::all_of(acceptance.begin(), acceptance.end(), [](const auto& list) { return all_pass(list); });
 }

@@ -130,8 +130,7 @@ class HostedRun {
         i.had_hw =
             std::any_of(members.begin(), members.end(), [](const Member& m) { return m.name == "HWComp"; });
         incidents_.push_back(i);
-        failures_.push_back(fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.how, i.run_time));
-        std::string line = failures_.back();
+        std::string line = fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.how, i.run_time);
         if (const auto words = host.last_words(); !words.empty()) line += ", its last line: " + words;
         progress_.say(line + (i.had_hw ? "; HWComp was in it" : "; the other host goes on"));
         if (options_.restart && !options_.lockstep) {

@@ -19,8 +19,8 @@ struct RunResult {
     std::vector<Row> rows;
     std::vector<double> latencies; // us, empty in lock-step
     SampleCount samples;
-    std::vector<Incident> incidents;
-    std::vector<std::string> failures; // one line each: why this was no clean run
+    std::vector<Incident> incidents; // hosts that died; told when it happened
+    std::vector<std::string> failures; // one line each: what else was wrong
 
     bool complete() const; // every tick is there
 };
