@@ -88,6 +88,10 @@ std::string latency_tables(const std::vector<LatencyRow>& rows) {
                            percentile(r.latencies, 0.999), percentile(r.latencies, 1.0), r.samples.sent,
                            r.samples.received, r.samples.lost);
     }
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+        out += fmt::format("  p50 of {} minus p50 of {}: {:+.2f} us\n", rows.back().configuration,
+                           rows[i].configuration,
+                           percentile(rows.back().latencies, 0.5) - percentile(rows[i].latencies, 0.5));
     return out;
 }
 

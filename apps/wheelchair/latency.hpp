@@ -39,7 +39,8 @@ struct LatencyRow {
     std::vector<double> latencies; // us
     SampleCount samples;
 };
-/// The paper's Table 1, and under it percentiles over the whole run; one line per configuration.
+/// The paper's Table 1, and under it percentiles over the whole run; one line per configuration, and what the
+/// last one adds to the others.
 std::string latency_tables(const std::vector<LatencyRow>& rows);
 
 } // namespace tandem::wheelchair

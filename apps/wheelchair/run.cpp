@@ -76,20 +76,42 @@ class HostedRun {
                 return;
             }
             if (n % 50 == 0) handle(supervisor_.watch(0ms));
+            if (n == 0 && component_missing()) return;
             progress_.show(n * tick_seconds, scenario_.seconds);
         }
     }
 
     void drive_real_time() {
         // Bounded, whatever becomes of the hosts: the scenario and a little more.
-        const double end = monotonic_seconds() + scenario_.seconds + 2.0;
+        const double start = monotonic_seconds(), end = start + scenario_.seconds + 2.0;
+        bool checked = false;
         while (!finished() && monotonic_seconds() < end) {
             handle(supervisor_.watch(50ms));
             if (nobody_left()) return;
             traces_.update();
             report_consequences();
             progress_.show(scenario_time(), scenario_.seconds);
+            if (!checked && monotonic_seconds() > start + 1.0) {
+                checked = true;
+                if (incidents_.empty() && component_missing()) return;
+            }
         }
+    }
+
+    /// A host may be ready although a component refused to start, as the real engines are. True if one never
+    /// ticked.
+    bool component_missing() {
+        traces_.update();
+        std::string missing;
+        if (traces_.joystick.records().empty()) missing = "JoystickComp";
+        if (traces_.control.records().empty()) missing = "ControlComp";
+        if (traces_.hw.records().empty()) missing = "HWComp";
+        if (missing.empty()) return false;
+        std::string words;
+        for (const Host& host : supervisor_.hosts())
+            words += fmt::format("; {}: {}", host.name, host.last_words());
+        failures_.push_back(missing + " does not run" + words);
+        return true;
     }
 
     double scenario_time() const {
@@ -131,7 +153,7 @@ class HostedRun {
             std::any_of(members.begin(), members.end(), [](const Member& m) { return m.name == "HWComp"; });
         incidents_.push_back(i);
         std::string line = fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.how, i.run_time);
-        if (const auto words = host.last_words(); !words.empty()) line += ", its last line: " + words;
+        if (!host.process.poll()->signalled) line += ", its last words: " + host.last_words();
         progress_.say(line + (i.had_hw ? "; HWComp was in it" : "; the other host goes on"));
         if (options_.restart && !options_.lockstep) {
             supervisor_.restart(host);
@@ -166,7 +188,7 @@ class HostedRun {
                 failures_.push_back(
                     fmt::format("{} (pid {}) did not stop cleanly: it {}{}{}", host.name, host.process.pid(),
                                 host.process.poll() ? host.process.poll()->text() : "hangs",
-                                host.last_words().empty() ? "" : ", its last line: ", host.last_words()));
+                                host.last_words().empty() ? "" : ", its last words: ", host.last_words()));
         }
 #ifdef TANDEM_WITH_LINK
         if (!directory_.link().empty()) shm::remove_dead(directory_.link());

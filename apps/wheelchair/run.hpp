@@ -19,7 +19,7 @@ struct RunResult {
     std::vector<Row> rows;
     std::vector<double> latencies; // us, empty in lock-step
     SampleCount samples;
-    std::vector<Incident> incidents; // hosts that died; told when it happened
+    std::vector<Incident> incidents;   // hosts that died; told when it happened
     std::vector<std::string> failures; // one line each: what else was wrong
 
     bool complete() const; // every tick is there

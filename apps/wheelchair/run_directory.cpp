@@ -189,10 +189,10 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
     for (const auto& w : rtm_wires(configuration))
         connect.push_back(fmt::format("{}0.{}?port={}0.{}", w.from, w.from_port, w.to, w.to_port));
     if (mixed) {
-        // InterceptorComp activates JoystickComp when AdaptorComp starts; nothing is activated here.
+        // InterceptorComp activates JoystickComp when AdaptorComp starts.
         modules.push_back("InterceptorComp.so");
         create.push_back(fmt::format("InterceptorComp?link={}&rtc=JoystickComp0", link_));
-        activate.clear();
+        activate = {"InterceptorComp0"};
     }
     std::string conf = rtc_conf_head + files;
     conf += list_setting("manager.modules.preload", modules) +

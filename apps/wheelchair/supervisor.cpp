@@ -69,10 +69,12 @@ std::string Host::command_line() const {
 
 std::string Host::last_words() const {
     std::ifstream file(log);
-    std::string last;
-    for (std::string line; std::getline(file, line);)
+    std::string last, last_error;
+    for (std::string line; std::getline(file, line);) {
         if (!line.empty()) last = line;
-    return last;
+        if (line.find("error") != line.npos) last_error = line;
+    }
+    return last_error.empty() ? last : last_error;
 }
 
 Supervisor::Supervisor() {

@@ -24,7 +24,7 @@ struct Host {
     bool ready() const { return ready_at > 0.0; }
     bool running() const { return !ended; }
     std::string command_line() const; // quoted for a shell
-    std::string last_words() const;   // last line of its log, or empty
+    std::string last_words() const;   // last error in its log, else last line
 };
 
 /// Starts hosts, watches them, and ends them. Takes over SIGINT, SIGTERM and SIGHUP of this program while it

@@ -79,4 +79,5 @@ TEST_CASE("the tables have a line for each configuration") {
     CHECK_THAT(text, Catch::Contains("100 samples"));
     CHECK_THAT(text, Catch::Contains("  mixed         4.50      0.00      4.50      4.50"));
     CHECK_THAT(text, Catch::Contains("     300       299      1\n"));
+    CHECK_THAT(text, Catch::Contains("p50 of mixed minus p50 of opros: +3.50 us"));
 }

@@ -33,7 +33,7 @@ TEST_CASE("the mixed run has both hosts, a link of its own name, and the provide
     CHECK_THAT(xml, Catch::Contains("component_name=\"Adaptor\" port_name=\"linkState\""));
     const auto conf = content(run.path() / "rtm/rtc.conf");
     CHECK_THAT(conf, Catch::Contains("InterceptorComp?link=" + run.link() + "&rtc=JoystickComp0"));
-    CHECK_THAT(conf, !Catch::Contains("preactivation"));
+    CHECK_THAT(conf, Catch::Contains("preactivation: InterceptorComp0\n"));
     CHECK_THAT(content(run.path() / "rtm/JoystickComp0.conf"),
                Catch::Contains("conf.default.clock: monotonic"));
 }
