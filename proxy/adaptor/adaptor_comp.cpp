@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/adaptor_comp.hpp"
+
+#include "proxy/adaptor/method_check.hpp"
+#include "proxy/link/control.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <ctime>
+
+namespace tandem::adaptor {
+namespace control = link::control;
+using link::Answer;
+using link::CallStatus;
+using link::PortKind;
+
+AdaptorComp::AdaptorComp() : Component("AdaptorComp") { addPort("linkState", &link_state_); }
+
+AdaptorComp::~AdaptorComp() {
+    if (link_) link_->close();
+}
+
+// ---- life cycle, in the host's thread
+
+ReturnType AdaptorComp::onInitialize() {
+    try {
+        settings_ = read_settings(getPropertyMap());
+        link::LinkOptions options{settings_.link, settings_.ring_bytes, settings_.segment_bytes};
+        link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
+                                             static_cast<LinkHandler&>(*this));
+        link_->open();
+        link_->wait_up(settings_.wait, "InterceptorComp of the RTM host");
+        grow_ports();
+        return OPROS_SUCCESS;
+    } catch (const std::runtime_error& error) {
+        spdlog::error("{}: {}", getId(), error.what());
+        link_.reset();
+        return OPROS_INITIALIZE_API_ERROR;
+    }
+}
+
+ReturnType AdaptorComp::onStart() {
+    try {
+        link_->wait_up(settings_.wait, "InterceptorComp of the RTM host");
+    } catch (const link::LinkError& error) {
+        spdlog::error("{}: {}", getId(), error.what());
+        return OPROS_CALL_API_ERROR;
+    }
+    const auto code = drive(control::activate);
+    started_ = code == OPROS_SUCCESS;
+    if (started_) push_link_state(true);
+    return code;
+}
+
+ReturnType AdaptorComp::onStop() {
+    started_ = false;
+    // A partner that has gone has nothing left to deactivate.
+    return link_->up() ? drive(control::deactivate) : OPROS_SUCCESS;
+}
+
+ReturnType AdaptorComp::onReset() { return drive(control::reset); }
+ReturnType AdaptorComp::onRecover() { return drive(control::reset); }
+
+ReturnType AdaptorComp::onError() {
+    started_ = false;
+    return OPROS_SUCCESS;
+}
+
+ReturnType AdaptorComp::onDestroy() {
+    if (link_) link_->close();
+    return OPROS_SUCCESS;
+}
+
+// ---- ports
+
+void AdaptorComp::grow_ports() {
+    const std::lock_guard lock(mutex_);
+    for (const auto& port : table_.ports) grow_port(port);
+    grown_ = true;
+    spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link, table_.ports.size(),
+                 table_.component);
+}
+
+void AdaptorComp::grow_port(const link::Port& port) {
+    switch (port.kind) {
+    case PortKind::data_in:
+        inputs_.push_back(std::make_unique<MirroredInput>(port, link_->writer(port.name)));
+        addPort(port.name, inputs_.back().get());
+        break;
+    case PortKind::data_out:
+        outputs_.push_back(std::make_unique<MirroredOutput>(port, link_->reader(port.name)));
+        addPort(port.name, outputs_.back().get());
+        break;
+    case PortKind::service_provided:
+        addPort(port.name, new MirroredProvided(port, *link_, settings_.call_timeout));
+        break;
+    case PortKind::service_required:
+        required_.push_back(new MirroredRequired(port));
+        addPort(port.name, required_.back());
+        break;
+    }
+}
+
+/// A partner that came back must still have every port that stands connected here.
+std::string AdaptorComp::accept(const link::PortTable& partner) {
+    const std::lock_guard lock(mutex_);
+    if (!grown_) {
+        table_ = partner;
+        return "";
+    }
+    for (const auto& port : table_.ports) {
+        const auto* now = partner.find(port.name);
+        if (now && *now == port) continue;
+        return fmt::format("link '{}': port '{}' of the partner that came back {}; start this host again",
+                           settings_.link, port.name, now ? "has another type than before" : "is gone");
+    }
+    return "";
+}
+
+// ---- the partner comes, goes, calls
+
+void AdaptorComp::link_changed(bool up) {
+    if (!up) spdlog::warn("{}: link '{}' is down: the partner process has gone", getId(), settings_.link);
+    push_link_state(up);
+}
+
+void AdaptorComp::partner_came() {
+    if (!started_) return;
+    spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
+    drive(control::activate);
+}
+
+void AdaptorComp::partner_went() {}
+
+Answer AdaptorComp::serve(const link::Request& request) {
+    if (request.port.empty()) {
+        if (request.operation != control::failed)
+            return Answer::failure(CallStatus::no_such_operation, "unknown verb");
+        spdlog::error("{}: {}", getId(), control::decode_text(request.arguments));
+        if (started_.exchange(false)) stopOnError();
+        return {};
+    }
+    for (auto* port : required_)
+        if (port->port() == request.port) return port->serve(request);
+    return Answer::failure(CallStatus::no_such_operation, "no such service port");
+}
+
+// ---- driving the partner
+
+Answer AdaptorComp::control(std::string_view verb, std::span<const std::byte> arguments) {
+    return link_->call({"", verb, "", arguments}, settings_.call_timeout);
+}
+
+std::string AdaptorComp::tell_bindings() {
+    for (const auto* port : required_) {
+        const auto answer =
+            control(control::bind, control::encode(control::Binding{port->port(), port->operations()}));
+        if (answer.status != CallStatus::ok) return describe(answer, settings_.call_timeout);
+    }
+    return "";
+}
+
+ReturnType AdaptorComp::drive(std::string_view verb) {
+    std::string error = verb == control::activate ? tell_bindings() : "";
+    if (error.empty()) {
+        const auto answer = control(verb);
+        if (answer.status == CallStatus::ok) return OPROS_SUCCESS;
+        error = describe(answer, settings_.call_timeout);
+    }
+    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, verb, table_.component, error);
+    return OPROS_CALL_API_ERROR;
+}
+
+void AdaptorComp::push_link_state(bool up) {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const std::lock_guard lock(link_state_mutex_);
+    const double stamp = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    link_state_.push(std::vector<double>{stamp, static_cast<double>(++link_state_sequence_), up ? 1.0 : 0.0});
+}
+
+} // namespace tandem::adaptor

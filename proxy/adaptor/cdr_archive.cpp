@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/cdr_archive.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+
+namespace tandem::adaptor {
+
+using opros::archive::archive_type_exception;
+using opros::archive::iarchive;
+using opros::archive::oarchive;
+
+namespace {
+
+template <class T>
+constexpr bool crosses = !std::is_same_v<T, wchar_t> && !std::is_same_v<T, long double>;
+
+template <class T>
+void put(wire::CdrWriter& out, T value) {
+    if constexpr (std::is_same_v<T, bool>)
+        out.put_bool(value);
+    else if constexpr (crosses<T>)
+        out.put(value);
+    else
+        throw archive_type_exception();
+}
+
+template <class T>
+void put_all(wire::CdrWriter& out, const T* p, long size) {
+    if constexpr (!crosses<T>)
+        throw archive_type_exception();
+    else if (size > 0)
+        out.put_block(p, sizeof(T) * static_cast<std::size_t>(size), sizeof(T));
+}
+
+template <class T>
+void get(wire::CdrReader& in, T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+        value = in.get_bool();
+    else if constexpr (crosses<T>)
+        value = in.get<T>();
+    else
+        throw archive_type_exception();
+}
+
+template <class T>
+void get_all(wire::CdrReader& in, T* p, long size) {
+    if constexpr (!crosses<T>) {
+        throw archive_type_exception();
+    } else if constexpr (std::is_same_v<T, bool>) {
+        for (long i = 0; i < size; ++i) p[i] = in.get_bool();
+    } else if (size > 0) {
+        const auto block = in.get_block(sizeof(T) * static_cast<std::size_t>(size), sizeof(T));
+        if (!block.empty()) std::memcpy(p, block.data(), block.size());
+    }
+}
+
+} // namespace
+
+#define TANDEM_SAVE(type)                                                                                    \
+    oarchive& CdrOarchive::save(type value) {                                                                \
+        put(out_, value);                                                                                    \
+        return *this;                                                                                        \
+    }                                                                                                        \
+    oarchive& CdrOarchive::save_array(const type* p, long size) {                                            \
+        put_all(out_, p, size);                                                                              \
+        return *this;                                                                                        \
+    }
+OPROS_FOR_EACH_PRIMITIVE(TANDEM_SAVE)
+#undef TANDEM_SAVE
+
+oarchive& CdrOarchive::save(const std::string& value) {
+    // CORBA strings cannot hold a NUL; what follows one would be lost on the way without a word.
+    if (value.find('\0') != std::string::npos) throw archive_type_exception();
+    out_.put_string(value);
+    return *this;
+}
+
+oarchive& CdrOarchive::save(const std::wstring&) { throw archive_type_exception(); }
+
+oarchive& CdrOarchive::save_binary(const char* p, long size) {
+    write_sequence_head(static_cast<std::size_t>(size));
+    out_.put_block(p, static_cast<std::size_t>(size), 1);
+    return *this;
+}
+
+oarchive& CdrOarchive::write_sequence_head(std::size_t count) {
+    out_.put(static_cast<std::uint32_t>(count));
+    return *this;
+}
+
+void CdrIarchive::check() const {
+    if (!in_.ok()) throw archive_type_exception();
+}
+
+#define TANDEM_LOAD(type)                                                                                    \
+    iarchive& CdrIarchive::load(type& value) {                                                               \
+        get(in_, value);                                                                                     \
+        check();                                                                                             \
+        return *this;                                                                                        \
+    }                                                                                                        \
+    iarchive& CdrIarchive::load_array(type* p, long size) {                                                  \
+        get_all(in_, p, size);                                                                               \
+        check();                                                                                             \
+        return *this;                                                                                        \
+    }
+OPROS_FOR_EACH_PRIMITIVE(TANDEM_LOAD)
+#undef TANDEM_LOAD
+
+iarchive& CdrIarchive::load(std::string& value) {
+    value = in_.get_string();
+    check();
+    return *this;
+}
+
+iarchive& CdrIarchive::load(std::wstring&) { throw archive_type_exception(); }
+
+iarchive& CdrIarchive::load_binary(char** p, long& size) {
+    const std::size_t count = read_sequence_head();
+    const auto block = in_.get_block(count, 1);
+    check();
+    if (*p == nullptr)
+        *p = new char[count];
+    else if (static_cast<long>(count) > size)
+        throw opros::archive::archive_array_size_exception();
+    std::copy_n(reinterpret_cast<const char*>(block.data()), count, *p);
+    size = static_cast<long>(count);
+    return *this;
+}
+
+std::size_t CdrIarchive::read_sequence_head() {
+    const auto count = in_.get_count(1); // an element takes a byte at least
+    check();
+    return count;
+}
+
+} // namespace tandem::adaptor

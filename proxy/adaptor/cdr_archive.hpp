@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/wire/cdr.hpp"
+
+#include <archive/opros_archive.h>
+
+namespace tandem::adaptor {
+
+/// Lets a type's own serialization write CDR: classes leave no trace, a sequence is its count and its
+/// elements, as in the CDR of the IDL structure with the same members. `long` is 8 bytes. Throws
+/// archive_type_exception for long double and wide characters, which have no counterpart.
+class CdrOarchive final : public opros::archive::oarchive {
+  public:
+    explicit CdrOarchive(wire::CdrWriter& out) : out_(out) {}
+
+#define TANDEM_SAVE(type)                                                                                    \
+    oarchive& save(type value) override;                                                                     \
+    oarchive& save_array(const type* p, long size) override;
+    OPROS_FOR_EACH_PRIMITIVE(TANDEM_SAVE)
+#undef TANDEM_SAVE
+    oarchive& save(const std::string& value) override;
+    oarchive& save(const std::wstring& value) override;
+    oarchive& save_binary(const char* p, long size) override;
+    oarchive& write_sequence_head(std::size_t count) override;
+
+    using oarchive::save;
+
+  private:
+    wire::CdrWriter& out_;
+};
+
+/// Lets a type's own serialization read CDR. Throws archive_type_exception when the bytes do not hold what it
+/// asks for.
+class CdrIarchive final : public opros::archive::iarchive {
+  public:
+    explicit CdrIarchive(wire::CdrReader in) : in_(in) {}
+
+#define TANDEM_LOAD(type)                                                                                    \
+    iarchive& load(type& value) override;                                                                    \
+    iarchive& load_array(type* p, long size) override;
+    OPROS_FOR_EACH_PRIMITIVE(TANDEM_LOAD)
+#undef TANDEM_LOAD
+    iarchive& load(std::string& value) override;
+    iarchive& load(std::wstring& value) override;
+    iarchive& load_binary(char** p, long& size) override;
+    std::size_t read_sequence_head() override;
+
+    using iarchive::load;
+
+  private:
+    void check() const;
+    wire::CdrReader in_;
+};
+
+} // namespace tandem::adaptor

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/mirrored_output.hpp"
+
+#include "proxy/adaptor/type_check.hpp"
+#include "proxy/wire/match.hpp"
+#include "proxy/wire/time.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace tandem::adaptor {
+
+MirroredOutput::MirroredOutput(link::Port partner, link::ChannelReader& channel)
+    : partner_(std::move(partner)), channel_(channel) {}
+
+MirroredOutput::~MirroredOutput() { detach(); }
+
+bool MirroredOutput::checkType(DataPort* target) {
+    auto* input = dynamic_cast<InputDataPortInterface*>(target);
+    if (!input || target_) {
+        type_error_ =
+            fmt::format("port '{}': {}", partner_.name,
+                        input ? "it is connected already, and what crosses the link goes to one port; let "
+                                "that component pass it on"
+                              : "the target is not an input data port");
+        return false;
+    }
+    const auto check = check_type(input->sample(), partner_);
+    type_error_ = check.error;
+    if (!check.error.empty()) return false;
+    value_has_time_ = wire::is_timed(partner_.signature) && check.match == wire::Match::equal;
+    if (input->addSource(this) != OPROS_SUCCESS) {
+        type_error_ = fmt::format("port '{}': the target takes no values from a bridge", partner_.name);
+        return false;
+    }
+    target_ = input;
+    return true;
+}
+
+void MirroredOutput::detach() {
+    if (target_) target_->removeSource(this);
+    target_ = nullptr;
+}
+
+opros::archive::iarchive* MirroredOutput::next() {
+    held_ = channel_.hold();
+    const auto record = channel_.next();
+    if (!record) {
+        held_.unlock();
+        return nullptr;
+    }
+    auto bytes = record->bytes;
+    record_bytes_ = bytes.size();
+    if (value_has_time_) {
+        wire::CdrWriter writer(timed_);
+        writer.put(wire::seconds_of(record->stamp_ns));
+        writer.put(wire::nanoseconds_of(record->stamp_ns));
+        writer.put_block(bytes.data(), bytes.size(), 1);
+        bytes = timed_;
+    }
+    return &archive_.emplace(wire::CdrReader(bytes));
+}
+
+void MirroredOutput::done() {
+    archive_.reset();
+    held_.unlock();
+}
+
+void MirroredOutput::undecodable(const std::string& why) {
+    spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped", partner_.name,
+                  record_bytes_, why);
+}
+
+} // namespace tandem::adaptor

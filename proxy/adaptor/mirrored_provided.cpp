@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/mirrored_provided.hpp"
+
+#include "proxy/adaptor/cdr_archive.hpp"
+#include "proxy/adaptor/method_check.hpp"
+
+#include <MethodInvokeException.h>
+
+#include <fmt/format.h>
+
+namespace tandem::adaptor {
+
+MirroredProvided::MirroredProvided(link::Port partner, link::Link& link,
+                                   std::chrono::milliseconds call_timeout)
+    : partner_(std::move(partner)), link_(link), call_timeout_(call_timeout) {}
+
+std::string MirroredProvided::bindMethod(Method* required) {
+    const auto signature = signature_of(*required);
+    if (!signature)
+        return fmt::format(
+            "service port '{}': method '{}' has an argument or result that cannot cross the link",
+            partner_.name, required->getName());
+    const std::string error = check_method(partner_, required->getName(), *signature);
+    if (error.empty()) signatures_[required->getName()] = *signature;
+    return error;
+}
+
+ReturnType MirroredProvided::callService(std::string& name, std::vector<opros_params>& arguments,
+                                         opros_params& result) {
+    const auto bound = signatures_.find(name);
+    if (bound == signatures_.end()) return OPROS_UNSUPPORTED_METHOD;
+    std::vector<std::byte> bytes;
+    wire::CdrWriter writer(bytes);
+    CdrOarchive archive(writer);
+    for (auto& argument : arguments) argument.encode(archive);
+    const auto answer = link_.call({partner_.name, name, bound->second, bytes}, call_timeout_);
+    if (answer.status != link::CallStatus::ok)
+        throw MethodInvokeException(
+            fmt::format("service '{}.{}': {}", partner_.name, name, describe(answer, call_timeout_)));
+    CdrIarchive results{wire::CdrReader(answer.bytes)};
+    result.decode(results);
+    return OPROS_SUCCESS;
+}
+
+} // namespace tandem::adaptor

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/adaptor_comp.hpp"
+
+#include <ServiceUtils.h>
+
+extern "C" {
+Component* getComponent() { return new tandem::adaptor::AdaptorComp(); }
+void releaseComponent(Component* component) { delete component; }
+}

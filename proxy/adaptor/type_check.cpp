@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/type_check.hpp"
+
+#include "proxy/adaptor/signature_archive.hpp"
+#include "proxy/wire/type.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::adaptor {
+
+std::string signature_of(const opros_any& sample) {
+    SignatureArchive recorder;
+    opros_any scratch(sample);
+    scratch.decode(recorder);
+    return wire::to_signature(wire::parse_signature(recorder.signature()));
+}
+
+TypeCheck check_type(const opros_any& sample, const link::Port& partner) {
+    if (!sample.serializable())
+        return {
+            wire::Match::mismatch,
+            fmt::format(
+                "port '{}': OPRoS type {} cannot cross the link: give it save() and load(), or save_this() "
+                "and load_this()",
+                partner.name, sample.type())};
+    std::string signature;
+    try {
+        signature = signature_of(sample);
+    } catch (const std::exception&) {
+        return {
+            wire::Match::mismatch,
+            fmt::format(
+                "port '{}': OPRoS type {} cannot cross the link: it holds a long double or wide characters",
+                partner.name, sample.type())};
+    }
+    const auto match = wire::match(signature, partner.signature);
+    if (match == wire::Match::equal || match == wire::Match::add_time) return {match, ""};
+    return {
+        wire::Match::mismatch,
+        fmt::format(
+            "port '{}': OPRoS type {} has signature '{}', the partner's type {} has '{}'; use a type with "
+            "that signature, with or without the leading time '(uu)'",
+            partner.name, sample.type(), signature, partner.type, partner.signature)};
+}
+
+} // namespace tandem::adaptor

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/interceptor/consumer_mirror.hpp"
+#include "proxy/interceptor/port_survey.hpp"
+#include "proxy/interceptor/provider_mirror.hpp"
+#include "proxy/interceptor/rtc_driver.hpp"
+#include "proxy/interceptor/settings.hpp"
+#include "proxy/link/link.hpp"
+
+#include <rtm/DataFlowComponentBase.h>
+#include <rtm/DataOutPort.h>
+#include <rtm/Manager.h>
+#include <rtm/idl/BasicDataTypeSkel.h>
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tandem::interceptor {
+
+/// The RTM half of the proxy: an ordinary RTC that shares the ports of another RTC of its manager with
+/// AdaptorComp, and activates, deactivates and resets it as AdaptorComp is told. Its OutPort `linkState`
+/// gives {stamp [s], sequence, 1 up / 0 down} when the partner comes or goes. A partner that dies leaves the
+/// RTC deactivated.
+class InterceptorComp final : public RTC::DataFlowComponentBase, private link::LinkHandler {
+  public:
+    explicit InterceptorComp(RTC::Manager* manager);
+    ~InterceptorComp() override;
+
+    RTC::ReturnCode_t onInitialize() override;
+    RTC::ReturnCode_t onFinalize() override;
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return RTC::RTC_OK; }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return RTC::RTC_OK; }
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return RTC::RTC_OK; }
+
+  private:
+    void share_rtc();
+    void mirror_data(const SurveyedPort&);
+    void mirror_service(const SurveyedPort&);
+    void connect(RTC::PortBase& mine, RTC::PortService_ptr theirs, const std::string& channel_key);
+    void release();
+
+    std::string accept(const link::PortTable&) override { return ""; }
+    void link_changed(bool up) override;
+    void partner_came() override {}
+    void partner_went() override;
+    link::Answer serve(const link::Request&) override;
+    link::Answer serve_control(const link::Request&);
+    std::string bind(std::span<const std::byte> arguments);
+    void report_failure();
+
+    std::string channel_key(const std::string& port) const;
+
+    Settings settings_;
+    std::unique_ptr<link::Link> link_;
+    std::unique_ptr<RtcDriver> driver_;
+    std::atomic<bool> activated_by_link_{false};
+
+    std::vector<std::unique_ptr<RTC::PortBase>> data_ports_;
+    std::map<std::string, std::unique_ptr<RTC::CorbaPort>> service_ports_;
+    std::vector<std::unique_ptr<ProviderMirror>> providers_;
+    std::vector<std::unique_ptr<ConsumerMirror>> consumers_;
+    std::vector<std::string> channel_keys_;
+
+    RTC::TimedDoubleSeq link_state_;
+    RTC::OutPort<RTC::TimedDoubleSeq> link_state_out_;
+    std::uint64_t link_state_sequence_ = 0;
+};
+
+} // namespace tandem::interceptor

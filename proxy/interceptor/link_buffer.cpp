@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/link_buffer.hpp"
+
+#include "proxy/wire/time.hpp"
+
+#include <map>
+#include <mutex>
+
+namespace tandem::interceptor {
+namespace {
+
+using RTC::BufferStatus;
+
+constexpr std::size_t time_bytes = 8;
+
+// The factory makes buffers by name only; what a new one belongs to it finds here, by its connector's
+// properties.
+std::mutex channels_mutex;
+std::map<std::string, LinkChannel>& channels() {
+    static std::map<std::string, LinkChannel> channels;
+    return channels;
+}
+
+} // namespace
+
+void LinkBuffer::register_factory() {
+    RTC::CdrBufferFactory::instance().addFactory(factory_name, coil::Creator<RTC::CdrBufferBase, LinkBuffer>,
+                                                 coil::Destructor<RTC::CdrBufferBase, LinkBuffer>);
+}
+
+void LinkBuffer::publish(const std::string& key, const LinkChannel& channel) {
+    const std::lock_guard lock(channels_mutex);
+    channels()[key] = channel;
+}
+
+void LinkBuffer::withdraw(const std::string& key) {
+    const std::lock_guard lock(channels_mutex);
+    channels().erase(key);
+}
+
+void LinkBuffer::init(const coil::Properties& properties) {
+    const std::lock_guard lock(channels_mutex);
+    const auto found = channels().find(properties.getProperty("channel"));
+    if (found != channels().end()) channel_ = found->second;
+}
+
+BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanoseconds) {
+    if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
+    auto bytes = std::as_bytes(std::span(message.getBuffer(), message.getDataLength()));
+    std::uint64_t stamp = 0;
+    if (channel_.timed) {
+        wire::CdrReader time(bytes);
+        const auto sec = time.get<std::uint32_t>(), nsec = time.get<std::uint32_t>();
+        if (!time.ok()) return BufferStatus::BUFFER_ERROR;
+        stamp = wire::pack_time(sec, nsec);
+        bytes = bytes.subspan(time_bytes);
+    } else {
+        stamp = wire::stamp_now();
+    }
+    const bool sent = channel_.writer->write(
+        stamp, [&](wire::CdrWriter& out) { out.put_block(bytes.data(), bytes.size(), 1); });
+    // Without a partner the message is gone and counted; the RTC goes on as with an unconnected port.
+    return sent || !channel_.writer->bound() ? BufferStatus::OK : BufferStatus::FULL;
+}
+
+BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
+    if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
+    const bool found = channel_.reader->read(false, [&](const shm::Record& record) {
+        const std::size_t head = channel_.timed ? time_bytes : 0;
+        message.setDataLength(head + record.bytes.size());
+        message.isLittleEndian(true);
+        auto* out = reinterpret_cast<std::byte*>(message.getBuffer());
+        wire::CdrWriter writer(std::span(out, message.getDataLength()));
+        if (channel_.timed) {
+            writer.put(wire::seconds_of(record.stamp_ns));
+            writer.put(wire::nanoseconds_of(record.stamp_ns));
+        }
+        writer.put_block(record.bytes.data(), record.bytes.size(), 1);
+    });
+    return found ? BufferStatus::OK : BufferStatus::EMPTY;
+}
+
+std::size_t LinkBuffer::readable() const { return channel_.reader && !channel_.reader->empty() ? 1 : 0; }
+
+RTC::ByteData& LinkBuffer::get() {
+    read(last_, {});
+    return last_;
+}
+
+BufferStatus LinkBuffer::reset() {
+    if (channel_.reader) channel_.reader->read(true, [](const shm::Record&) {});
+    return BufferStatus::OK;
+}
+
+} // namespace tandem::interceptor

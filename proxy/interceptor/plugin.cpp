@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/interceptor_comp.hpp"
+
+namespace {
+const char* const specification[] = {"implementation_id",
+                                     "InterceptorComp",
+                                     "type_name",
+                                     "InterceptorComp",
+                                     "description",
+                                     "the RTM half of Tandem's proxy",
+                                     "version",
+                                     "0.1.0",
+                                     "vendor",
+                                     "Tandem",
+                                     "category",
+                                     "proxy",
+                                     "activity_type",
+                                     "PERIODIC",
+                                     "kind",
+                                     "DataFlowComponent",
+                                     "max_instance",
+                                     "0",
+                                     "language",
+                                     "C++",
+                                     "lang_type",
+                                     "compile",
+                                     ""};
+}
+
+extern "C" void InterceptorCompInit(RTC::Manager* manager) {
+    coil::Properties profile(specification);
+    manager->registerFactory(profile, RTC::Create<tandem::interceptor::InterceptorComp>,
+                             RTC::Delete<tandem::interceptor::InterceptorComp>);
+}

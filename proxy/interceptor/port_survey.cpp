@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/port_survey.hpp"
+
+#include "proxy/wire/type.hpp"
+
+#include <rtm/InterfaceSignatures.h>
+#include <rtm/NVUtil.h>
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace tandem::interceptor {
+namespace {
+
+using link::PortKind;
+
+std::string property(const RTC::PortProfile& profile, const char* key) {
+    return NVUtil::toString(profile.properties, key);
+}
+
+std::string short_name(const RTC::PortProfile& profile) {
+    const std::string full(profile.name);
+    const auto dot = full.rfind('.');
+    return dot == std::string::npos ? full : full.substr(dot + 1);
+}
+
+link::Port data_port(const RTC::PortProfile& profile, PortKind kind) {
+    link::Port port;
+    port.kind = kind;
+    port.name = short_name(profile);
+    port.type = property(profile, "dataport.data_type");
+    const std::string signature = RTC::InterfaceSignatures::type(port.type);
+    if (signature.empty() || signature.find('?') != std::string::npos)
+        throw std::runtime_error(fmt::format(
+            "port '{}': type {} cannot cross the link: {}", static_cast<const char*>(profile.name), port.type,
+            signature.empty() ? "its IDL is not known to this process; build the RTC's IDL with it"
+                              : "it holds what has no signature (any, object, union): " + signature));
+    port.signature = wire::to_signature(wire::parse_signature(signature));
+    return port;
+}
+
+std::vector<link::ServiceOperation> operations_of(const std::string& type) {
+    std::vector<link::ServiceOperation> operations;
+    if (const auto* known = RTC::InterfaceSignatures::find(type))
+        for (const auto& operation : *known)
+            operations.push_back({operation.name, operation.arguments + ":" + operation.result});
+    return operations;
+}
+
+link::Port service_port(const RTC::PortProfile& profile, const RTC::PortInterfaceProfile& interface) {
+    link::Port port;
+    port.kind = interface.polarity == RTC::PROVIDED ? PortKind::service_provided : PortKind::service_required;
+    port.name = short_name(profile);
+    port.instance = interface.instance_name;
+    if (profile.interfaces.length() > 1) port.name += "." + port.instance;
+    port.type = interface.type_name;
+    port.operations = operations_of(port.type);
+    return port;
+}
+
+} // namespace
+
+std::vector<SurveyedPort> survey(RTC::RTObject_impl& rtc) {
+    std::vector<SurveyedPort> ports;
+    RTC::PortServiceList_var services = rtc.get_ports();
+    for (CORBA::ULong i = 0; i < services->length(); ++i) {
+        RTC::PortService_var service = RTC::PortService::_duplicate(services[i]);
+        RTC::PortProfile_var profile = service->get_port_profile();
+        const std::string kind = property(profile, "port.port_type");
+        if (kind == "DataOutPort")
+            ports.push_back({data_port(profile, PortKind::data_out), "", service});
+        else if (kind == "DataInPort")
+            ports.push_back({data_port(profile, PortKind::data_in), "", service});
+        else
+            for (CORBA::ULong j = 0; j < profile->interfaces.length(); ++j)
+                ports.push_back(
+                    {service_port(profile, profile->interfaces[j]), short_name(profile), service});
+    }
+    return ports;
+}
+
+} // namespace tandem::interceptor

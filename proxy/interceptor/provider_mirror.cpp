@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/provider_mirror.hpp"
+
+#include "proxy/wire/match.hpp"
+
+#include <rtm/InterfaceSignatures.h>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace tandem::interceptor {
+namespace {
+
+/// The id that the consumer's _narrow() will ask for, or the best guess where the IDL is not known here.
+std::string repository_id(const std::string& type) {
+    std::string known = RTC::InterfaceSignatures::repositoryId(type);
+    if (!known.empty()) return known;
+    std::string path = type;
+    for (auto at = path.find("::"); at != std::string::npos; at = path.find("::")) path.replace(at, 2, "/");
+    return "IDL:" + path + ":1.0";
+}
+
+[[noreturn]] void throw_failure(const link::Answer& answer) {
+    using link::CallStatus;
+    switch (answer.status) {
+    case CallStatus::timeout:
+        throw CORBA::TIMEOUT(0, CORBA::COMPLETED_MAYBE);
+    case CallStatus::peer_died:
+    case CallStatus::shut_down:
+        throw CORBA::COMM_FAILURE(0, CORBA::COMPLETED_MAYBE);
+    case CallStatus::overload:
+        throw CORBA::NO_RESOURCES(0, CORBA::COMPLETED_NO);
+    case CallStatus::no_such_operation:
+        throw CORBA::BAD_OPERATION(0, CORBA::COMPLETED_NO);
+    case CallStatus::bad_arguments:
+        throw CORBA::BAD_PARAM(0, CORBA::COMPLETED_NO);
+    default:
+        throw CORBA::UNKNOWN(0, CORBA::COMPLETED_MAYBE);
+    }
+}
+
+} // namespace
+
+ProviderMirror::ProviderMirror(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout)
+    : port_(std::move(port)), link_(link), call_timeout_(call_timeout),
+      servant_(repository_id(port_.type), *this) {
+    for (const auto& operation : port_.operations)
+        if (operation.signature.find('?') == std::string::npos) add(operation);
+}
+
+void ProviderMirror::add(const link::ServiceOperation& operation) {
+    const auto signature = wire::parse_operation(operation.signature);
+    auto& place = operations_[operation.name];
+    if (place) retired_.push_back(std::move(place));
+    place = std::make_unique<Operation>(Operation{wire::parse_signature(signature.arguments),
+                                                  wire::parse_signature(signature.result),
+                                                  signature.arguments + ":" + signature.result});
+}
+
+std::string ProviderMirror::bind(const link::control::Binding& binding) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& offered : binding.operations) {
+        const auto known = operations_.find(offered.name);
+        if (known == operations_.end() || known->second->signature == offered.signature) {
+            if (known == operations_.end() && port_.operations.empty()) add(offered);
+            continue;
+        }
+        if (!port_.operations.empty())
+            return fmt::format(
+                "service port '{}': operation '{}' of interface {} has signature '{}', the OPRoS method "
+                "has '{}'",
+                port_.name, offered.name, port_.type, known->second->signature, offered.signature);
+        add(offered);
+    }
+    return "";
+}
+
+const CallTarget::Operation* ProviderMirror::find(const char* operation) {
+    const std::lock_guard lock(mutex_);
+    const auto found = operations_.find(operation);
+    return found == operations_.end() ? nullptr : found->second.get();
+}
+
+std::vector<std::byte> ProviderMirror::call(const char* name, const Operation& operation,
+                                            std::span<const std::byte> arguments) {
+    auto answer = link_.call({port_.name, name, operation.signature, arguments}, call_timeout_);
+    if (answer.status == link::CallStatus::ok) return std::move(answer.bytes);
+    if (!answer.bytes.empty()) spdlog::warn("service '{}.{}': {}", port_.name, name, answer.text());
+    throw_failure(answer);
+}
+
+} // namespace tandem::interceptor

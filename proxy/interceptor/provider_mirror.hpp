@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/interceptor/generic_servant.hpp"
+#include "proxy/link/control.hpp"
+#include "proxy/link/link.hpp"
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace tandem::interceptor {
+
+/// Mirrors a service that the RTC requires and an OPRoS component provides: a CORBA object whose calls cross
+/// the link. A failed call is a CORBA system exception: TIMEOUT, COMM_FAILURE (partner gone), NO_RESOURCES
+/// (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN (the OPRoS method failed; its text is in the log).
+class ProviderMirror final : private CallTarget {
+  public:
+    ProviderMirror(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout);
+
+    GenericServant& servant() { return servant_; }
+    const link::Port& port() const { return port_; }
+    /// What the OPRoS side provides, told when its life begins. Empty, or one line with both signatures.
+    std::string bind(const link::control::Binding& binding);
+
+  private:
+    const Operation* find(const char* operation) override;
+    std::vector<std::byte> call(const char* name, const Operation&, std::span<const std::byte>) override;
+    void add(const link::ServiceOperation& operation);
+
+    const link::Port port_;
+    link::Link& link_;
+    const std::chrono::milliseconds call_timeout_;
+    std::mutex mutex_; ///< the maps; what they hold lives as long as this, since calls under way use it
+    std::map<std::string, std::unique_ptr<Operation>, std::less<>> operations_;
+    std::vector<std::unique_ptr<Operation>> retired_;
+    GenericServant servant_;
+};
+
+} // namespace tandem::interceptor

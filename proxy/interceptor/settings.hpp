@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <coil/Properties.h>
+
+#include <chrono>
+#include <string>
+
+namespace tandem::interceptor {
+
+/// InterceptorComp's parameters, as given in rtc.conf: `InterceptorComp?link=NAME&rtc=INSTANCE`.
+struct Settings {
+    std::string link;                              ///< `link`: the name that AdaptorComp has, too
+    std::string rtc;                               ///< `rtc`: instance name of the RTC whose ports are shared
+    std::chrono::milliseconds call_timeout{1'000}; ///< `call_timeout` [ms]: of each call across the link
+    std::size_t ring_bytes = 256 * 1024;           ///< `ring_kib`: of each data port
+    std::size_t segment_bytes = 4 * 1024 * 1024;   ///< `segment_mib`: that each half may lay out
+};
+
+/// Throws std::runtime_error, one line, when one is missing or a number is none.
+Settings read_settings(coil::Properties& properties);
+
+} // namespace tandem::interceptor

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/link.hpp"
+
+#include "proxy/link/session.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstring>
+
+namespace tandem::link {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Part of what both halves must agree on; raise it when the table, the requests or the records change.
+constexpr std::uint64_t contract = 0x7461'6e64'656d'0001; // "tandem", 1
+
+constexpr auto watch_up = 10ms; // also the beat of the heart
+constexpr auto watch_down =
+    3ms; // a partner that comes is noticed by the watcher; this is for what it cannot see
+constexpr auto retry_side = 1ms;
+constexpr auto retry_join = 10ms;
+
+bool is_data(PortKind kind) { return kind == PortKind::data_out || kind == PortKind::data_in; }
+
+} // namespace
+
+Link::Link(shm::Side side, LinkOptions options, PortTable own, LinkHandler& handler)
+    : side_(side), options_(std::move(options)), own_(std::move(own)), handler_(handler),
+      watcher_(options_.name) {}
+
+Link::~Link() { close(); }
+
+void Link::open() {
+    session_ = join();
+    link_thread_ = std::thread([this] { run_link(); });
+    task_thread_ = std::thread([this] { run_tasks(); });
+    const std::lock_guard lock(mutex_);
+    start_worker();
+}
+
+void Link::close() {
+    if (stopping_.exchange(true)) return;
+    watcher_.interrupt();
+    { // under the mutex, so that nobody misses it between looking and waiting
+        const std::lock_guard lock(mutex_);
+        if (session_) session_->incoming.interrupt();
+        changed_.notify_all();
+    }
+    if (link_thread_.joinable()) link_thread_.join();
+    if (task_thread_.joinable()) task_thread_.join();
+    for (auto& worker : workers_) worker.join();
+    session_.reset();
+}
+
+void Link::wait_up(std::chrono::milliseconds bound, const std::string& partner) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, bound, [this] { return up() || !refusal_.empty() || stopping_; });
+    if (up()) return;
+    if (!refusal_.empty()) throw LinkError(refusal_);
+    throw LinkError(
+        fmt::format("link '{}': {} did not come within {} s; start it with link={}, or allow more time",
+                    options_.name, partner, static_cast<double>(bound.count()) / 1000.0, options_.name));
+}
+
+std::shared_ptr<Session> Link::session() const {
+    const std::lock_guard lock(mutex_);
+    return session_;
+}
+
+ChannelWriter& Link::writer(const std::string& port) {
+    const std::lock_guard lock(mutex_);
+    return writers_[port];
+}
+
+ChannelReader& Link::reader(const std::string& port) {
+    const std::lock_guard lock(mutex_);
+    return readers_[port];
+}
+
+// ---- the link thread: joins, watches, brings up and takes down
+
+std::shared_ptr<Session> Link::join() const {
+    shm::JoinOptions join_options;
+    join_options.arena_bytes = options_.segment_bytes;
+    join_options.contract = contract;
+    std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
+    const auto peer = side_ == shm::Side::first ? shm::Side::second : shm::Side::first;
+    for (const Port& port : own_.ports) {
+        if (!is_data(port.kind)) continue;
+        shm::RingOptions ring;
+        ring.writer = port.kind == PortKind::data_out ? side_ : peer;
+        ring.capacity = options_.ring_bytes;
+        ring.policy = shm::RingPolicy::drop_oldest;
+        segment->add_ring(ring_name(port.name), ring);
+    }
+    shm::CallQueueOptions queue;
+    queue.callers = peer;
+    const auto calls = segment->add_call_queue(calls_name, queue);
+    const auto table = encode(own_);
+    std::memcpy(segment->add_blob(table_name, table.size()).data(), table.data(), table.size());
+    segment->publish();
+    return std::make_shared<Session>(segment, calls);
+}
+
+void Link::run_link() {
+    while (!stopping_) {
+        const auto now = session();
+        if (!now) {
+            rejoin();
+            continue;
+        }
+        now->segment->heartbeat();
+        if (session_over(*now)) {
+            take_down();
+            continue;
+        }
+        if (!up() && !now->refused && now->segment->peer_published()) try_bring_up(now);
+        watcher_.wait(up() ? watch_up : watch_down);
+    }
+    take_down();
+}
+
+bool Link::session_over(const Session& session) const {
+    return session.segment->peer() == shm::PeerState::dead || session.segment->superseded();
+}
+
+void Link::rejoin() {
+    try {
+        auto joined = join();
+        const std::lock_guard lock(mutex_);
+        session_ = std::move(joined);
+        changed_.notify_all();
+        refused_joins_ = 0;
+    } catch (const shm::SideTaken& taken) { // by our own past: threads are leaving the last session right now
+        wait_to_rejoin(retry_side, taken.what());
+    } catch (const shm::Error& error) {
+        wait_to_rejoin(retry_join, error.what());
+    }
+}
+
+void Link::wait_to_rejoin(std::chrono::milliseconds bound, const std::string& why) {
+    // Not for the first moments, which pass by themselves, nor again and again.
+    if (++refused_joins_ % 100 == 0) spdlog::error("link '{}': {}", options_.name, why);
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, bound, [this] { return stopping_.load(); });
+}
+
+void Link::try_bring_up(const std::shared_ptr<Session>& session) {
+    const auto peer = side_ == shm::Side::first ? shm::Side::second : shm::Side::first;
+    std::string refusal;
+    try {
+        const auto bytes = session->segment->copy_blob(peer, table_name);
+        const auto calls = session->segment->find_call_queue(peer, calls_name);
+        if (!bytes || !calls) throw LinkError("the partner published no port table");
+        const PortTable table = decode_port_table(*bytes);
+        refusal = handler_.accept(table);
+        if (refusal.empty()) {
+            bind(*session, own_, true);
+            bind(*session, table, false);
+            const std::lock_guard lock(mutex_);
+            session->outgoing.emplace(*calls);
+        }
+    } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: all of them one line
+        refusal = fmt::format("link '{}': {}", options_.name, error.what());
+    }
+    session->refused = !refusal.empty();
+    if (!session->refused) {
+        up_.store(true, std::memory_order_release);
+        handler_.link_changed(true);
+        post([this] { handler_.partner_came(); });
+    } else {
+        spdlog::error(refusal);
+    }
+    const std::lock_guard lock(mutex_);
+    refusal_ = refusal;
+    changed_.notify_all();
+}
+
+void Link::bind(Session& session, const PortTable& table, bool own) {
+    const auto peer = side_ == shm::Side::first ? shm::Side::second : shm::Side::first;
+    for (const Port& port : table.ports) {
+        if (!is_data(port.kind)) continue;
+        const auto ring = session.segment->find_ring(own ? side_ : peer, ring_name(port.name));
+        if (!ring) throw LinkError(fmt::format("port '{}' is in the table but has no ring", port.name));
+        if ((port.kind == PortKind::data_out) == own)
+            writer(port.name).bind(session.segment, shm::RingWriter(*ring));
+        else
+            reader(port.name).bind(session.segment, shm::RingReader(*ring));
+    }
+}
+
+void Link::take_down() {
+    const bool was_up = up_.exchange(false);
+    {
+        const std::lock_guard lock(mutex_);
+        for (auto& [name, writer] : writers_) writer.unbind();
+        for (auto& [name, reader] : readers_) reader.unbind();
+        if (session_) session_->incoming.shut_down();
+        if (session_ && session_->outgoing) session_->outgoing->shut_down();
+        session_.reset();
+        refusal_.clear();
+    }
+    if (!was_up) return;
+    handler_.link_changed(false);
+    post([this] { handler_.partner_went(); });
+}
+
+// ---- calls of the partner
+
+void Link::start_worker() {
+    workers_.emplace_back([this] { run_worker(); });
+}
+
+void Link::run_worker() {
+    while (!stopping_) {
+        std::shared_ptr<Session> now;
+        {
+            std::unique_lock lock(mutex_);
+            ++idle_workers_;
+            changed_.wait_for(lock, 100ms, [this] { return session_ || stopping_; });
+            now = session_;
+        }
+        auto call = now ? now->incoming.take(100ms) : std::nullopt;
+        {
+            const std::lock_guard lock(mutex_);
+            --idle_workers_;
+            // Somebody must stay free for the calls that this one leads the partner to make in turn.
+            if (call && idle_workers_ == 0 && workers_.size() < options_.max_workers && !stopping_)
+                start_worker();
+        }
+        now.reset(); // a call may take long; the session must be able to end meanwhile
+        if (call) serve(std::move(*call));
+    }
+}
+
+void Link::serve(shm::IncomingCall call) {
+    const auto request = decode_request(call.arguments());
+    const Answer answer = request ? handler_.serve(*request)
+                                  : Answer::failure(CallStatus::bad_arguments, "the request is malformed");
+    call.reply(answer.status, answer.bytes);
+}
+
+Answer Link::call(const Request& request, std::chrono::milliseconds timeout) {
+    const auto now = up() ? session() : nullptr;
+    if (!now || !now->outgoing) return Answer::failure(CallStatus::peer_died, "the partner is not there");
+    thread_local std::vector<std::byte> slot;
+    encode(request, slot);
+    auto reply = now->outgoing->call(0, slot, timeout);
+    return {reply.status, std::move(reply.bytes)};
+}
+
+// ---- the task thread: what may wait, outside of the link's own threads
+
+void Link::post(std::function<void()> task) {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+    changed_.notify_all();
+}
+
+void Link::run_tasks() {
+    while (!stopping_) {
+        std::function<void()> task;
+        {
+            std::unique_lock lock(mutex_);
+            changed_.wait_for(lock, 1s, [this] { return !tasks_.empty() || stopping_; });
+            if (stopping_ || tasks_.empty()) continue;
+            task = std::move(tasks_.front());
+            tasks_.pop_front();
+        }
+        task();
+    }
+}
+
+} // namespace tandem::link

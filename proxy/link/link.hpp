@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/channel.hpp"
+#include "proxy/link/error.hpp"
+#include "proxy/link/handler.hpp"
+#include "proxy/link/port_table.hpp"
+#include "proxy/link/request.hpp"
+
+#include "shm/call_server.hpp"
+#include "shm/watcher.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tandem::link {
+
+struct Session;
+
+struct LinkOptions {
+    std::string name;                            ///< both halves give the same
+    std::size_t ring_bytes = 256 * 1024;         ///< of each data port
+    std::size_t segment_bytes = 4 * 1024 * 1024; ///< that each half may lay out
+    unsigned max_workers = 8;                    ///< calls of the partner that may run at once
+};
+
+/// One half of a link: shares its port table with the partner, moves data and calls, and survives the
+/// partner's death: what was bound is unbound, and bound again when a partner with a fitting table has come.
+class Link {
+  public:
+    /// `own` is the table to share, may be empty. The handler must outlive the link.
+    Link(shm::Side side, LinkOptions options, PortTable own, LinkHandler& handler);
+    ~Link();
+
+    /// Joins the segment and starts the link's threads. Throws shm::Error when the segment cannot be had.
+    void open();
+    /// Waits for the partner. Throws LinkError when it does not come in time or its table was refused.
+    void wait_up(std::chrono::milliseconds bound, const std::string& partner);
+    /// Ends all threads and leaves the segment. Afterwards nothing calls the handler any more.
+    void close();
+
+    bool up() const { return up_.load(std::memory_order_acquire); }
+    const std::string& name() const { return options_.name; }
+
+    /// Calls the partner's handler. Never waits longer than `timeout`. [any-thread but the link's]
+    Answer call(const Request&, std::chrono::milliseconds timeout);
+
+    /// Runs `task` in the task thread, after those posted before; nowhere once the link is closing.
+    /// [any-thread]
+    void post(std::function<void()> task);
+
+    /// Ends of data ports by name, of both tables; made on first use and bound while the link is up.
+    ChannelWriter& writer(const std::string& port);
+    ChannelReader& reader(const std::string& port);
+
+  private:
+    void run_link();
+    std::shared_ptr<Session> join() const;
+    void rejoin();
+    void wait_to_rejoin(std::chrono::milliseconds bound, const std::string& why);
+    bool session_over(const Session&) const;
+    void try_bring_up(const std::shared_ptr<Session>&);
+    void bind(Session&, const PortTable&, bool own);
+    void take_down();
+    std::shared_ptr<Session> session() const;
+
+    void run_worker();
+    void serve(shm::IncomingCall);
+    void start_worker();
+    void run_tasks();
+
+    const shm::Side side_;
+    const LinkOptions options_;
+    const PortTable own_;
+    LinkHandler& handler_;
+
+    mutable std::mutex mutex_; // session_, channels, refusal_, workers_, tasks_
+    std::condition_variable changed_;
+    std::shared_ptr<Session> session_;
+    std::map<std::string, ChannelWriter> writers_;
+    std::map<std::string, ChannelReader> readers_;
+    std::string refusal_;
+    std::deque<std::function<void()>> tasks_;
+
+    std::atomic<bool> stopping_{false}, up_{false};
+    shm::Watcher watcher_;
+    std::thread link_thread_, task_thread_;
+    std::vector<std::thread> workers_;
+    unsigned idle_workers_ = 0;
+    unsigned refused_joins_ = 0; // [link-thread]
+};
+
+} // namespace tandem::link

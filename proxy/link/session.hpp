@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shm/call_client.hpp"
+#include "shm/call_server.hpp"
+#include "shm/segment.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace tandem::link {
+
+/// What one generation of the segment is to one half. Whoever works in it holds a pointer, so that it stays
+/// mapped.
+struct Session {
+    Session(std::shared_ptr<shm::Segment> joined, const shm::CallQueueHandle& calls)
+        : segment(std::move(joined)), incoming(calls) {}
+
+    std::shared_ptr<shm::Segment> segment;
+    shm::CallServer incoming;                ///< calls of the partner, in our half
+    std::optional<shm::CallClient> outgoing; ///< calls to the partner, in its half, once it has published
+    bool refused = false;                    ///< the partner's table does not fit: wait for another partner
+};
+
+/// Names of a half's objects in the segment.
+inline const std::string table_name = "table";
+inline const std::string calls_name = "calls";
+inline std::string ring_name(const std::string& port) { return "port " + port; }
+
+} // namespace tandem::link

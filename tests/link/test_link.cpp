@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// Both halves of a link in one process, and the partner as a process that is killed.
+#include "proxy/link/link.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace tandem;
+using namespace tandem::link;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Bounds that only a broken link reaches.
+constexpr auto soon = 10s;
+
+bool eventually(const std::function<bool()>& condition) {
+    const auto deadline = std::chrono::steady_clock::now() + soon;
+    while (std::chrono::steady_clock::now() < deadline) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(1ms);
+    }
+    return false;
+}
+
+std::string unique_name(const std::string& what) { return fmt::format("test-{}-{}", what, getpid()); }
+
+std::size_t segments_of(const std::string& link) {
+    std::size_t count = 0;
+    for (const auto& file : std::filesystem::directory_iterator("/dev/shm"))
+        if (file.path().filename().string().find(link) != std::string::npos) ++count;
+    return count;
+}
+
+PortTable joystick_table() {
+    return {"Joystick0",
+            {{PortKind::data_out, "reference", "T", "ad", "", {}},
+             {PortKind::data_in, "position", "T", "ad", "", {}}}};
+}
+
+struct Half : LinkHandler {
+    Half(shm::Side side, const std::string& name, PortTable table)
+        : link(side, LinkOptions{name}, std::move(table), *this) {}
+    ~Half() override { link.close(); }
+
+    std::string accept(const PortTable& partner) override {
+        table = partner;
+        return refusal;
+    }
+    void link_changed(bool up) override { ++(up ? ups : downs); }
+    void partner_came() override { ++came; }
+    void partner_went() override { ++went; }
+    Answer serve(const Request& request) override { return on_call(request); }
+
+    PortTable table;
+    std::string refusal;
+    std::function<Answer(const Request&)> on_call = [](const Request& request) {
+        return Answer{CallStatus::ok, {request.arguments.begin(), request.arguments.end()}};
+    };
+    std::atomic<int> ups{0}, downs{0}, came{0}, went{0};
+    Link link;
+};
+
+std::unique_ptr<Half> adaptor(const std::string& name) {
+    return std::make_unique<Half>(shm::Side::first, name, PortTable{});
+}
+std::unique_ptr<Half> interceptor(const std::string& name) {
+    return std::make_unique<Half>(shm::Side::second, name, joystick_table());
+}
+
+bool send(ChannelWriter& writer, double value) {
+    return writer.write(7, [&](wire::CdrWriter& out) { out.put(value); });
+}
+std::optional<double> receive(ChannelReader& reader) {
+    std::optional<double> value;
+    reader.read(false,
+                [&](const shm::Record& record) { value = wire::CdrReader(record.bytes).get<double>(); });
+    return value;
+}
+
+std::vector<std::byte> bytes_of(std::string_view text) {
+    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+    return {begin, begin + text.size()};
+}
+
+} // namespace
+
+TEST_CASE("data flow both ways whichever half opens first, and nothing is left behind") {
+    const auto name = unique_name("flow");
+    const bool adaptor_first = GENERATE(true, false);
+    {
+        auto a = adaptor(name), b = interceptor(name);
+        (adaptor_first ? a : b)->link.open();
+        (adaptor_first ? b : a)->link.open();
+        a->link.wait_up(soon, "partner");
+        b->link.wait_up(soon, "partner");
+        CHECK(a->table == joystick_table());
+        for (int i = 0; i < 100; ++i) {
+            REQUIRE(send(b->link.writer("reference"), i));
+            REQUIRE(send(a->link.writer("position"), -i));
+        }
+        for (int i = 0; i < 100; ++i) {
+            REQUIRE(receive(a->link.reader("reference")) == i);
+            REQUIRE(receive(b->link.reader("position")) == -i);
+        }
+        CHECK(a->link.reader("reference").empty());
+        CHECK_FALSE(receive(b->link.reader("position")));
+    }
+    CHECK(segments_of(name) == 0);
+}
+
+TEST_CASE("calls go both ways, also from within a call") {
+    const auto name = unique_name("calls");
+    auto a = adaptor(name), b = interceptor(name);
+    b->on_call = [&](const Request& request) {
+        return b->link.call({"p", "front", "", request.arguments}, soon);
+    };
+    a->on_call = [](const Request& request) { return Answer{CallStatus::ok, bytes_of(request.operation)}; };
+    a->link.open();
+    b->link.open();
+    a->link.wait_up(soon, "partner");
+    b->link.wait_up(soon, "partner");
+    const auto answer = a->link.call({"p", "back", ":", {}}, soon);
+    CHECK(answer.status == CallStatus::ok);
+    CHECK(answer.text() == "front");
+}
+
+TEST_CASE("calls nested deeper than there were workers do not block each other") {
+    const auto name = unique_name("nested");
+    auto a = adaptor(name), b = interceptor(name);
+    const auto bounce = [](Half& here) {
+        return [&here](const Request& request) {
+            const int depth = std::stoi(std::string(request.operation));
+            if (depth == 0) return Answer{CallStatus::ok, bytes_of("bottom")};
+            return here.link.call({"p", std::to_string(depth - 1), "", {}}, soon);
+        };
+    };
+    a->on_call = bounce(*a);
+    b->on_call = bounce(*b);
+    a->link.open();
+    b->link.open();
+    a->link.wait_up(soon, "partner");
+    b->link.wait_up(soon, "partner");
+    CHECK(a->link.call({"p", "9", "", {}}, soon).text() == "bottom");
+}
+
+TEST_CASE("a call says why it failed") {
+    const auto name = unique_name("failure");
+    auto a = adaptor(name);
+    CHECK(a->link.call({"p", "o", "", {}}, soon).status == CallStatus::peer_died);
+    a->link.open();
+    CHECK(a->link.call({"p", "o", "", {}}, soon).status == CallStatus::peer_died);
+    auto b = interceptor(name);
+    std::atomic<bool> release{false};
+    b->on_call = [&](const Request& request) {
+        if (request.operation == "slow") eventually([&] { return release.load(); });
+        return Answer::failure(CallStatus::exception, "the motor is hot");
+    };
+    b->link.open();
+    a->link.wait_up(soon, "partner");
+    const auto answer = a->link.call({"p", "o", "", {}}, soon);
+    CHECK(answer.status == CallStatus::exception);
+    CHECK(answer.text() == "the motor is hot");
+    CHECK(a->link.call({"p", "slow", "", {}}, 10ms).status == CallStatus::timeout);
+    release = true;
+}
+
+TEST_CASE("a partner that leaves and comes back is bound again") {
+    const auto name = unique_name("back");
+    auto a = adaptor(name);
+    a->link.open();
+    for (int round = 1; round <= 3; ++round) {
+        auto b = interceptor(name);
+        b->link.open();
+        a->link.wait_up(soon, "partner");
+        b->link.wait_up(soon, "partner");
+        REQUIRE(send(b->link.writer("reference"), round));
+        CHECK(receive(a->link.reader("reference")) == round);
+        CHECK(eventually([&] { return a->came == round; }));
+        b.reset();
+        CHECK(eventually([&] { return a->downs == round && a->went == round; }));
+        CHECK_FALSE(send(a->link.writer("position"), 0));
+    }
+    CHECK(a->link.writer("position").unlinked() == 3);
+    a.reset();
+    CHECK(segments_of(name) == 0);
+}
+
+TEST_CASE("a table that does not fit is refused with the reason, and a better partner accepted later") {
+    const auto name = unique_name("refused");
+    auto a = adaptor(name), b = interceptor(name);
+    a->refusal = "port 'reference': ad is not ai";
+    a->link.open();
+    b->link.open();
+    CHECK_THROWS_WITH(a->link.wait_up(soon, "partner"), "port 'reference': ad is not ai");
+    b.reset();
+    CHECK(eventually([&] { return segments_of(name) == 1; }));
+    a->refusal.clear();
+    b = interceptor(name);
+    b->link.open();
+    CHECK(eventually([&] { return a->link.up(); }));
+}
+
+TEST_CASE("a partner that never comes is named, with the link") {
+    const auto name = unique_name("nobody");
+    auto a = adaptor(name);
+    a->link.open();
+    CHECK_THROWS_WITH(a->link.wait_up(20ms, "InterceptorComp"),
+                      Catch::Contains(name) && Catch::Contains("InterceptorComp did not come within 0.02 s"));
+}
+
+TEST_CASE("a killed partner is noticed, its calls end, and its successor is bound") {
+    const auto name = unique_name("killed");
+    int ready[2];
+    REQUIRE(pipe(ready) == 0);
+    const auto start_partner = [&] {
+        const pid_t child = fork(); // nothing but this thread runs in the parent's copy
+        if (child == 0) {
+            auto b = interceptor(name);
+            b->on_call = [](const Request&) { return std::this_thread::sleep_for(60s), Answer{}; };
+            b->link.open();
+            b->link.wait_up(soon, "partner");
+            [[maybe_unused]] const auto written = write(ready[1], "x", 1);
+            for (int i = 0; i < 600; ++i) {
+                send(b->link.writer("reference"), i);
+                std::this_thread::sleep_for(100ms);
+            }
+            _exit(0);
+        }
+        return child;
+    };
+    // Both partners are born before any thread of this process, and the second waits for its turn.
+    const pid_t first = start_partner();
+    int turn[2];
+    REQUIRE(pipe(turn) == 0);
+    const pid_t second = fork();
+    if (second == 0) {
+        char go = 0;
+        [[maybe_unused]] const auto got = read(turn[0], &go, 1);
+        auto b = interceptor(name);
+        b->link.open();
+        for (int i = 0; i < 600; ++i) {
+            send(b->link.writer("reference"), 1000 + i);
+            std::this_thread::sleep_for(10ms);
+        }
+        _exit(0);
+    }
+    {
+        auto a = adaptor(name);
+        a->link.open();
+        a->link.wait_up(soon, "partner");
+        CHECK(eventually([&] { return receive(a->link.reader("reference")).has_value(); }));
+        CallStatus ended = CallStatus::ok;
+        std::thread caller([&] { ended = a->link.call({"p", "o", "", {}}, 60s).status; });
+        std::this_thread::sleep_for(20ms);
+        kill(first, SIGKILL);
+        waitpid(first, nullptr, 0);
+        caller.join();
+        CHECK(ended == CallStatus::peer_died);
+        CHECK(eventually([&] { return a->downs == 1; }));
+        REQUIRE(write(turn[1], "x", 1) == 1);
+        CHECK(eventually([&] { return receive(a->link.reader("reference")).value_or(0) >= 1000; }));
+        kill(second, SIGKILL);
+        waitpid(second, nullptr, 0);
+    }
+    CHECK(segments_of(name) == 0);
+    for (const int end : {ready[0], ready[1], turn[0], turn[1]}) close(end);
+}
