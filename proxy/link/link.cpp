@@ -201,7 +201,7 @@ void Link::take_down() {
         session_.reset();
         refusal_.clear();
     }
-    if (!was_up) return;
+    if (!was_up || stopping_) return; // who closes the link itself need not be told
     handler_.link_changed(false);
     post([this] { handler_.partner_went(); });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -56,11 +57,12 @@ class CdrWriter {
 
   private:
     void append(const void* data, std::size_t bytes) {
-        const auto* from = static_cast<const std::byte*>(data);
-        if (grow_)
-            grow_->insert(grow_->end(), from, from + bytes);
-        else if (bytes != 0 && size_ + bytes <= out_.size())
-            std::memcpy(out_.data() + size_, from, bytes);
+        if (grow_) {
+            grow_->resize(size_ + bytes);
+            std::copy_n(static_cast<const std::byte*>(data), bytes, grow_->data() + size_);
+        } else if (bytes != 0 && size_ + bytes <= out_.size()) {
+            std::memcpy(out_.data() + size_, data, bytes);
+        }
         size_ += bytes;
     }
 

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// AdaptorComp, driven as a host drives it, against a partner that is only a link.
+#include "chair_service.hpp"
+#include "proxy/adaptor/adaptor_comp.hpp"
+#include "proxy/link/control.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <InputDataPort.h>
+#include <MethodInvokeException.h>
+#include <OutputDataPort.h>
+#include <ServicePortConnector.h>
+
+#include <fmt/format.h>
+
+#include <thread>
+#include <unistd.h>
+
+using namespace tandem;
+using namespace std::chrono_literals;
+using link::Answer;
+using link::CallStatus;
+using link::PortKind;
+
+namespace {
+
+constexpr auto soon = 10s;
+
+/// The other half without RTM: remembers what it is told.
+struct Partner : link::LinkHandler {
+    explicit Partner(const std::string& name)
+        : link(shm::Side::second, {name},
+               {"Joystick0",
+                {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
+                 {PortKind::data_in, "position", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
+                 {PortKind::service_provided,
+                  "joystick",
+                  "Joystick",
+                  "",
+                  "joystick",
+                  {{"limits", "i:ad"}, {"name", ":s"}}},
+                 {PortKind::service_required, "chair", "Chair", "", "chair", {{"limits", "i:ad"}}}}},
+               *this) {
+        link.open();
+    }
+    ~Partner() override { link.close(); }
+    std::string accept(const link::PortTable&) override { return ""; }
+    void link_changed(bool) override {}
+    void partner_came() override {}
+    void partner_went() override {}
+    Answer serve(const link::Request& request) override {
+        const std::lock_guard lock(mutex);
+        told.push_back(std::string(request.port) + "." + std::string(request.operation));
+        if (request.operation == refuse) return Answer::failure(CallStatus::exception, "onActivated failed");
+        if (request.operation != "limits") return {};
+        const auto axis = wire::CdrReader(request.arguments).get<std::int32_t>();
+        Answer answer;
+        wire::CdrWriter out(answer.bytes);
+        out.put<std::uint32_t>(1);
+        out.put(axis * 1.5);
+        return answer;
+    }
+    bool was_told(const std::string& what) {
+        const std::lock_guard lock(mutex);
+        return std::find(told.begin(), told.end(), what) != told.end();
+    }
+
+    std::mutex mutex;
+    std::vector<std::string> told;
+    std::string refuse;
+    link::Link link;
+};
+
+/// Calls a dynamic provided port as the host's connector does.
+struct Connector : ServicePortConnector {
+    explicit Connector(ProvidedServicePort& port) : port(port) {}
+    ReturnType requestService(const std::string& name, std::vector<opros_params>& params,
+                              opros_params& result, int) override {
+        std::string method = name;
+        return port.callService(method, params, result);
+    }
+    ReturnType responseService(std::string&, std::string&, std::string&) override {
+        return OPROS_UNSUPPORTED_METHOD;
+    }
+    ProvidedServicePort& port;
+};
+
+struct Scene {
+    explicit Scene(const std::string& what)
+        : name(fmt::format("test-adaptor-{}-{}", what, getpid())), partner(name) {
+        component.setId("Adaptor");
+        component.setProperty("link", name);
+        component.setProperty("call_timeout", "5000");
+        REQUIRE(component.initialize() == OPROS_SUCCESS);
+    }
+    ~Scene() { component.destroy(); }
+    template <class P>
+    P& port(const std::string& of) {
+        return dynamic_cast<P&>(*component.getPort(of));
+    }
+
+    std::string name;
+    Partner partner;
+    adaptor::AdaptorComp component;
+};
+
+bool eventually(const std::function<bool()>& condition) {
+    const auto deadline = std::chrono::steady_clock::now() + soon;
+    while (std::chrono::steady_clock::now() < deadline) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(1ms);
+    }
+    return false;
+}
+
+class Chair : public IChair {
+  public:
+    std::vector<double> limits(int axis) override {
+        if (axis > 9) throw std::runtime_error("no such axis");
+        return {double(axis), 2};
+    }
+    std::string name() override { return "chair"; }
+};
+
+} // namespace
+
+TEST_CASE("the adaptor grows the partner's ports") {
+    Scene scene("ports");
+    CHECK(scene.component.getPort("linkState") != nullptr);
+    CHECK(scene.port<OutputDataPortInterface>("reference").getRole() == OPROS_DATA_PORT_OUTPUT);
+    CHECK(scene.port<InputDataPortInterface>("position").getRole() == OPROS_DATA_PORT_INPUT);
+    CHECK(scene.port<ProvidedServicePort>("joystick").isDynamic());
+    CHECK(scene.port<RequiredServicePort>("chair").isDynamic());
+}
+
+TEST_CASE("a value pushed to a mirrored input arrives without the time, which is in the header") {
+    Scene scene("push");
+    auto& position = scene.port<InputDataPortInterface>("position");
+    opros_any sample{std::vector<double>()};
+    REQUIRE(position.checkType(sample));
+    opros_any value{std::vector<double>{1, 2, 3}};
+    CHECK(position.push(value) == OPROS_SUCCESS);
+    auto& reader = scene.partner.link.reader("position");
+    REQUIRE(eventually([&] { return !reader.empty(); }));
+    std::vector<double> got;
+    reader.read(false, [&](const shm::Record& record) {
+        wire::CdrReader in(record.bytes);
+        for (auto left = in.get_count(8); left > 0; --left) got.push_back(in.get<double>());
+        CHECK(record.stamp_ns != 0);
+    });
+    CHECK(got == std::vector<double>{1, 2, 3});
+}
+
+TEST_CASE("a connected input port polls the ring itself") {
+    Scene scene("poll");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    InputDataPort<std::vector<double>> input;
+    REQUIRE(reference.checkType(&input));
+    CHECK(input.pop() == nullptr);
+    for (int i = 1; i <= 3; ++i)
+        REQUIRE(scene.partner.link.writer("reference")
+                    .write(wire::CdrWriter({}).size(), [&](wire::CdrWriter& out) {
+                        out.put<std::uint32_t>(1);
+                        out.put(double(i));
+                    }));
+    for (int i = 1; i <= 3; ++i) {
+        std::unique_ptr<opros_any> value(input.pop());
+        REQUIRE(value);
+        CHECK(input.getContent(*value) == std::vector<double>{double(i)});
+    }
+    CHECK(input.pop() == nullptr);
+    reference.clearConnection();
+}
+
+TEST_CASE("types that do not fit are refused at connection, with both signatures") {
+    Scene scene("types");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    InputDataPort<int> wrong;
+    CHECK_FALSE(reference.checkType(&wrong));
+    CHECK_THAT(reference.typeError(), Catch::Contains("'i'") && Catch::Contains("'(uu)ad'"));
+    auto& position = scene.port<InputDataPortInterface>("position");
+    opros_any sample{std::string()};
+    CHECK_FALSE(position.checkType(sample));
+    CHECK_THAT(position.typeError(), Catch::Contains("'s'") && Catch::Contains("'(uu)ad'"));
+}
+
+TEST_CASE("a required port calls the partner, and hears why a call failed") {
+    Scene scene("required");
+    auto& joystick = scene.port<ProvidedServicePort>("joystick");
+    ChairRequired required;
+    Connector connector(joystick);
+    for (auto at = required.getFirst(); at != required.getEnd(); ++at) {
+        REQUIRE(joystick.bindMethod(at->second) == "");
+        dynamic_cast<RequiredMethodInterface&>(*at->second).Connect(&connector);
+    }
+    CHECK(required.limits(4) == std::vector<double>{6.0});
+    scene.partner.refuse = "limits";
+    CHECK_THROWS_AS(required.limits(4), MethodInvokeException);
+    try {
+        required.limits(4);
+    } catch (const MethodInvokeException& error) {
+        CHECK_THAT(error.what(),
+                   Catch::Contains("'joystick.limits'") && Catch::Contains("onActivated failed"));
+    }
+}
+
+TEST_CASE("the partner calls what an OPRoS component provides, by signature") {
+    Scene scene("provided");
+    Chair chair;
+    ChairProvided provided(&chair);
+    REQUIRE(scene.port<RequiredServicePort>("chair").bindProvided(&provided) == "");
+    std::vector<std::byte> arguments;
+    wire::CdrWriter(arguments).put<std::int32_t>(3);
+    auto& link = scene.partner.link;
+    link.wait_up(soon, "adaptor");
+
+    const auto answer = link.call({"chair", "limits", "i:ad", arguments}, soon);
+    REQUIRE(answer.status == CallStatus::ok);
+    wire::CdrReader results(answer.bytes);
+    CHECK(results.get_count(8) == 2);
+    CHECK(results.get<double>() == 3);
+
+    CHECK(link.call({"chair", "limits", "d:ad", arguments}, soon).status == CallStatus::bad_arguments);
+    CHECK(link.call({"chair", "limits", "i:ad", {}}, soon).status == CallStatus::bad_arguments);
+    CHECK(link.call({"chair", "fly", ":", {}}, soon).status == CallStatus::no_such_operation);
+    CHECK(link.call({"nobody", "fly", ":", {}}, soon).status == CallStatus::no_such_operation);
+    wire::CdrWriter(arguments).put<std::int32_t>(10);
+    const auto thrown = link.call({"chair", "limits", "i:ad", arguments}, soon);
+    CHECK(thrown.status == CallStatus::exception);
+    CHECK(thrown.text() == "no such axis");
+    scene.port<RequiredServicePort>("chair").bindProvided(nullptr);
+    CHECK(link.call({"chair", "limits", "i:ad", {}}, soon).status == CallStatus::no_such_operation);
+}
+
+TEST_CASE("starting and stopping the adaptor activates and deactivates the RTC") {
+    Scene scene("cycle");
+    CHECK(scene.component.start() == OPROS_SUCCESS);
+    CHECK(scene.partner.was_told(".bind"));
+    CHECK(scene.partner.was_told(".activate"));
+    CHECK(scene.component.stop() == OPROS_SUCCESS);
+    CHECK(scene.partner.was_told(".deactivate"));
+}
+
+TEST_CASE("an RTC that cannot be activated keeps the adaptor from starting") {
+    Scene scene("refused");
+    scene.partner.refuse = "activate";
+    CHECK(scene.component.start() != OPROS_SUCCESS);
+    CHECK(scene.component.getStatus() != OPROS_CS_ACTIVE);
+}
+
+TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
+    Scene scene("error");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    scene.partner.link.call(
+        {"", link::control::failed, "", link::control::encode("RTC 'Joystick0' went to ERROR")}, soon);
+    CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
+}
+
+TEST_CASE("an adaptor without a link name, or with a number that is none, does not initialize") {
+    adaptor::AdaptorComp nameless;
+    CHECK(nameless.initialize() != OPROS_SUCCESS);
+    CHECK_THROWS_WITH(adaptor::read_settings({{"link", "x"}, {"wait", "ten"}}),
+                      "property 'wait' is 'ten', a number above 0 was expected");
+    CHECK_THROWS_WITH(adaptor::read_settings({}), Catch::Contains("'link' is missing"));
+}
+
+TEST_CASE("an adaptor whose partner never comes gives up after its wait") {
+    adaptor::AdaptorComp lonely;
+    lonely.setProperty("link", fmt::format("test-adaptor-lonely-{}", getpid()));
+    lonely.setProperty("wait", "0.05");
+    CHECK(lonely.initialize() != OPROS_SUCCESS);
+}

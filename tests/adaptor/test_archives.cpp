@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/cdr_archive.hpp"
+#include "proxy/adaptor/type_check.hpp"
+#include "proxy/wire/type.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <OPRoSTypes.h>
+
+#include <map>
+#include <string>
+#include <valarray>
+#include <vector>
+
+using namespace tandem;
+
+namespace scan {
+/// A data type in the style of real components: members, save() and load().
+struct Pose {
+    double x = 0, y = 0;
+    std::string frame;
+    void save(opros::archive::oarchive& ar, const unsigned int) {
+        ar << OPROS_SERIALIZATION_NVP(x) << OPROS_SERIALIZATION_NVP(y) << OPROS_SERIALIZATION_NVP(frame);
+    }
+    void load(opros::archive::iarchive& ar, const unsigned int) {
+        ar >> OPROS_SERIALIZATION_NVP(x) >> OPROS_SERIALIZATION_NVP(y) >> OPROS_SERIALIZATION_NVP(frame);
+    }
+};
+inline std::string typeName(Pose*) { return "scan::Pose"; }
+
+struct Scan {
+    int id = 0;
+    std::vector<Pose> poses;
+    float rays[4] = {};
+    bool valid = false;
+};
+inline std::string typeName(Scan*) { return "scan::Scan"; }
+inline void save_this(opros::archive::oarchive& ar, Scan& scan) {
+    ar << scan.id << scan.poses << scan.rays << scan.valid;
+}
+inline void load_this(opros::archive::iarchive& ar, Scan& scan) {
+    ar >> scan.id >> scan.poses >> scan.rays >> scan.valid;
+}
+} // namespace scan
+
+namespace {
+template <class T>
+std::string signature() {
+    return adaptor::signature_of(opros_any(T()));
+}
+
+template <class T>
+std::vector<std::byte> encoded(const T& value) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter writer(bytes);
+    adaptor::CdrOarchive archive(writer);
+    opros_any(value).encode(archive);
+    return bytes;
+}
+template <class T>
+T decoded(std::span<const std::byte> bytes) {
+    adaptor::CdrIarchive archive{wire::CdrReader(bytes)};
+    T value = T();
+    archive >> value;
+    return value;
+}
+} // namespace
+
+TEST_CASE("C++ types have the signature of the IDL type with the same CDR") {
+    CHECK(signature<bool>() == "b");
+    CHECK(signature<char>() == "c");
+    CHECK(signature<unsigned char>() == "y");
+    CHECK(signature<short>() == "n");
+    CHECK(signature<int>() == "i");
+    CHECK(signature<unsigned int>() == "u");
+    CHECK(signature<long>() == "x");
+    CHECK(signature<unsigned long long>() == "t");
+    CHECK(signature<float>() == "f");
+    CHECK(signature<double>() == "d");
+    CHECK(signature<std::string>() == "s");
+    CHECK(signature<std::vector<double>>() == "ad");
+    CHECK(signature<std::vector<bool>>() == "ab");
+    CHECK(signature<std::vector<std::vector<int>>>() == "aai");
+    CHECK(signature<std::vector<std::string>>() == "as");
+    CHECK(signature<std::valarray<double>>() == "ad");
+    CHECK(signature<std::vector<unsigned char>>() == "ay");
+}
+
+TEST_CASE("a user's type has the signature that its own serialization shows") {
+    CHECK(signature<scan::Pose>() == "dds");
+    CHECK(signature<std::vector<scan::Pose>>() == "a(dds)");
+    CHECK(signature<scan::Scan>() == "ia(dds)[4]fb");
+}
+
+TEST_CASE("types without a counterpart in CDR are refused, not guessed") {
+    CHECK_THROWS(signature<long double>());
+    CHECK_THROWS(signature<std::wstring>());
+    CHECK_THROWS(encoded(std::string("a\0b", 3)));
+}
+
+TEST_CASE("values come out as they went in") {
+    CHECK(decoded<double>(encoded(-1.5)) == -1.5);
+    CHECK(decoded<std::string>(encoded(std::string("motor"))) == "motor");
+    const std::vector<double> numbers{1, 2.5, -3};
+    CHECK(decoded<std::vector<double>>(encoded(numbers)) == numbers);
+    const std::vector<bool> flags{true, false, true};
+    CHECK(decoded<std::vector<bool>>(encoded(flags)) == flags);
+    const std::vector<std::vector<int>> nested{{1}, {}, {2, 3}};
+    CHECK(decoded<std::vector<std::vector<int>>>(encoded(nested)) == nested);
+
+    scan::Scan scan;
+    scan.id = 7;
+    scan.poses.resize(2);
+    scan.poses[1].frame = "map";
+    scan.poses[1].y = 4;
+    scan.rays[3] = 0.25f;
+    scan.valid = true;
+    const auto back = decoded<scan::Scan>(encoded(scan));
+    CHECK(back.id == 7);
+    REQUIRE(back.poses.size() == 2);
+    CHECK(back.poses[1].frame == "map");
+    CHECK(back.poses[1].y == 4);
+    CHECK(back.rays[3] == 0.25f);
+    CHECK(back.valid);
+}
+
+TEST_CASE("a vector of double is its count, padding and its elements") {
+    const auto bytes = encoded(std::vector<double>{1.0});
+    const unsigned char expected[] = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f};
+    REQUIRE(bytes.size() == sizeof expected);
+    CHECK(std::memcmp(bytes.data(), expected, sizeof expected) == 0);
+}
+
+TEST_CASE("bytes that hold less than the type asks for are an error, whatever they are") {
+    const auto whole = encoded(scan::Scan());
+    for (std::size_t length = 0; length < whole.size(); ++length)
+        CHECK_THROWS(decoded<scan::Scan>(std::span(whole).first(length)));
+    const std::vector<std::byte> absurd{std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0x7f}};
+    CHECK_THROWS(decoded<std::vector<double>>(absurd));
+    CHECK_THROWS(decoded<std::string>(absurd));
+}
+
+TEST_CASE("a type that does not fit is refused with both signatures") {
+    const link::Port port{
+        link::PortKind::data_in, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}};
+    CHECK(adaptor::check_type(opros_any(std::vector<double>()), port).error.empty());
+    CHECK_THAT(adaptor::check_type(opros_any(std::vector<int>()), port).error,
+               Catch::Contains("'reference'") && Catch::Contains("'ai'") && Catch::Contains("'(uu)ad'") &&
+                   Catch::Contains("IDL:RTC/TimedDoubleSeq:1.0"));
+    CHECK_THAT(adaptor::check_type(opros_any(std::wstring()), port).error, Catch::Contains("cannot cross"));
+}
