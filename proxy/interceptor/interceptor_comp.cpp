@@ -61,6 +61,7 @@ void InterceptorComp::share_rtc() {
     link_ = std::make_unique<link::Link>(shm::Side::second, options, table, static_cast<LinkHandler&>(*this));
     driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,
                                           [this] { link_->post([this] { report_failure(); }); });
+    own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [] {});
     LinkBuffer::register_factory();
     for (const auto& port : ports) {
         const bool data = port.entry.kind == PortKind::data_out || port.entry.kind == PortKind::data_in;
@@ -142,6 +143,7 @@ void InterceptorComp::connect(RTC::PortBase& mine, RTC::PortService_ptr theirs,
 void InterceptorComp::release() {
     if (link_) link_->close();
     driver_.reset();
+    own_driver_.reset();
     for (auto& port : data_ports_) port->disconnect_all();
     for (auto& [name, port] : service_ports_) port->disconnect_all();
     for (const auto& key : channel_keys_) LinkBuffer::withdraw(key);
@@ -183,7 +185,8 @@ Answer InterceptorComp::serve(const link::Request& request) {
 Answer InterceptorComp::serve_control(const link::Request& request) {
     std::string error;
     if (request.operation == control::activate) {
-        error = driver_->activate();
+        error = own_driver_->activate(); // the RTC may call through our ports from its onActivated on
+        if (error.empty()) error = driver_->activate();
         activated_by_link_ = error.empty();
     } else if (request.operation == control::deactivate) {
         error = driver_->deactivate();

@@ -56,7 +56,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
-    std::unique_ptr<RtcDriver> driver_;
+    std::unique_ptr<RtcDriver> driver_, own_driver_;
     std::atomic<bool> activated_by_link_{false};
 
     std::vector<std::unique_ptr<RTC::PortBase>> data_ports_;

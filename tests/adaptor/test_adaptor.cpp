@@ -251,6 +251,7 @@ TEST_CASE("an RTC that cannot be activated keeps the adaptor from starting") {
 TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
     Scene scene("error");
     REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    scene.partner.link.wait_up(soon, "adaptor");
     scene.partner.link.call(
         {"", link::control::failed, "", link::control::encode("RTC 'Joystick0' went to ERROR")}, soon);
     CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
