@@ -103,13 +103,21 @@ Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, doub
     return d;
 }
 
-std::vector<Judgement> judge_pair(const std::string& name, const std::vector<Row>& a,
-                                  const std::vector<Row>& b, bool exact) {
+std::vector<Judgement> judge_alike(const std::string& names, const std::vector<Row>& a,
+                                   const std::vector<Row>& b) {
     const auto measured = difference(a, b, &Row::steering_measured_deg, 5.0, 10.0);
     const auto real = difference(a, b, &Row::steering_true_deg, 5.0, 10.0);
-    return {{name + ", measured, rms", "deg", measured.rms, none, exact ? 0.0 : 0.06},
-            {name + ", measured, max", "deg", measured.most, none, exact ? 0.0 : 0.3},
-            {name + ", true, rms", "deg", real.rms, none, exact ? 0.0 : 0.03}};
+    return {{names + ", measured, rms", "deg", measured.rms, none, 0.06},
+            {names + ", measured, max", "deg", measured.most, none, 0.3},
+            {names + ", true, rms", "deg", real.rms, none, 0.03}};
+}
+
+std::vector<Judgement> judge_identical(const std::string& names, const std::vector<Row>& a,
+                                       const std::vector<Row>& b) {
+    auto different = static_cast<double>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        different += csv_text({a[i]}) != csv_text({b[i]});
+    return {{names + ", different rows", "", different, none, 0.0}};
 }
 
 bool all_pass(const std::vector<Judgement>& judgements) {

@@ -27,9 +27,13 @@ struct Difference {
 Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, double Row::*column, double from,
                       double to);
 
-/// Section 10: whether two real-time runs of step20 (`exact`: two lock-step runs) steer the same.
-std::vector<Judgement> judge_pair(const std::string& name, const std::vector<Row>& a,
-                                  const std::vector<Row>& b, bool exact);
+/// Section 10: whether two real-time runs of step20 steer the same over 5..10 s.
+std::vector<Judgement> judge_alike(const std::string& names, const std::vector<Row>& a,
+                                   const std::vector<Row>& b);
+
+/// Section 10: whether two lock-step runs have the same log, byte for byte.
+std::vector<Judgement> judge_identical(const std::string& names, const std::vector<Row>& a,
+                                       const std::vector<Row>& b);
 
 bool all_pass(const std::vector<Judgement>& judgements);
 std::string judgement_table(const std::string& title, const std::vector<Judgement>& judgements);

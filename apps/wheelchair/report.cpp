@@ -99,10 +99,12 @@ Report make_report(std::vector<RunResult> runs, const Options& options) {
     for (std::size_t i = 0; runs.size() > 1 && i + 1 < runs.size(); ++i) {
         const auto name =
             fmt::format("{} - {}", name_of(runs.back().configuration), name_of(runs[i].configuration));
-        const bool judged = runs[i].scenario == "step20" || options.lockstep;
-        if (judged)
-            for (auto& j : judge_pair(name, runs.back().rows, runs[i].rows, options.lockstep))
-                report.pairs.push_back(j);
+        std::vector<Judgement> pair;
+        if (options.lockstep)
+            pair = judge_identical(name, runs.back().rows, runs[i].rows);
+        else if (runs[i].scenario == "step20")
+            pair = judge_alike(name, runs.back().rows, runs[i].rows);
+        report.pairs.insert(report.pairs.end(), pair.begin(), pair.end());
     }
     report.runs = std::move(runs);
     return report;
@@ -119,7 +121,9 @@ std::string text_of(const Report& report) {
         if (!report.acceptance[i].empty())
             out += judgement_table("Step of 20 deg, " + name_of(report.runs[i].configuration),
                                    report.acceptance[i]);
-    if (!report.pairs.empty()) out += judgement_table("Difference of steering angles, 5..10 s", report.pairs);
+    if (!report.pairs.empty())
+        out += judgement_table(report.lockstep ? "Lock-step logs" : "Difference of steering angles, 5..10 s",
+                               report.pairs);
     return out;
 }
 

@@ -2,6 +2,7 @@
 // The three components' bodies, joined by queues in this process, as a host joins them in lock-step.
 #include <catch2/catch.hpp>
 
+#include "plugins/wheelchair/core/clock.hpp"
 #include "plugins/wheelchair/core/control_body.hpp"
 #include "plugins/wheelchair/core/hw_body.hpp"
 #include "plugins/wheelchair/core/joystick_body.hpp"
@@ -158,4 +159,29 @@ TEST_CASE("ages count from ControlComp's first tick, so a late start is no fault
     wires.send(Stamped<JoystickPosition>{}, Stamped<WheelSpeed>{0.0, 0, {}}); // published long ago
     control.tick(wires);
     CHECK(control.state() == ControlState::run);
+}
+
+TEST_CASE("a JoystickComp that was started again slows the chair down instead of jerking it") {
+    const ScratchDir dir;
+    Run run(dir, "step20");
+    run.steps(300);
+    REQUIRE(run.control.state() == ControlState::run);
+    const double before = run.wires.last_voltage.left;
+    JoystickBody restarted(read_settings({}), chair_limits());
+    restarted.tick(run.wires); // within 50 ms, and from speed 0
+    run.control.tick(run.wires);
+    CHECK(run.control.state() == ControlState::stale);
+    CHECK(run.wires.last_voltage.left > before - 2.0);
+}
+
+TEST_CASE("a reference left over from the tick before does not end the look-out for the next one") {
+    SettingTexts texts;
+    texts.poll_us = "5000";
+    ControlBody control(read_settings(texts));
+    Wires wires;
+    const double old = monotonic_seconds() - 0.0095;
+    wires.send(Stamped<Reference>{old, 1, {}});
+    const double start = monotonic_seconds();
+    control.tick(wires);
+    CHECK(monotonic_seconds() - start >= 0.005); // looked out to the end
 }

@@ -2,6 +2,7 @@
 #include "plugins/wheelchair/core/control_body.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem::wheelchair {
 
@@ -10,8 +11,8 @@ ControlBody::ControlBody(const Settings& settings)
 
 namespace {
 
-/// About a third of a microsecond away from the port between two looks, so that a sender who needs the port's lock
-/// does not find it taken by the one who waits for it.
+/// About a third of a microsecond away from the port between two looks, so that a sender who needs the port's
+/// lock does not find it taken by the one who waits for it.
 void look_away() {
     for (int i = 0; i < 8; ++i) {
 #if defined(__x86_64__)
@@ -24,9 +25,10 @@ void look_away() {
 
 } // namespace
 
-/// Looks out for this tick's reference for at most poll_us. Ticks and references share one grid in real time, so the
-/// reference is read the moment it becomes visible: what is measured is the transport and not the phase of two timers.
-/// One left over from the tick before does not end the look-out, or ControlComp would stay a tick behind for good.
+/// Looks out for this tick's reference for at most poll_us. Ticks and references share one grid in real time,
+/// so the reference is read the moment it becomes visible: what is measured is the transport and not the
+/// phase of two timers. One left over from the tick before does not end the look-out, or ControlComp would
+/// stay a tick behind for good.
 ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
     const double give_up = monotonic_seconds() + poll_seconds_;
     Read read{0, monotonic_seconds()};
@@ -34,6 +36,7 @@ ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
         const auto in = ports.references();
         const double now = monotonic_seconds();
         if (in.newest) {
+            sender_restarted_ = sender_restarted_ || in.newest->sequence < reference_.sequence;
             reference_ = *in.newest;
             read = {read.count + in.count, now};
         }
@@ -54,7 +57,11 @@ void ControlBody::tick(ControlPorts& ports) {
         message.stamp = std::min(std::max(message.stamp, first_tick_at_), t);
         return message;
     };
-    const Voltage voltage = law_.tick(t, bounded(reference_), bounded(wheels_));
+    auto reference = bounded(reference_);
+    // A JoystickComp that was started again in between begins at speed 0: following that would stop the chair
+    // with a jerk. It counts as a stale reference, whose way out is a released stick.
+    if (std::exchange(sender_restarted_, false)) reference.stamp = t - 2.0 * stale_seconds;
+    const Voltage voltage = law_.tick(t, reference, bounded(wheels_));
     ports.send({t, static_cast<double>(tick_), voltage});
     trace_.append({monotonic_seconds(), static_cast<double>(tick_), t, reference_.sequence, reference_.stamp,
                    read.at, static_cast<double>(read.count), wheels_.sequence, wheels_.stamp,

@@ -32,6 +32,7 @@ class ControlBody {
     ControlLaw law_;
     Stamped<Reference> reference_;
     Stamped<WheelSpeed> wheels_;
+    bool sender_restarted_ = false;
     double first_tick_at_ = 0.0;
     int tick_ = 0;
 };
