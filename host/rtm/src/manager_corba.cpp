@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's ORB.
 #include "manager_impl.hpp"
+#include "manager_servant.hpp"
 #include <omniORB4/omniPolicy.h>
 
 namespace RTC {
@@ -31,6 +32,7 @@ coil::vstring orb_arguments(const coil::Properties& config) {
     add("-ORBclientCallTimeOutPeriod", "10000"); // ms: no call waits for ever
     add("-ORBgiopMaxMsgSize", "67108864");       // camera images and point clouds fit
     add("-ORBinConScanPeriod", "0");             // an idle tool keeps its connection
+    add("-ORBtraceLevel", "0");                  // what goes wrong is said by us, in one line
     for (const auto& arg : coil::parseArgs(config.getProperty("corba.args"))) args.push_back(arg);
     return args;
 }
@@ -67,6 +69,24 @@ void start_orb(Manager::Impl& impl) {
     if (wanted)
         impl.naming =
             std::make_unique<Naming>(impl.orb.in(), servers.empty() ? coil::vstring{"localhost"} : servers);
+}
+
+void publish_manager(Manager& manager, Manager::Impl& impl) {
+    if (!coil::toBool(impl.config.getProperty("manager.corba_servant"), "YES", "NO", true)) return;
+    CORBA::Object_var object = impl.orb->resolve_initial_references("omniINSPOA");
+    PortableServer::POA_var poa = PortableServer::POA::_narrow(object.in());
+    PortableServer::ServantBase_var servant = new RTM::ManagerServant(manager);
+    PortableServer::ObjectId_var id = PortableServer::string_to_ObjectId("manager");
+    poa->activate_object_with_id(id.in(), servant.in());
+    PortableServer::POAManager_var(poa->the_POAManager())->activate();
+    if (!impl.naming) return;
+    CORBA::Object_var reference = poa->id_to_reference(id.in());
+    Logger& rtclog = impl.log;
+    coil::Properties self;
+    self.setProperty("instance_name", impl.config.getProperty("manager.instance_name"));
+    const std::string formats = impl.config.getProperty("manager.naming_formats", "%h.host_cxt/%n.mgr");
+    for (const auto& refusal : impl.naming->bind(format_name(formats, self, impl.config), reference.in()))
+        RTC_WARN(("%s", refusal.c_str()));
 }
 
 CORBA::ORB_ptr Manager::theORB() { return m_impl->orb.in(); }

@@ -57,6 +57,8 @@ struct Manager::Impl {
 void read_configuration(Manager::Impl& impl, int argc, char** argv);
 /// Throws ManagerError when the ORB cannot start, for an endpoint that is taken, say.
 void start_orb(Manager::Impl& impl);
+/// Makes the manager reachable as corbaloc:...:PORT/manager, and in the name servers.
+void publish_manager(Manager& manager, Manager::Impl& impl);
 
 /// `Name`, `Name?a=1&b=2`, `RTC:vendor:category:Name:language:version`. Throws ManagerError.
 struct ComponentArguments {

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// rtm_host as a child of a test. Every wait is bounded.
+#pragma once
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdexcept>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+namespace testing {
+
+class HostProcess {
+  public:
+    explicit HostProcess(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), TANDEM_RTM_HOST);
+        int out[2], err[2];
+        if (pipe(out) != 0 || pipe(err) != 0) throw std::runtime_error("no pipe");
+        pid_ = fork();
+        if (pid_ == 0) {
+            dup2(out[1], 1);
+            dup2(err[1], 2);
+            for (int fd : {out[0], out[1], err[0], err[1]}) close(fd);
+            std::vector<char*> argv;
+            for (auto& argument : arguments) argv.push_back(argument.data());
+            argv.push_back(nullptr);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+        close(out[1]);
+        close(err[1]);
+        out_ = out[0];
+        err_ = err[0];
+    }
+    ~HostProcess() {
+        if (!ended_) {
+            kill(pid_, SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
+        close(out_);
+        close(err_);
+    }
+
+    /// Does `text` come on standard output within the time?
+    bool says(const std::string& text, std::chrono::seconds bound = std::chrono::seconds(30)) {
+        const auto end = std::chrono::steady_clock::now() + bound;
+        while (output.find(text) == std::string::npos)
+            if (std::chrono::steady_clock::now() > end || !read_some())
+                return output.find(text) != std::string::npos;
+        return true;
+    }
+    void send(int signal) { kill(pid_, signal); }
+    /// Exit code, or minus the signal that has ended it; -1000 when it does not end.
+    int wait(std::chrono::seconds bound = std::chrono::seconds(30)) {
+        const auto end = std::chrono::steady_clock::now() + bound;
+        int status = 0;
+        while (waitpid(pid_, &status, WNOHANG) == 0) {
+            if (std::chrono::steady_clock::now() > end) return -1000;
+            read_some();
+        }
+        ended_ = true;
+        while (read_some()) continue;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    }
+
+    std::string output, errors;
+
+  private:
+    // What has come on either pipe within 50 ms; false: both are closed.
+    bool read_some() {
+        pollfd fds[2] = {{out_open_ ? out_ : -1, POLLIN, 0}, {err_open_ ? err_ : -1, POLLIN, 0}};
+        if (!out_open_ && !err_open_) return false;
+        if (poll(fds, 2, 50) <= 0) return true;
+        take(fds[0], output, out_open_);
+        take(fds[1], errors, err_open_);
+        return true;
+    }
+    static void take(const pollfd& fd, std::string& to, bool& open) {
+        if (fd.revents == 0) return;
+        char buffer[4096];
+        const ssize_t n = read(fd.fd, buffer, sizeof buffer);
+        if (n > 0)
+            to.append(buffer, static_cast<std::size_t>(n));
+        else
+            open = false;
+    }
+
+    pid_t pid_ = -1;
+    int out_ = -1, err_ = -1;
+    bool out_open_ = true, err_open_ = true;
+    bool ended_ = false;
+};
+
+} // namespace testing

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// rtm_host as a program: rtc.conf in, signals, exit codes.
+#include "host/rt/step_client.hpp"
+#include "host_process.hpp"
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+using testing::HostProcess;
+
+namespace {
+
+struct Folder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("tandem_rtm." + std::to_string(getpid()));
+    Folder() { std::filesystem::create_directories(path); }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::string conf(const std::string& text) const {
+        std::ofstream(path / "rtc.conf") << "manager.modules.load_path: " TANDEM_TEST_PLUGINS "\n" << text;
+        return (path / "rtc.conf").string();
+    }
+};
+
+const char* const pair_conf =
+    "manager.modules.preload: TestComponents.so\n"
+    "manager.components.precreate: Counter, Teller\n"
+    "manager.components.preconnect: Counter0.out?port=Teller0.in&interface_type=corba_cdr&"
+    "dataflow_type=push&subscription_type=flush\n"
+    "manager.components.preactivation: Counter0, Teller0\n"
+    "exec_cxt.periodic.rate: 200\n";
+
+// What rtm_host says to a configuration it cannot use: exactly one line, and exit code 1.
+std::string refusal(const std::vector<std::string>& arguments) {
+    HostProcess host(arguments);
+    REQUIRE(host.wait() == 1);
+    CHECK(host.output.find("ready") == std::string::npos);
+    CHECK(std::count(host.errors.begin(), host.errors.end(), '\n') == 1);
+    return host.errors;
+}
+
+std::string refusal(const std::string& conf) {
+    Folder folder;
+    return refusal(std::vector<std::string>{"-f", folder.conf(conf)});
+}
+
+} // namespace
+
+TEST_CASE("rtm_host runs what rtc.conf names, and a signal ends it in order") {
+    const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+    Folder folder;
+    HostProcess host({"-f", folder.conf(pair_conf)});
+    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.says("received 1"));
+    host.send(signal);
+    CHECK(host.wait() == 0);
+    CHECK(host.output.find("Teller0 deactivated\nTeller0 finalized\n") != std::string::npos);
+}
+
+TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
+    using Catch::Contains;
+    CHECK_THAT(refusal("manager.modules.preload TestComponents.so\n"),
+               Contains("rtc.conf:2: expected `key: value`"));
+    CHECK_THAT(refusal(std::vector<std::string>{"-f", "/no/such/rtc.conf"}), Contains("/no/such/rtc.conf"));
+    CHECK_THAT(refusal("manager.modules.preload: Missing.so\n"),
+               Contains("rtc.conf") && Contains("Missing.so"));
+    CHECK_THAT(refusal("manager.modules.preload: BadModule.so\n"), Contains("BadModuleInit"));
+    CHECK_THAT(refusal("manager.modules.preload: TestComponents.so(NoSuchInit)\n"), Contains("NoSuchInit"));
+    CHECK_THAT(refusal("manager.modules.preload: "
+                       "TestComponents.so(OnlyTellers)\nmanager.components.precreate: Counter\n"),
+               Contains("Counter") && Contains("known: Teller"));
+    CHECK_THAT(
+        refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter, Teller\n"
+                "manager.components.preconnect: Counter0.out?port=Teller0.inn\n"),
+        Contains("Teller0 has no port inn (it has: in)"));
+    CHECK_THAT(refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter\n"
+                       "manager.components.preactivation: Counter1\n"),
+               Contains("there is no component Counter1 (there are: Counter0)"));
+    CHECK_THAT(refusal("corba.endpoints: 256.0.0.1:\n"), Contains("256.0.0.1"));
+    CHECK_THAT(refusal("logger.log_level: LOUD\n"), Contains("LOUD"));
+}
+
+TEST_CASE("A component that throws goes to the error state, its host lives on") {
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Thrower\n"
+                                        "manager.components.preactivation: Thrower0\n")});
+    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.says("aborting\n"));
+    host.send(SIGTERM);
+    CHECK(host.wait() == 0);
+    CHECK(host.errors.find("Thrower0: onExecute threw: on purpose") != std::string::npos);
+}
+
+TEST_CASE("A component that hangs does not keep its host from leaving") {
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Teller, Hanger\n"
+                                        "manager.components.preactivation: Teller0, Hanger0\n")});
+    REQUIRE(host.says("hanging\n"));
+    REQUIRE(host.says("ready\n"));
+    host.send(SIGTERM);
+    CHECK(host.wait() == 0);
+    CHECK(host.output.find("Teller0 finalized") != std::string::npos);
+}
+
+TEST_CASE("In lock-step components run when they are told to and at no other time") {
+    Folder folder;
+    const std::string socket = (folder.path / "steps").string();
+    HostProcess host({"-f", folder.conf(pair_conf), "--lockstep", socket});
+    REQUIRE(host.says("ready\n"));
+    tandem::rt::StepClient conductor(socket, std::chrono::seconds(10));
+    for (int i = 0; i < 9; ++i) {
+        conductor.step("Counter0");
+        conductor.step("Teller0");
+    }
+    CHECK_FALSE(host.says("received", std::chrono::seconds(0)));
+    conductor.step("Counter0");
+    conductor.step("Teller0");
+    CHECK(host.says("received 10\n", std::chrono::seconds(10)));
+    CHECK_THROWS_WITH(conductor.step("Nobody"), Catch::Contains("there is no component Nobody"));
+    host.send(SIGTERM);
+    CHECK(host.wait() == 0);
+}
