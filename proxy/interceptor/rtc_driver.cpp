@@ -55,7 +55,15 @@ RTC::LifeCycleState RtcDriver::state() const { return context_->get_component_st
 std::string RtcDriver::activate() {
     if (state() == RTC::ACTIVE_STATE) return "";
     if (state() == RTC::ERROR_STATE) return "it is in ERROR; reset it first";
-    return reach(RTC::ACTIVE_STATE, context_->activate_component(reference_), "activated");
+    // An RTC that is still being created has a context that does not run yet and refuses: ask again.
+    const auto deadline = std::chrono::steady_clock::now() + bound_;
+    auto asked = context_->activate_component(reference_);
+    while (asked != RTC::RTC_OK && state() == RTC::INACTIVE_STATE &&
+           std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        asked = context_->activate_component(reference_);
+    }
+    return reach(RTC::ACTIVE_STATE, asked, "activated");
 }
 
 std::string RtcDriver::deactivate() {
