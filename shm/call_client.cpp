@@ -63,11 +63,16 @@ CallStatus CallClient::call_into(std::uint32_t operation, std::span<const std::b
     return status;
 }
 
+/// While this looks, slots that it has passed may become free and those ahead be taken: so it looks several
+/// times before it says that there is none.
 std::uint32_t CallClient::claim() {
-    const std::uint32_t start = next_.fetch_add(1, std::memory_order_relaxed);
-    for (std::uint32_t i = 0; i < queue_.slot_count; ++i) {
+    constexpr std::uint32_t rounds = 8;
+    const std::uint32_t start = next_.fetch_add(1, std::memory_order_relaxed) % queue_.slot_count;
+    for (std::uint32_t i = 0; i < rounds * queue_.slot_count; ++i) {
         const std::uint32_t index = (start + i) % queue_.slot_count;
-        if (change(queue_.slot(index), SlotState::free, SlotState::claimed)) return index;
+        auto& slot = queue_.slot(index);
+        const bool is_free = slot.state.load(std::memory_order_relaxed) == word(SlotState::free);
+        if (is_free && change(slot, SlotState::free, SlotState::claimed)) return index;
     }
     return no_slot;
 }

@@ -207,8 +207,13 @@ TEST_CASE("a submitted call whose slot is damaged is taken within bounds or not 
 }
 
 TEST_CASE("while a stranger scribbles over everything nothing crashes hangs or leaves its bounds") {
+#if defined(__SANITIZE_THREAD__) // lossless payloads are written in place, by plain stores: the stranger
+                                 // races with them
+    const auto policy = GENERATE(RingPolicy::drop_oldest, RingPolicy::latest_only);
+#else
     const auto policy =
         GENERATE(RingPolicy::drop_oldest, RingPolicy::latest_only, RingPolicy::reject, RingPolicy::wait);
+#endif
     Pair pair(small(16 * 1024));
     const RingHandle written = pair.first->add_ring("r", tiny(policy));
     CallClient client(pair.first->add_call_queue("c", {.slots = 3, .max_bytes = 64}), {.spin = 5us});
