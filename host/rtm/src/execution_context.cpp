@@ -32,8 +32,15 @@ ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
     if (id < 0) return RTC_ERROR;
     std::lock_guard<std::mutex> lock(m_mutex);
     m_owner = ref;
-    m_participants.push_back(std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()));
+    addParticipant(std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()));
     return RTC_OK;
+}
+
+// The caller holds m_mutex.
+void ExecutionContextBase::addParticipant(Participant participant) {
+    auto all = *m_participants;
+    all.push_back(std::move(participant));
+    m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
 }
 
 bool ExecutionContextBase::isRunning() const {
@@ -83,17 +90,17 @@ ReturnCode_t ExecutionContextBase::setRate(double rate) {
 }
 
 void ExecutionContextBase::forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)()) {
-    for (auto& participant : participants()) (participant.get()->*call)();
+    for (auto& participant : *participants()) (participant.get()->*call)();
 }
 
-std::vector<ExecutionContextBase::Participant> ExecutionContextBase::participants() const {
+ExecutionContextBase::Participants ExecutionContextBase::participants() const {
     std::lock_guard<std::mutex> lock(m_mutex);
     return m_participants;
 }
 
 ExecutionContextBase::Participant ExecutionContextBase::find(LightweightRTObject_ptr comp) {
     if (CORBA::is_nil(comp)) return nullptr;
-    for (auto& participant : participants())
+    for (auto& participant : *participants())
         if (participant->is(comp)) return participant;
     return nullptr;
 }
@@ -104,7 +111,7 @@ ReturnCode_t ExecutionContextBase::addComponent(LightweightRTObject_ptr comp) {
     try {
         const UniqueId id = comp->attach_context(m_objref.in());
         std::lock_guard<std::mutex> lock(m_mutex);
-        m_participants.push_back(std::make_shared<RTC_impl::RTObjectStateMachine>(id, comp));
+        addParticipant(std::make_shared<RTC_impl::RTObjectStateMachine>(id, comp));
         return RTC_OK;
     } catch (const CORBA::SystemException&) {
         return RTC_ERROR;
@@ -117,7 +124,9 @@ ReturnCode_t ExecutionContextBase::removeComponent(LightweightRTObject_ptr comp)
     if (leaving->state() != INACTIVE_STATE) return PRECONDITION_NOT_MET;
     {
         std::lock_guard<std::mutex> lock(m_mutex);
-        std::erase(m_participants, leaving);
+        auto all = *m_participants;
+        std::erase(all, leaving);
+        m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
     }
     try {
         comp->detach_context(comp->get_context_handle(m_objref.in()));
@@ -142,7 +151,7 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
     profile->kind = m_kind;
     profile->rate = getRate();
     profile->owner = RTObject::_duplicate(m_owner.in());
-    for (auto& participant : participants()) {
+    for (auto& participant : *participants()) {
         RTObject_var one = RTObject::_narrow(participant->reference());
         if (!CORBA::is_nil(one.in()) && !one->_is_equivalent(m_owner.in()))
             CORBA_SeqUtil::push_back(profile->participants, one);
@@ -155,7 +164,7 @@ void ExecutionContextBase::retire() {
     stop();
     {
         std::lock_guard<std::mutex> lock(m_mutex);
-        m_participants.clear();
+        m_participants = std::make_shared<const std::vector<Participant>>();
         m_owner = RTObject::_nil();
     }
     try {

@@ -12,9 +12,9 @@ void ExecutionContextBase::invokeWorker() {
         std::lock_guard<std::timed_mutex> lock(m_cycle);
         m_cycling = std::this_thread::get_id();
         const auto all = participants();
-        for (auto& participant : all) participant->preDo();
-        for (auto& participant : all) participant->execute();
-        for (auto& participant : all) participant->postDo();
+        for (auto& participant : *all) participant->preDo();
+        for (auto& participant : *all) participant->execute();
+        for (auto& participant : *all) participant->postDo();
         m_cycling = std::thread::id();
     }
     { std::lock_guard<std::mutex> lock(m_changedMutex); }
@@ -22,7 +22,7 @@ void ExecutionContextBase::invokeWorker() {
 }
 
 bool ExecutionContextBase::busy() {
-    for (auto& participant : participants())
+    for (auto& participant : *participants())
         if (participant->pending() || participant->state() != INACTIVE_STATE) return true;
     return false;
 }

@@ -47,8 +47,12 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     ComponentArguments wanted = parse_component_arguments(args);
     const std::string type = wanted.id.getProperty("implementation_id");
 
-    std::unique_lock<std::recursive_mutex> lock(m_impl->mutex);
-    FactoryBase* factory = m_impl->find_factory(wanted.id);
+    // Not locked while the component's own code runs: it may ask the manager from threads of its own.
+    FactoryBase* factory = nullptr;
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        factory = m_impl->find_factory(wanted.id);
+    }
     if (factory == nullptr)
         throw ManagerError("there is no component type " + type + " (known: " +
                            listed(getModulesFactories()) + "); name its library in manager.modules.preload");
@@ -97,9 +101,11 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     if (component->initialize() != RTC_OK)
         give_up("component " + name + " does not start: its onInitialize has failed");
     m_impl->listeners.rtclifecycle_.forEach([](auto& listener) { listener.postInitialize(); });
-    m_impl->components.push_back({component, factory});
-    m_impl->ever_had_components = true;
-    lock.unlock();
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        m_impl->components.push_back({component, factory});
+        m_impl->ever_had_components = true;
+    }
     registerComponent(component);
     return *component;
 }

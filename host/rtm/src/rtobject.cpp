@@ -76,7 +76,7 @@ ReturnCode_t RTObject_impl::exit() {
         m_pManager->invoke([this] { exit(); }); // a component cannot end under its own feet
         return RTC_OK;
     }
-    m_exiting = true;
+    if (m_exiting.exchange(true)) return RTC_OK;
     RTObject_var self = getObjRef();
     ReturnCode_t stopped = RTC_OK;
     for (auto* context : m_eclist) {

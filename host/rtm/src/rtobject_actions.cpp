@@ -22,19 +22,22 @@ template <class Callback>
 ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
                                     PostComponentActionListenerType post, Callback callback) {
     ReturnCode_t result = RTC_ERROR;
+    std::string trouble;
     try {
         m_actionListeners.preaction_[m_actionListeners.at(pre)].forEach(
             [&](auto& listener) { listener(ec_id); });
         result = callback();
-        if (result != RTC_OK)
-            RTC_ERROR(("%s: %s returned %d", getInstanceName(), what, static_cast<int>(result)));
+        if (result != RTC_OK) trouble = "returned " + std::to_string(static_cast<int>(result));
     } catch (const std::exception& e) {
-        RTC_ERROR(("%s: %s threw: %s", getInstanceName(), what, e.what()));
+        trouble = std::string("threw: ") + e.what();
     } catch (const CORBA::Exception& e) {
-        RTC_ERROR(("%s: %s threw CORBA exception %s", getInstanceName(), what, e._name()));
+        trouble = std::string("threw CORBA exception ") + e._name();
     } catch (...) {
-        RTC_ERROR(("%s: %s threw something that is not a std::exception", getInstanceName(), what));
+        trouble = "threw something that is not a std::exception";
     }
+    const bool repeats = pre == PreComponentActionListenerType::PRE_ON_ERROR;
+    if (!trouble.empty() && !(repeats && m_errorReported)) RTC_ERROR(("%s %s", what, trouble.c_str()));
+    m_errorReported = repeats && !trouble.empty();
     m_actionListeners.postaction_[m_actionListeners.at(post)].forEach(
         [&](auto& listener) { listener(ec_id, result); });
     return result;

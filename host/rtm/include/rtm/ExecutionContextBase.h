@@ -89,13 +89,16 @@ protected:
 private:
     using Participant = std::shared_ptr<RTC_impl::RTObjectStateMachine>;
     Participant find(LightweightRTObject_ptr comp);
-    std::vector<Participant> participants() const;
+    // Replaced, never changed: a cycle takes it without copying.
+    using Participants = std::shared_ptr<const std::vector<Participant>>;
+    Participants participants() const;
+    void addParticipant(Participant participant);
     ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to);
     ReturnCode_t await(const Participant& participant, LifeCycleState to);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
     mutable std::mutex m_mutex; // participants, rate, running
-    std::vector<Participant> m_participants;
+    Participants m_participants = std::make_shared<const std::vector<Participant>>();
     bool m_running = false;
     double m_rate = DEFAULT_EXECUTION_RATE;
     bool m_sync = true;

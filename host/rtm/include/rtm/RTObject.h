@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_RTOBJECT_H
 #define RTC_RTOBJECT_H
+#include <atomic>
 #include <coil/Properties.h>
 #include <memory>
 #include <rtm/ComponentActionListener.h>
@@ -216,7 +217,8 @@ private:
     SDOPackage::Configuration_impl* m_sdoConfiguration = nullptr;
     ComponentActionListeners m_actionListeners;
     bool m_created = true;
-    bool m_exiting = false;
+    std::atomic<bool> m_exiting{false};
+    bool m_errorReported = false; // onError fails once per cycle, it is said once
     bool m_readAll = false, m_readAllCompletion = false;
     bool m_writeAll = false, m_writeAllCompletion = false;
 };
