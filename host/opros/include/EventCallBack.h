@@ -50,17 +50,21 @@ template <typename T> class typed_callback : public EventCallBack {
 
 template <typename T, typename C, typename... P> class member_callback : public typed_callback<T> {
   public:
-    member_callback(void (C::*function)(P...), C* object) : m_function(function), m_object(object) {}
+    member_callback(void (C::*function)(P...), C* object) : m_call{function, object} {}
     virtual ReturnType onEvent(Event* p) {
-        if (!m_object) return OPROS_INTERNAL_FAULT;
+        if (!m_call.object) return OPROS_INTERNAL_FAULT;
         void (*form)(P...) = 0;
-        handle<T>(p, [this](P... given) { (m_object->*m_function)(given...); }, form);
+        handle<T>(p, m_call, form);
         return OPROS_SUCCESS;
     }
 
   private:
-    void (C::*m_function)(P...);
-    C* m_object;
+    struct call {
+        void (C::*function)(P...);
+        C* object;
+        void operator()(P... given) const { (object->*function)(given...); }
+    };
+    call m_call;
 };
 
 template <typename T, typename... P> class function_callback : public typed_callback<T> {

@@ -81,6 +81,7 @@ void Application::stop() {
     if (!started_) return;
     started_ = false;
     step_server_.reset();
+    for (auto& executor : executors_) executor->interrupt(); // all at once, then wait for each
     executors_.clear();
     for (auto component = order_.rbegin(); component != order_.rend(); ++component) (*component)->stop();
 }

@@ -31,16 +31,18 @@ Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions
             rt::TickOptions{profile.period, profile.phase, true, options_.spin});
 }
 
-Executor::~Executor() { stop(); }
+Executor::~Executor() {
+    interrupt();
+    if (thread_.joinable()) thread_.join();
+}
 
 void Executor::start() {
     if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
 }
 
-void Executor::stop() {
+void Executor::interrupt() {
     stopping_ = true;
     if (tick_) tick_->interrupt();
-    if (thread_.joinable()) thread_.join();
 }
 
 void Executor::run() {

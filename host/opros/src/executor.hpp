@@ -26,7 +26,8 @@ class Executor {
     Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options);
     ~Executor();
     void start();
-    void stop();
+    /// Asks for the end; the destructor waits for it.
+    void interrupt();
 
   private:
     void run();
