@@ -23,8 +23,8 @@ const char* name_of(CallStatus status);
 
 struct CallQueueOptions {
     Side callers = Side::first;
-    std::uint32_t slots = 16;          ///< calls in progress at once; 1 to 256
-    std::size_t max_bytes = 64 * 1024; ///< of the arguments, and of the results
+    std::uint32_t slots = 16;                       ///< calls in progress at once; 1 to 256
+    std::size_t max_bytes = std::size_t{64} * 1024; ///< of the arguments, and of the results
 };
 
 /// A call queue found or made by Segment: its place, and this process's own copy of its sizes.

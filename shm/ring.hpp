@@ -19,7 +19,7 @@ enum class RingPolicy : std::uint32_t { latest_only, drop_oldest, reject, wait }
 struct RingOptions {
     Side writer = Side::first;
     RingPolicy policy = RingPolicy::drop_oldest;
-    std::size_t max_record = 64 * 1024; ///< longest payload, bytes
+    std::size_t max_record = std::size_t{64} * 1024; ///< longest payload, bytes
     std::size_t capacity =
         256 * 1024; ///< bytes; rounded up to a power of two that holds two of the longest records
     std::chrono::nanoseconds wait = std::chrono::milliseconds(10); ///< of RingPolicy::wait; 10 s at most

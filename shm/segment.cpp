@@ -11,9 +11,11 @@ Segment::Segment(std::shared_ptr<const Mapping> mapping)
     : mapping_(std::move(mapping)), directory_(mapping_), mine_(mapping_, mapping_->side()),
       theirs_(mapping_, other(mapping_->side())), joined_by_(getpid()) {}
 
-Segment::~Segment() {
+Segment::~Segment() { leave(); }
+
+void Segment::leave() {
     // A fork()ed child shares the open file: if it unlocked, its parent would be dead to the peer.
-    if (getpid() != joined_by_) return;
+    if (getpid() != joined_by_ || left_.exchange(true)) return;
     const int fd = mapping_->fd();
     // If the hand-over byte cannot be had (its holder was stopped), the file stays for remove_dead().
     const HandOver hand_over(fd);

@@ -27,10 +27,13 @@ class Segment {
     /// SideTaken if my side is held by somebody alive, Error for anything else that is in the way.
     static std::unique_ptr<Segment> join(const std::string& link, Side side, const JoinOptions& options = {});
 
-    /// Leaves and tells the peer; the last one to leave removes the file.
-    ~Segment();
+    ~Segment(); ///< leave()
     Segment(const Segment&) = delete;
     Segment& operator=(const Segment&) = delete;
+
+    /// [any-thread] Gives my side back and tells the peer; the last one to leave removes the file. The memory
+    /// stays mapped as long as this, or a ring, call queue or doorbell object of it, exists.
+    void leave();
 
     std::uint64_t generation() const { return mapping_->generation(); }
     Side side() const { return mapping_->side(); }
@@ -76,6 +79,7 @@ class Segment {
     Directory directory_;
     Doorbell mine_, theirs_;
     pid_t joined_by_;
+    std::atomic<bool> left_{false};
 };
 
 } // namespace tandem::shm

@@ -134,6 +134,19 @@ TEST_CASE("garbage under a segment name is cleared away when nobody lives in it"
     CHECK(link.files()[0] == first->path());
 }
 
+TEST_CASE("a side that has left may be taken again while old objects still use the memory") {
+    Pair pair;
+    RingWriter writer(pair.first->add_ring("r", {}));
+    pair.first->leave();
+    CHECK(pair.second->peer() == PeerState::dead);
+    auto again = join(pair.link, Side::first);
+    CHECK(again->generation() == pair.second->generation() + 1);
+    CHECK(writer.write(bytes_of("into the void"), 0, 0));
+    pair.first->leave();
+    pair.second->leave();
+    CHECK(pair.link.files().size() == 1);
+}
+
 TEST_CASE("a fork()ed child that destroys its copy of a segment does not end its parent's life") {
     Pair pair;
     Child child([&] {
