@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What does not fit is refused at set-up: one line that says what, where and what to do, and a non-zero exit.
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <unistd.h>
+
+namespace {
+void check_refused(TwoHosts& hosts, const std::string& host, const std::vector<std::string>& parts) {
+    CHECK(hosts.exit_code(host) == 1);
+    for (const auto& part : parts) CHECK_THAT(hosts.output(host), Catch::Contains(part));
+    CHECK_THAT(hosts.output(host), !Catch::Contains("ready"));
+}
+} // namespace
+
+TEST_CASE("ports of types that do not fit are refused with both signatures") {
+    TwoHosts hosts;
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "numbers", "Adaptor", "numbers"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    check_refused(hosts, "opros", {"app.xml:", "'ai'", "'(uu)ad'", "IDL:RTC/TimedDoubleSeq:1.0"});
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a port that the partner does not have is named, with those it has") {
+    TwoHosts hosts;
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "wort"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    check_refused(hosts, "opros", {"app.xml:", "'wort'", "numbers", "word"});
+}
+
+TEST_CASE("a host whose partner never comes gives up and says who did not come") {
+    TwoHosts hosts;
+    hosts.set_wait("0.2");
+    hosts.start_opros();
+    check_refused(hosts, "opros", {hosts.link(), "InterceptorComp", "did not come within 0.2 s"});
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("an RTC to share that is not there is named") {
+    TwoHosts hosts;
+    hosts.set_interceptor("rtc=Nobody0");
+    hosts.start_rtm();
+    check_refused(hosts, "rtm", {"Nobody0", "manager.components.precreate"});
+}
+
+TEST_CASE("shared memory that is not there is an error with what is needed and what there is") {
+    TwoHosts hosts;
+    hosts.set_interceptor("rtc=EchoRtc0&segment_mib=900000");
+    hosts.start_rtm();
+    check_refused(hosts, "rtm", {"/dev/shm/", "bytes needed", "available"});
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a link name in use by a living process is refused") {
+    TwoHosts hosts, others;
+    hosts.start_rtm();
+    REQUIRE(hosts.says("rtm", "ready"));
+    others.set_interceptor("rtc=EchoRtc0&link=" + hosts.link());
+    others.start_rtm();
+    check_refused(others, "rtm", {hosts.link(), "is held by a living process"});
+    CHECK(hosts.stop("rtm") == 0);
+}

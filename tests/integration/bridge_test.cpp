@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <csignal>
+
+TEST_CASE("strings and calls cross between components that know nothing of each other") {
+    TwoHosts hosts;
+    const bool opros_first = GENERATE(true, false);
+    opros_first ? hosts.start_opros() : hosts.start_rtm();
+    opros_first ? hosts.start_rtm() : hosts.start_opros();
+
+    // The time that TimedString needs was put in on the way.
+    CHECK(hosts.says("opros", "reply: hello 5 at a time"));
+    CHECK(hosts.says("opros", "pages: 2 last 5"));
+    // The provider's exception arrives as one, with its name.
+    CHECK(hosts.says(
+        "opros", "refused: service 'dictionary.pages': operation 'pages': IDL:TestDictionary/NotFound:1.0"));
+
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a killed host that is started again is bound again, and nothing is left behind") {
+    TwoHosts hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "reply: hello 5 "));
+    for (int round = 1; round <= 2; ++round) {
+        hosts.kill("rtm");
+        CHECK(hosts.says("opros", "is down: the partner process has gone"));
+        const auto before = hosts.output("opros").size();
+        hosts.start_rtm();
+        for (int i = 0; i < 1500 && hosts.output("opros").find("reply:", before) == std::string::npos; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        CHECK(hosts.output("opros").find("reply:", before) != std::string::npos);
+    }
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}

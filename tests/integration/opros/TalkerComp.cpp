@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Says a word every cycle, prints what comes back, and asks a service about it.
+#include <OPRoSInclude.h>
+#include <ServiceUtils.h>
+
+#include "DictionaryRequired.h"
+
+#include <iostream>
+#include <memory>
+
+class TalkerComp : public Component {
+  public:
+    TalkerComp() {
+        addPort("word", &word_);
+        addPort("numbers", &numbers_);
+        addPort("reply", &reply_);
+        addPort("dictionary", dictionary_);
+    }
+
+    ReturnType onExecute() override {
+        word_.push("hello " + std::to_string(++said_));
+        while (const std::unique_ptr<opros_any> reply{reply_.pop()}) {
+            std::cout << "reply: " << reply_.getContent(*reply) << std::endl;
+            ask();
+        }
+        return OPROS_SUCCESS;
+    }
+
+  protected:
+    ReturnType onInitialize() override { return OPROS_SUCCESS; }
+    ReturnType onStart() override { return OPROS_SUCCESS; }
+    ReturnType onStop() override { return OPROS_SUCCESS; }
+    ReturnType onReset() override { return OPROS_SUCCESS; }
+    ReturnType onError() override { return OPROS_SUCCESS; }
+    ReturnType onRecover() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
+
+  private:
+    void ask() {
+        try {
+            const auto pages = dictionary_->pages("hello", {1.5, 2.5});
+            std::cout << "pages: " << pages.size() << " last " << pages.back() << std::endl;
+            dictionary_->pages("unknown", {});
+        } catch (MethodInvokeException& error) {
+            std::cout << "refused: " << error.getMessage() << std::endl;
+        }
+    }
+
+    int said_ = 0;
+    OutputDataPort<std::string> word_;
+    OutputDataPort<std::vector<int>> numbers_;
+    InputDataPort<std::string> reply_;
+    DictionaryRequired* dictionary_ = new DictionaryRequired; // the component deletes its service ports
+};
+
+extern "C" {
+Component* getComponent() { return new TalkerComp; }
+void releaseComponent(Component* component) { delete component; }
+}

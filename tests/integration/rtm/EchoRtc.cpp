@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sends back what it hears, and provides a dictionary.
+#include "DictionarySkel.h"
+
+#include <rtm/CorbaPort.h>
+#include <rtm/DataFlowComponentBase.h>
+#include <rtm/DataInPort.h>
+#include <rtm/DataOutPort.h>
+#include <rtm/Manager.h>
+#include <rtm/idl/BasicDataTypeSkel.h>
+
+namespace {
+
+class DictionaryService : public POA_TestDictionary::Dictionary,
+                          public virtual PortableServer::RefCountServantBase {
+  public:
+    TestDictionary::Numbers* pages(const char* word, const TestDictionary::Weights& weights) override {
+        if (std::string(word) == "unknown") throw TestDictionary::NotFound(word);
+        auto* pages = new TestDictionary::Numbers;
+        pages->length(2);
+        (*pages)[0] = static_cast<CORBA::Long>(weights.length());
+        (*pages)[1] = static_cast<CORBA::Long>(2 * weights[weights.length() - 1]);
+        return pages;
+    }
+};
+
+} // namespace
+
+class EchoRtc : public RTC::DataFlowComponentBase {
+  public:
+    explicit EchoRtc(RTC::Manager* manager)
+        : RTC::DataFlowComponentBase(manager), wordIn_("word", word_), numbersIn_("numbers", numbers_),
+          replyOut_("reply", reply_), dictionaryPort_("dictionary") {}
+
+    RTC::ReturnCode_t onInitialize() override {
+        addInPort("word", wordIn_);
+        addInPort("numbers", numbersIn_);
+        addOutPort("reply", replyOut_);
+        dictionaryPort_.registerProvider("dictionary", "TestDictionary::Dictionary", dictionary_);
+        addPort(dictionaryPort_);
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        while (wordIn_.isNew()) {
+            wordIn_.read();
+            reply_.tm = word_.tm;
+            reply_.data =
+                CORBA::string_dup((std::string(word_.data) + (word_.tm.sec ? " at a time" : "")).c_str());
+            replyOut_.write();
+        }
+        return RTC::RTC_OK;
+    }
+
+  private:
+    RTC::TimedString word_, reply_;
+    RTC::TimedDoubleSeq numbers_;
+    RTC::InPort<RTC::TimedString> wordIn_;
+    RTC::InPort<RTC::TimedDoubleSeq> numbersIn_;
+    RTC::OutPort<RTC::TimedString> replyOut_;
+    RTC::CorbaPort dictionaryPort_;
+    DictionaryService dictionary_;
+};
+
+extern "C" void EchoRtcInit(RTC::Manager* manager) {
+    static const char* const spec[] = {"implementation_id",
+                                       "EchoRtc",
+                                       "type_name",
+                                       "EchoRtc",
+                                       "description",
+                                       "test",
+                                       "version",
+                                       "1.0",
+                                       "vendor",
+                                       "Tandem",
+                                       "category",
+                                       "test",
+                                       "activity_type",
+                                       "PERIODIC",
+                                       "kind",
+                                       "DataFlowComponent",
+                                       "max_instance",
+                                       "0",
+                                       "language",
+                                       "C++",
+                                       "lang_type",
+                                       "compile",
+                                       ""};
+    coil::Properties profile(spec);
+    manager->registerFactory(profile, RTC::Create<EchoRtc>, RTC::Delete<EchoRtc>);
+}

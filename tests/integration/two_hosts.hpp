@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// A folder with an OPRoS application and an rtc.conf, and hosts started on them.
+#pragma once
+
+#include "apps/wheelchair/child_process.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <thread>
+
+#include <fcntl.h>
+
+/// The files of a bridge between TalkerComp and EchoRtc0; texts may be changed before they are used.
+class TwoHosts {
+  public:
+    TwoHosts() {
+        std::string name = (std::filesystem::temp_directory_path() / "tandem-bridge-XXXXXX").string();
+        folder_ = mkdtemp(name.data());
+        link_ = folder_.filename().string();
+        std::filesystem::copy_file(TEST_SOURCES "/opros/TalkerComp.xml", folder_ / "TalkerComp.xml");
+        connections_ = connection("data", "Talker", "word", "Adaptor", "word") +
+                       connection("data", "Adaptor", "reply", "Talker", "reply") +
+                       connection("service", "Talker", "dictionary", "Adaptor", "dictionary");
+    }
+    ~TwoHosts() { std::filesystem::remove_all(folder_); }
+    TwoHosts(const TwoHosts&) = delete;
+    TwoHosts& operator=(const TwoHosts&) = delete;
+
+    static std::string connection(const std::string& type, const std::string& from,
+                                  const std::string& from_port, const std::string& to,
+                                  const std::string& to_port) {
+        return "<port_connection port_type=\"" + type + "\"><source component_name=\"" + from +
+               "\" port_name=\"" + from_port + "\"/><target component_name=\"" + to + "\" port_name=\"" +
+               to_port + "\"/></port_connection>\n";
+    }
+    void set_connections(const std::string& xml) { connections_ = xml; }
+    void set_wait(const std::string& seconds) { wait_ = seconds; }
+    void set_interceptor(const std::string& parameters) { interceptor_ = parameters; }
+    void append_to_rtc_conf(const std::string& lines) { rtc_conf_more_ += lines; }
+    const std::string& link() const { return link_; }
+
+    void start_opros() {
+        std::ofstream(folder_ / "app.xml")
+            << "<?xml version=\"1.0\"?>\n<package_profile><name>app</name>\n<subcomponents>\n"
+            << "<subcomponent><name>Talker</name><reference>TalkerComp.xml</reference></subcomponent>\n"
+            << "<subcomponent><name>Adaptor</name><reference>AdaptorComp.xml</reference><properties>"
+            << "<property name=\"link\">" << link_ << "</property><property name=\"wait\">" << wait_
+            << "</property></properties></subcomponent>\n</subcomponents>\n<port_connections>\n"
+            << connections_ << "</port_connections></package_profile>\n";
+        std::filesystem::copy_file(
+            std::filesystem::path(OPROS_HOST).parent_path() / "../plugins/opros/AdaptorComp.xml",
+            folder_ / "AdaptorComp.xml", std::filesystem::copy_options::overwrite_existing);
+        start("opros", {OPROS_HOST, (folder_ / "app.xml").string()});
+    }
+    void start_rtm() {
+        std::ofstream(folder_ / "rtc.conf")
+            << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: "
+               "100\n"
+            << "manager.modules.preload: EchoRtc.so, InterceptorComp.so\n"
+            << "manager.components.precreate: EchoRtc, InterceptorComp?link=" << link_ << "&" << interceptor_
+            << "\n"
+            << rtc_conf_more_;
+        start("rtm", {RTM_HOST, "-f", (folder_ / "rtc.conf").string()});
+    }
+
+    /// Everything a host has written so far.
+    std::string output(const std::string& host) const {
+        std::ifstream file(folder_ / (host + ".log"));
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    bool says(const std::string& host, const std::string& text) const {
+        for (int i = 0; i < 1500; ++i) {
+            if (output(host).find(text) != std::string::npos) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return false;
+    }
+    /// Exit code of a host that ends by itself; -1 if it does not within a bound that is out of proportion.
+    int exit_code(const std::string& host) {
+        const auto& ended = hosts_.at(host).wait(std::chrono::seconds(60));
+        return ended && !ended->signalled ? ended->code : -1;
+    }
+    int stop(const std::string& host) {
+        const auto& ended = hosts_.at(host).stop(std::chrono::seconds(30));
+        return ended && !ended->signalled ? ended->code : -1;
+    }
+    void kill(const std::string& host) {
+        ::kill(hosts_.at(host).pid(), SIGKILL);
+        hosts_.at(host).wait(std::chrono::seconds(30));
+        hosts_.erase(host);
+    }
+    bool left_in_shared_memory() const {
+        for (const auto& file : std::filesystem::directory_iterator("/dev/shm"))
+            if (file.path().filename().string().find(link_) != std::string::npos) return true;
+        return false;
+    }
+
+  private:
+    void start(const std::string& host, std::vector<std::string> command) {
+        command.insert(command.end(), {"--plugin-path", TEST_PLUGINS, "--parent-death"});
+        const tandem::wheelchair::Fd log(
+            open((folder_ / (host + ".log")).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
+        hosts_.erase(host);
+        hosts_.emplace(host, tandem::wheelchair::ChildProcess(command, {-1, log.get(), log.get(), ""}));
+    }
+
+    std::filesystem::path folder_;
+    std::string link_, connections_, wait_ = "30", interceptor_ = "rtc=EchoRtc0", rtc_conf_more_;
+    std::map<std::string, tandem::wheelchair::ChildProcess> hosts_;
+};
