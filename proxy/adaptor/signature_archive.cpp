@@ -29,15 +29,6 @@ constexpr char code() {
         return std::is_signed_v<T> ? 'x' : 't';
 }
 
-/// A standard container is what it holds; its class is no structure of its own.
-bool is_structure(const std::string& class_name) {
-    for (const char* container :
-         {"std::vector", "std::deque", "std::list", "std::valarray", "std::set", "std::multiset", "std::map",
-          "std::multimap", "std::queue", "std::priority_queue", "std::stack"})
-        if (class_name.compare(0, std::char_traits<char>::length(container), container) == 0) return false;
-    return true;
-}
-
 } // namespace
 
 #define TANDEM_LOAD(type)                                                                                    \
@@ -69,13 +60,13 @@ std::size_t SignatureArchive::read_sequence_head() {
     return 1;
 }
 
-iarchive& SignatureArchive::read_class_head(const std::string& name) {
-    if (is_structure(name)) signature_ += '(';
+iarchive& SignatureArchive::read_class_head(const std::string&) {
+    signature_ += '(';
     return *this;
 }
 
-iarchive& SignatureArchive::read_class_end(const std::string& name) {
-    if (is_structure(name)) signature_ += ')';
+iarchive& SignatureArchive::read_class_end(const std::string&) {
+    signature_ += ')';
     return *this;
 }
 

@@ -24,7 +24,6 @@ class SignatureArchive final : public opros::archive::iarchive {
     iarchive& read_class_head(const std::string&) override;
     iarchive& read_class_end(const std::string&) override;
     long read_array_head(long size, char, char) override;
-    bool keeps_names() const override { return true; }
 
     using iarchive::load;
 

@@ -18,7 +18,10 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
     const ApplicationProfile profile = read_application_profile(file);
     load(profile);
     order(profile);
-    for (ComponentHost* component : order_) component->initialize();
+    for (ComponentHost* component : order_) {
+        component->initialize();
+        demand_success(*component, "initialize");
+    }
     connect_all(profile);
 }
 
@@ -58,6 +61,14 @@ void Application::connect_all(const ApplicationProfile& profile) {
     }
 }
 
+/// A robot without one of its parts is not what the profile describes: that is for its user to allow.
+void Application::demand_success(const ComponentHost& component, const char* step) const {
+    if (options_.strict && component.failed())
+        throw SetupError(
+            "component '" + component.name() + "' did not " + step +
+            ", the line above says why; mend that, or let the others run without it: --keep-going");
+}
+
 ComponentHost* Application::find(const std::string& name) {
     for (const auto& component : components_)
         if (component->name() == name) return component.get();
@@ -67,7 +78,10 @@ ComponentHost* Application::find(const std::string& name) {
 void Application::start() {
     if (started_) return;
     started_ = true;
-    for (ComponentHost* component : order_) component->start();
+    for (ComponentHost* component : order_) {
+        component->start();
+        demand_success(*component, "start");
+    }
     if (!options_.lockstep_socket.empty()) {
         step_server_ = std::make_unique<rt::StepServer>(options_.lockstep_socket,
                                                         [this](const std::string& name) { step(name); });

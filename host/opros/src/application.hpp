@@ -22,6 +22,9 @@ struct ApplicationOptions {
     std::size_t jobs_per_worker = 1024;
     /// Not empty: no executor threads, components are stepped through this socket (host/rt/step_server.hpp).
     std::string lockstep_socket;
+    /// A component that fails to initialize or start ends the set-up; otherwise it is left out and the rest
+    /// runs.
+    bool strict = false;
 };
 
 class Application {
@@ -32,7 +35,7 @@ class Application {
     ~Application();
 
     /// Starts all components, last listed first unless <coordination> says otherwise, then their executors.
-    /// One that fails is out, the rest runs.
+    /// One that fails is out and the rest runs, or, if strict, SetupError is thrown.
     void start();
     /// Ends the executors, then stops the components in the reverse order of start.
     void stop();
@@ -50,6 +53,7 @@ class Application {
     void load(const ApplicationProfile& profile);
     void order(const ApplicationProfile& profile);
     void connect_all(const ApplicationProfile& profile);
+    void demand_success(const ComponentHost& component, const char* step) const;
 
     ApplicationOptions options_;
     // A value in one component's queue may be of another one's making: libraries go after all components.

@@ -69,9 +69,8 @@ bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::
     const std::string thrown = guarded(what, [&] { result = (component_.get()->*step)(); });
     if (thrown.empty() && result == OPROS_SUCCESS) return true;
     if (thrown.empty())
-        spdlog::error(
-            "component {}: {} failed, its callback returned code {}; it is left out, the others go on", name_,
-            what, code_text(component_->getErrorInfo()));
+        spdlog::error("component {}: {} failed, its callback returned code {}", name_, what,
+                      code_text(component_->getErrorInfo()));
     return false;
 }
 

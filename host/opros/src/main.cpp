@@ -20,7 +20,7 @@ struct Options {
     std::filesystem::path application;
     ApplicationOptions host;
     long spin_us = 0;
-    bool low_latency_idle = false, lock_memory = false, parent_death = false;
+    bool keep_going = false, low_latency_idle = false, lock_memory = false, parent_death = false;
 };
 
 void declare(CLI::App& cli, Options& options) {
@@ -33,6 +33,8 @@ void declare(CLI::App& cli, Options& options) {
     cli.add_option("--tick-spin", options.spin_us, "Poll the last US microseconds before a tick");
     cli.add_option("--workers", options.host.workers, "Threads for events and non-blocking calls")
         ->check(CLI::Range(1, 64));
+    cli.add_flag("--keep-going", options.keep_going,
+                 "Run without components that fail to initialize or start");
     cli.add_flag("--low-latency-idle", options.low_latency_idle, "Keep processors out of deep idle states");
     cli.add_flag("--lock-memory", options.lock_memory, "Lock the process in memory");
     cli.add_flag("--parent-death", options.parent_death, "Leave in order when the parent process dies");
@@ -89,6 +91,7 @@ int main(int argc, char** argv) {
     CLI::App cli("Runs an OPRoS application: its components, from their libraries and profiles.");
     declare(cli, options);
     CLI11_PARSE(cli, argc, argv);
+    options.host.strict = !options.keep_going;
     options.host.executors.spin = std::chrono::microseconds(options.spin_us);
     try {
         add_default_plugin_dirs(options.host.plugin_dirs);
