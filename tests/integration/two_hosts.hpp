@@ -26,7 +26,10 @@ class TwoHosts {
                        connection("data", "Adaptor", "reply", "Talker", "reply") +
                        connection("service", "Talker", "dictionary", "Adaptor", "dictionary");
     }
-    ~TwoHosts() { std::filesystem::remove_all(folder_); }
+    ~TwoHosts() {
+        for (auto& [name, host] : hosts_) host.stop(std::chrono::seconds(30));
+        std::filesystem::remove_all(folder_);
+    }
     TwoHosts(const TwoHosts&) = delete;
     TwoHosts& operator=(const TwoHosts&) = delete;
 
