@@ -41,6 +41,9 @@ ReturnCode_t ExecutionContextBase::transit(LightweightRTObject_ptr comp, LifeCyc
                                            LifeCycleState to) {
     Participant participant = find(comp);
     if (!participant) return BAD_PARAMETER;
+    // Its component is still being created, or was stopped for good: onActivated belongs between start and
+    // stop.
+    if (to == ACTIVE_STATE && !isRunning()) return PRECONDITION_NOT_MET;
     if (!participant->goTo(from, to)) return PRECONDITION_NOT_MET;
     if (hasThread()) {
         onRequest();

@@ -41,10 +41,47 @@ std::string listed(const std::vector<std::string>& names) {
 
 } // namespace
 
+namespace {
+
+RTObject_impl& made_by(FactoryBase& factory, Manager& manager, const std::string& type) {
+    const std::string failure = "component type " + type + " cannot be created";
+    try {
+        if (RTObject_impl* component = factory.create(&manager)) return *component;
+    } catch (const std::exception& e) {
+        throw ManagerError(failure + ": " + e.what());
+    } catch (const CORBA::Exception& e) {
+        throw ManagerError(failure + ": CORBA exception " + e._name());
+    }
+    throw ManagerError(failure);
+}
+
+// rtc.conf, the component's own files, then the arguments of its creation: the later win.
+void configure(Manager::Impl& impl, RTObject_impl& component, const coil::Properties& profile,
+               const coil::Properties& arguments) {
+    coil::Properties properties = inherited(impl.config, profile);
+    impl.listeners.rtclifecycle_.forEach([&](auto& listener) { listener.preConfigure(properties); });
+    const std::string category(component.getCategory());
+    const std::string name(component.getInstanceName());
+    configure_from(impl, category + "." + component.getTypeName(), properties);
+    configure_from(impl, category + "." + name, properties);
+    properties << arguments;
+    for (const auto& key : arguments.propertyNames()) // ?gain=2 for the configuration parameter gain
+        if (profile.findNode("conf.default." + key) != nullptr)
+            properties.setProperty("conf.default." + key, arguments.getProperty(key));
+    properties.setProperty("instance_name", name);
+    component.setProperties(properties);
+    coil::Properties& own = component.getProperties();
+    own.setProperty("naming.names", format_name(own.getProperty("naming.formats"), own, impl.config));
+    impl.listeners.rtclifecycle_.forEach([&](auto& listener) { listener.postConfigure(properties); });
+}
+
+} // namespace
+
 RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
+    auto& listeners = m_impl->listeners.rtclifecycle_;
     std::string args = comp_args;
-    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.preCreate(args); });
-    ComponentArguments wanted = parse_component_arguments(args);
+    listeners.forEach([&](auto& listener) { listener.preCreate(args); });
+    const ComponentArguments wanted = parse_component_arguments(args);
     const std::string type = wanted.id.getProperty("implementation_id");
 
     // Not locked while the component's own code runs: it may ask the manager from threads of its own.
@@ -56,58 +93,30 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     if (factory == nullptr)
         throw ManagerError("there is no component type " + type + " (known: " +
                            listed(getModulesFactories()) + "); name its library in manager.modules.preload");
-    RTObject_impl* component = nullptr;
+    RTObject_impl& component = made_by(*factory, *this, type);
     try {
-        component = factory->create(this);
-    } catch (const std::exception& e) {
-        throw ManagerError("component type " + type + " cannot be created: " + e.what());
-    } catch (const CORBA::Exception& e) {
-        throw ManagerError("component type " + type + " cannot be created: CORBA exception " + e._name());
+        listeners.forEach([&](auto& listener) { listener.postCreate(&component); });
+        const std::string name = wanted.properties.getProperty("instance_name", component.getInstanceName());
+        if (getComponent(name.c_str()) != nullptr) throw ManagerError("there is already a component " + name);
+        component.setInstanceName(name.c_str());
+        configure(*m_impl, component, factory->profile(), wanted.properties);
+        listeners.forEach([](auto& listener) { listener.preInitialize(); });
+        if (component.initialize() != RTC_OK)
+            throw ManagerError("component " + name + " does not start: its onInitialize has failed");
+        listeners.forEach([](auto& listener) { listener.postInitialize(); });
+    } catch (const ManagerError&) {
+        component.finalizePorts();
+        component.finalizeContexts();
+        factory->destroy(&component);
+        throw;
     }
-    if (component == nullptr) throw ManagerError("component type " + type + " cannot be created");
-    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.postCreate(component); });
-
-    auto give_up = [&](const std::string& why) {
-        component->finalizePorts();
-        component->finalizeContexts();
-        factory->destroy(component);
-        throw ManagerError(why);
-    };
-    const std::string name = wanted.properties.getProperty("instance_name", component->getInstanceName());
-    if (getComponent(name.c_str()) != nullptr) give_up("there is already a component " + name);
-    component->setInstanceName(name.c_str());
-
-    coil::Properties properties = inherited(m_impl->config, factory->profile());
-    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.preConfigure(properties); });
-    try {
-        configure_from(*m_impl, std::string(component->getCategory()) + "." + component->getTypeName(),
-                       properties);
-        configure_from(*m_impl, std::string(component->getCategory()) + "." + name, properties);
-    } catch (const ManagerError& e) {
-        give_up(e.what());
-    }
-    properties << wanted.properties;
-    for (const auto& key : wanted.properties.propertyNames()) // ?gain=2 for the configuration parameter gain
-        if (factory->profile().findNode("conf.default." + key) != nullptr)
-            properties.setProperty("conf.default." + key, wanted.properties.getProperty(key));
-    properties.setProperty("instance_name", name);
-    component->setProperties(properties);
-    component->getProperties().setProperty(
-        "naming.names", format_name(component->getProperties().getProperty("naming.formats"),
-                                    component->getProperties(), m_impl->config));
-    m_impl->listeners.rtclifecycle_.forEach([&](auto& listener) { listener.postConfigure(properties); });
-
-    m_impl->listeners.rtclifecycle_.forEach([](auto& listener) { listener.preInitialize(); });
-    if (component->initialize() != RTC_OK)
-        give_up("component " + name + " does not start: its onInitialize has failed");
-    m_impl->listeners.rtclifecycle_.forEach([](auto& listener) { listener.postInitialize(); });
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
-        m_impl->components.push_back({component, factory});
+        m_impl->components.push_back({&component, factory});
         m_impl->ever_had_components = true;
     }
-    registerComponent(component);
-    return *component;
+    registerComponent(&component);
+    return component;
 }
 
 RTObject_impl* Manager::createComponent(const char* comp_args) {

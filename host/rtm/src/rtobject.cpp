@@ -23,7 +23,18 @@ DataFlowComponentBase::DataFlowComponentBase(Manager* manager) : RTObject_impl(m
 DataFlowComponentBase::~DataFlowComponentBase() = default;
 void DataFlowComponentBase::init() {}
 
-void deleteRTObject(RTObject_impl* rtc) { rtc->_remove_ref(); }
+void deleteRTObject(RTObject_impl* rtc) {
+    rtc->retire();
+    rtc->_remove_ref();
+}
+
+void RTObject_impl::retire() {
+    try {
+        m_pPOA->deactivate_object(m_oid.in());
+    } catch (const CORBA::Exception&) {
+        // deactivated before, or the ORB is gone
+    }
+}
 
 ReturnCode_t RTObject_impl::initialize() {
     createContexts();
@@ -59,11 +70,7 @@ ReturnCode_t RTObject_impl::finalize() {
     finalizePorts();
     finalizeContexts();
     if (m_sdoConfiguration != nullptr) m_sdoConfiguration->retire();
-    try {
-        m_pPOA->deactivate_object(m_oid.in());
-    } catch (const CORBA::Exception&) {
-        // the ORB has gone down before: nothing is left to deactivate
-    }
+    retire();
     m_pManager->notifyFinalized(this);
     return result;
 }

@@ -153,6 +153,8 @@ public:
     void setWriteAll(bool write = true, bool completion = false);
     void finalizePorts();
     void finalizeContexts();
+    /// Ours: no more calls from outside.
+    void retire();
 
     void addPreComponentActionListener(PreComponentActionListenerType type, PreComponentActionListener* listener,
                                        bool autoclean = true);
