@@ -141,9 +141,16 @@ Answer AdaptorComp::serve(const link::Request& request) {
         if (started_.exchange(false)) stopOnError();
         return {};
     }
-    for (auto* port : required_)
-        if (port->port() == request.port) return port->serve(request);
+    if (auto* port = find_required(request.port)) return port->serve(request);
     return Answer::failure(CallStatus::no_such_operation, "no such service port");
+}
+
+/// The partner may call before this half has grown its ports.
+MirroredRequired* AdaptorComp::find_required(std::string_view name) {
+    const std::lock_guard lock(mutex_);
+    for (auto* port : required_)
+        if (port->port() == name) return port;
+    return nullptr;
 }
 
 // ---- driving the partner

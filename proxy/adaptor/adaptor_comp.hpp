@@ -49,6 +49,7 @@ class AdaptorComp final : public Component, private link::LinkHandler {
 
     void grow_ports();
     void grow_port(const link::Port&);
+    MirroredRequired* find_required(std::string_view name);
     ReturnType drive(std::string_view verb);
     std::string tell_bindings();
     link::Answer control(std::string_view verb, std::span<const std::byte> arguments = {});
@@ -56,7 +57,7 @@ class AdaptorComp final : public Component, private link::LinkHandler {
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
-    std::mutex mutex_; ///< table_
+    std::mutex mutex_; ///< table_, grown_, required_ while it grows
     link::PortTable table_;
     bool grown_ = false;
     std::atomic<bool> started_{false};

@@ -37,9 +37,12 @@ RTC::ReturnCode_t InterceptorComp::onInitialize() {
         return RTC::RTC_OK;
     } catch (const std::runtime_error& error) {
         spdlog::error("{}: {}", getInstanceName(), error.what());
-        release();
-        return RTC::RTC_ERROR;
+    } catch (const CORBA::Exception& error) { // not a std::exception
+        spdlog::error("{}: {} answers with CORBA exception {}", getInstanceName(), settings_.rtc,
+                      error._name());
     }
+    release();
+    return RTC::RTC_ERROR;
 }
 
 RTC::ReturnCode_t InterceptorComp::onFinalize() {

@@ -50,44 +50,60 @@ RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds bound, s
 
 RtcDriver::~RtcDriver() { rtc_.removePostComponentActionListener(entering_error, listener_.get()); }
 
-RTC::LifeCycleState RtcDriver::state() const { return context_->get_component_state(reference_); }
+RTC::LifeCycleState RtcDriver::state() const {
+    try {
+        return context_->get_component_state(reference_);
+    } catch (const CORBA::Exception&) {
+        return RTC::CREATED_STATE; // it has left: no transition finds it in a state that fits
+    }
+}
 
 std::string RtcDriver::activate() {
+    const std::lock_guard lock(mutex_);
     if (state() == RTC::ACTIVE_STATE) return "";
-    if (state() == RTC::ERROR_STATE) return "it is in ERROR; reset it first";
-    // An RTC that is still being created has a context that does not run yet and refuses: ask again.
-    const auto deadline = std::chrono::steady_clock::now() + bound_;
-    auto asked = context_->activate_component(reference_);
-    while (asked != RTC::RTC_OK && state() == RTC::INACTIVE_STATE &&
-           std::chrono::steady_clock::now() < deadline) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        asked = context_->activate_component(reference_);
-    }
-    return reach(RTC::ACTIVE_STATE, asked, "activated");
+    return transition(RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,
+                      &RTC::_objref_ExecutionContext::activate_component, "activated");
 }
 
 std::string RtcDriver::deactivate() {
+    const std::lock_guard lock(mutex_);
     if (state() != RTC::ACTIVE_STATE) return "";
-    return reach(RTC::INACTIVE_STATE, context_->deactivate_component(reference_), "deactivated");
+    return transition(RTC::ACTIVE_STATE, RTC::INACTIVE_STATE,
+                      &RTC::_objref_ExecutionContext::deactivate_component, "deactivated");
 }
 
 std::string RtcDriver::reset() {
+    const std::lock_guard lock(mutex_);
     if (state() != RTC::ERROR_STATE) return "";
-    return reach(RTC::INACTIVE_STATE, context_->reset_component(reference_), "reset");
+    return transition(RTC::ERROR_STATE, RTC::INACTIVE_STATE, &RTC::_objref_ExecutionContext::reset_component,
+                      "reset");
+}
+
+std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Ask ask,
+                                  const char* verb) {
+    try {
+        if (state() != from) return fmt::format("it is {}, {} was expected", name_of(state()), name_of(from));
+        const auto answer = (context_->*ask)(reference_);
+        if (answer != RTC::RTC_OK && state() != to)
+            return fmt::format("it is {} and was not {}: its execution context answered {}", name_of(state()),
+                               verb, static_cast<int>(answer));
+        return reach(to, verb);
+    } catch (const CORBA::Exception& gone) { // the RTC or its context has left
+        return fmt::format("it was not {}: {}", verb, gone._name());
+    }
 }
 
 /// The context may carry out a transition in its next cycle only.
-std::string RtcDriver::reach(RTC::LifeCycleState wanted, RTC::ReturnCode_t asked, const char* verb) const {
+std::string RtcDriver::reach(RTC::LifeCycleState wanted, const char* verb) const {
     const auto deadline = std::chrono::steady_clock::now() + bound_;
     auto now = state();
-    while (asked == RTC::RTC_OK && now != wanted && now != RTC::ERROR_STATE &&
-           std::chrono::steady_clock::now() < deadline) {
+    while (now != wanted && now != RTC::ERROR_STATE && std::chrono::steady_clock::now() < deadline) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
         now = state();
     }
-    return now == wanted
-               ? ""
-               : fmt::format("it is {} and was not {} within {} ms", name_of(now), verb, bound_.count());
+    if (now == wanted) return "";
+    if (now == RTC::ERROR_STATE) return "it went to ERROR; its own messages say why";
+    return fmt::format("it is {} and was not {} within {} ms", name_of(now), verb, bound_.count());
 }
 
 } // namespace tandem::interceptor

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace tandem::interceptor {
@@ -24,13 +25,16 @@ class RtcDriver {
 
   private:
     class FailureListener;
-    std::string reach(RTC::LifeCycleState wanted, RTC::ReturnCode_t asked, const char* verb) const;
+    using Ask = RTC::ReturnCode_t (RTC::_objref_ExecutionContext::*)(RTC::LightweightRTObject_ptr);
+    std::string transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Ask ask, const char* verb);
+    std::string reach(RTC::LifeCycleState wanted, const char* verb) const;
     RTC::LifeCycleState state() const;
 
     RTC::RTObject_impl& rtc_;
     RTC::RTObject_var reference_;
     RTC::ExecutionContext_var context_;
     const std::chrono::milliseconds bound_;
+    std::mutex mutex_; ///< one transition at a time: a partner that comes waits for the end of one that went
     std::unique_ptr<FailureListener> listener_;
 };
 

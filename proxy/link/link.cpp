@@ -235,9 +235,12 @@ void Link::run_worker() {
 }
 
 void Link::serve(shm::IncomingCall call) {
-    const auto request = decode_request(call.arguments());
-    const Answer answer = request ? handler_.serve(*request)
-                                  : Answer::failure(CallStatus::bad_arguments, "the request is malformed");
+    Answer answer = Answer::failure(CallStatus::bad_arguments, "the request is malformed");
+    try {
+        if (const auto request = decode_request(call.arguments())) answer = handler_.serve(*request);
+    } catch (const std::exception& error) { // out of memory, say: the caller hears of it, the worker lives on
+        answer = Answer::failure(CallStatus::exception, error.what());
+    }
     call.reply(answer.status, answer.bytes);
 }
 
@@ -268,7 +271,11 @@ void Link::run_tasks() {
             task = std::move(tasks_.front());
             tasks_.pop_front();
         }
-        task();
+        try {
+            task();
+        } catch (const std::exception& error) {
+            spdlog::error("link '{}': {}", options_.name, error.what());
+        }
     }
 }
 
