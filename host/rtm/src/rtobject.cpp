@@ -109,7 +109,7 @@ ReturnCode_t RTObject_impl::exit() {
         }
     }
     if (stopped != RTC_OK) {
-        RTC_ERROR(("%s: a callback does not return; the component is left as it is", getInstanceName()));
+        RTC_ERROR(("a callback does not return; the component is left as it is"));
         return RTC_ERROR;
     }
     return finalize();

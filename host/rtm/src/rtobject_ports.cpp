@@ -44,7 +44,7 @@ bool RTObject_impl::addNamed(const char* name, PortBase& port) {
         m_actionListeners.portaction_[0].forEach([&](auto& listener) { listener(port.getPortProfile()); });
         return true;
     }
-    RTC_ERROR(("%s: there is already a port %s", getInstanceName(), name));
+    RTC_ERROR(("there is already a port %s", name));
     return false;
 }
 
