@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // A port as an object: identity, profile, list of connectors.
+#include <chrono>
 #include <coil/UUID.h>
 #include <coil/stringutil.h>
 #include <rtm/Manager.h>
 #include <rtm/PortBase.h>
+#include <thread>
 
 namespace RTC {
+namespace {
+
+/// A deactivated servant is let go by the ORB when the last call from outside has left it. A port is a member
+/// of its component and dies when told to, so it is waited for; not for ever, since the call may be one that
+/// waits for us.
+void wait_for_calls_to_end(PortableServer::ServantBase& servant) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    while (servant._refcount_value() > 1 && std::chrono::steady_clock::now() < deadline)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+} // namespace
 
 PortBase::PortBase(const char* name) : rtclog(name), m_poa(Manager::instance().getPOA()) {
     m_objref = this->_this();
@@ -22,6 +36,7 @@ void PortBase::retire() {
     m_retired = true;
     try {
         m_poa->deactivate_object(m_oid.in());
+        wait_for_calls_to_end(*this);
     } catch (const CORBA::Exception&) {
         // the ORB has gone down before: nothing is left to deactivate
     }
