@@ -61,6 +61,7 @@ RTC::LifeCycleState RtcDriver::state() const {
 std::string RtcDriver::activate() {
     const std::lock_guard lock(mutex_);
     if (state() == RTC::ACTIVE_STATE) return "";
+    if (state() == RTC::ERROR_STATE) return "it is in ERROR; reset it first";
     return transition(RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,
                       &RTC::_objref_ExecutionContext::activate_component, "activated");
 }
@@ -79,15 +80,21 @@ std::string RtcDriver::reset() {
                       "reset");
 }
 
+/// A host that has just started may have created the RTC but not yet started its context: then it is asked
+/// again.
 std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Ask ask,
                                   const char* verb) {
+    const auto deadline = std::chrono::steady_clock::now() + bound_;
     try {
-        if (state() != from) return fmt::format("it is {}, {} was expected", name_of(state()), name_of(from));
-        const auto answer = (context_->*ask)(reference_);
-        if (answer != RTC::RTC_OK && state() != to)
-            return fmt::format("it is {} and was not {}: its execution context answered {}", name_of(state()),
-                               verb, static_cast<int>(answer));
-        return reach(to, verb);
+        auto answer = RTC::PRECONDITION_NOT_MET;
+        for (;;) {
+            if (state() == from) answer = (context_->*ask)(reference_);
+            if (answer == RTC::RTC_OK || state() == to) return reach(to, verb);
+            if (answer != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return fmt::format("it is {}, {} was expected, and it was not {}: its context answers {}",
+                           name_of(state()), name_of(from), verb, static_cast<int>(answer));
     } catch (const CORBA::Exception& gone) { // the RTC or its context has left
         return fmt::format("it was not {}: {}", verb, gone._name());
     }
