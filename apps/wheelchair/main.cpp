@@ -2,6 +2,7 @@
 // wheelchair: the paper's experiment. See --help.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -76,6 +77,8 @@ int drive(Options options) {
 } // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGPIPE,
+                SIG_IGN); // a reader of our output that leaves early must not keep us from stopping the hosts
     const Options options = parse_options(argc, argv);
     try {
         return drive(options);

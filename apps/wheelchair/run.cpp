@@ -109,7 +109,7 @@ class HostedRun {
         if (missing.empty()) return false;
         std::string words;
         for (const Host& host : supervisor_.hosts())
-            words += fmt::format("; {}: {}", host.name, host.last_words());
+            words += fmt::format("; {}: {}", host.name, host.complaint());
         failures_.push_back(missing + " does not run" + words);
         return true;
     }
@@ -153,7 +153,7 @@ class HostedRun {
             std::any_of(members.begin(), members.end(), [](const Member& m) { return m.name == "HWComp"; });
         incidents_.push_back(i);
         std::string line = fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.how, i.run_time);
-        if (!host.process.poll()->signalled) line += ", its last words: " + host.last_words();
+        if (!host.process.poll()->signalled) line += ", it said: " + host.complaint();
         progress_.say(line + (i.had_hw ? "; HWComp was in it" : "; the other host goes on"));
         if (options_.restart && !options_.lockstep) {
             supervisor_.restart(host);
@@ -188,7 +188,7 @@ class HostedRun {
                 failures_.push_back(
                     fmt::format("{} (pid {}) did not stop cleanly: it {}{}{}", host.name, host.process.pid(),
                                 host.process.poll() ? host.process.poll()->text() : "hangs",
-                                host.last_words().empty() ? "" : ", its last words: ", host.last_words()));
+                                host.complaint().empty() ? "" : ", it said: ", host.complaint()));
         }
 #ifdef TANDEM_WITH_LINK
         if (!directory_.link().empty()) shm::remove_dead(directory_.link());

@@ -35,6 +35,11 @@ struct Started {
     Fd output;
 };
 
+std::streamoff size_of(const std::string& path) {
+    std::ifstream file(path, std::ios::ate);
+    return file ? static_cast<std::streamoff>(file.tellg()) : 0;
+}
+
 Started start_process(const std::vector<std::string>& command, const std::string& log) {
     const Fd errors(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
     if (errors.get() < 0) throw InputError(log + ": cannot be written: " + std::strerror(errno));
@@ -67,14 +72,15 @@ std::string Host::command_line() const {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::string Host::last_words() const {
+std::string Host::complaint() const {
     std::ifstream file(log);
-    std::string last, last_error;
+    file.seekg(log_start);
+    std::string last;
     for (std::string line; std::getline(file, line);) {
+        if (line.find("error") != line.npos) return line;
         if (!line.empty()) last = line;
-        if (line.find("error") != line.npos) last_error = line;
     }
-    return last_error.empty() ? last : last_error;
+    return last;
 }
 
 Supervisor::Supervisor() {
@@ -91,12 +97,14 @@ Supervisor::~Supervisor() {
 
 Host& Supervisor::start(const std::string& name, const std::vector<std::string>& command,
                         const std::string& log) {
+    const auto log_start = size_of(log);
     auto started = start_process(command, log);
-    hosts_.push_back({name, command, log, std::move(started.process), std::move(started.output)});
+    hosts_.push_back({name, command, log, log_start, std::move(started.process), std::move(started.output)});
     return hosts_.back();
 }
 
 void Supervisor::restart(Host& host) {
+    host.log_start = size_of(host.log);
     auto started = start_process(host.command, host.log);
     host.process = std::move(started.process);
     host.output = std::move(started.output);
@@ -152,13 +160,13 @@ void Supervisor::wait_until_ready(double seconds) {
             throw InputError(
                 fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more with --host-wait",
                             missing->name, missing->process.pid(), seconds,
-                            missing->last_words().empty() ? "" : ", its last line: ", missing->last_words()));
+                            missing->complaint().empty() ? "" : ", it said: ", missing->complaint()));
         const auto news = watch(50ms);
         if (news.interrupted) throw Interrupted();
         for (Host* host : news.ended)
             throw InputError(fmt::format("{} (pid {}) {} before it was ready: {}", host->name,
                                          host->process.pid(), host->process.poll()->text(),
-                                         host->last_words()));
+                                         host->complaint()));
     }
 }
 

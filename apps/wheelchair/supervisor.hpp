@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <ios>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,7 +15,8 @@ namespace tandem::wheelchair {
 struct Host {
     std::string name;
     std::vector<std::string> command;
-    std::string log; // file with its stderr
+    std::string log;          // file with its stderr
+    std::streamoff log_start; // where this process's part of it begins
     ChildProcess process;
     Fd output;             // its stdout
     std::string unread{};  // beginning of a line of its stdout
@@ -24,7 +26,7 @@ struct Host {
     bool ready() const { return ready_at > 0.0; }
     bool running() const { return !ended; }
     std::string command_line() const; // quoted for a shell
-    std::string last_words() const;   // last error in its log, else last line
+    std::string complaint() const;    // first error in its log, else the last line
 };
 
 /// Starts hosts, watches them, and ends them. Takes over SIGINT, SIGTERM and SIGHUP of this program while it

@@ -42,7 +42,7 @@ TEST_CASE("a host is ready once it says so, and is stopped by a signal it can ha
     CHECK_FALSE(alive(pid));
 }
 
-TEST_CASE("a host that ends before it is ready is reported with its last line") {
+TEST_CASE("a host that ends before it is ready is reported with what it said") {
     const ScratchDir dir;
     Supervisor s;
     s.start("host", shell("echo first >&2; echo 'no such profile' >&2; exit 3"), dir / "log");
