@@ -235,6 +235,10 @@ void Link::run_worker() {
 }
 
 void Link::serve(shm::IncomingCall call) {
+    { // The partner may be up a moment before us, and what it asks for may call it in turn.
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, 1s, [this] { return up() || !refusal_.empty() || !session_ || stopping_; });
+    }
     Answer answer = Answer::failure(CallStatus::bad_arguments, "the request is malformed");
     try {
         if (const auto request = decode_request(call.arguments())) answer = handler_.serve(*request);
