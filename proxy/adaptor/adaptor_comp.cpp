@@ -8,12 +8,28 @@
 #include <spdlog/spdlog.h>
 
 #include <ctime>
+#include <set>
 
 namespace tandem::adaptor {
 namespace control = link::control;
 using link::Answer;
 using link::CallStatus;
 using link::PortKind;
+
+namespace {
+
+constexpr int activation_attempts = 4;
+
+std::string check_names(const link::PortTable& partner, const std::string& link) {
+    std::set<std::string> names{"linkState"};
+    for (const auto& port : partner.ports)
+        if (!names.insert(port.name).second)
+            return fmt::format("link '{}': the partner shares a port '{}', which is there already; rename it",
+                               link, port.name);
+    return "";
+}
+
+} // namespace
 
 AdaptorComp::AdaptorComp() : Component("AdaptorComp") { addPort("linkState", &link_state_); }
 
@@ -24,6 +40,7 @@ AdaptorComp::~AdaptorComp() {
 // ---- life cycle, in the host's thread
 
 ReturnType AdaptorComp::onInitialize() {
+    if (link_) return OPROS_SUCCESS; // reset() comes here again; what stands connected keeps its link
     try {
         settings_ = read_settings(getPropertyMap());
         link::LinkOptions options{settings_.link, settings_.ring_bytes, settings_.segment_bytes};
@@ -47,10 +64,11 @@ ReturnType AdaptorComp::onStart() {
         spdlog::error("{}: {}", getId(), error.what());
         return OPROS_CALL_API_ERROR;
     }
+    rtc_failed_ = false;
     const auto code = drive(control::activate);
-    started_ = code == OPROS_SUCCESS;
-    if (started_) push_link_state(true);
-    return code;
+    started_ = code == OPROS_SUCCESS && !rtc_failed_;
+    push_link_state();
+    return started_ || code != OPROS_SUCCESS ? code : OPROS_CALL_API_ERROR;
 }
 
 ReturnType AdaptorComp::onStop() {
@@ -107,7 +125,7 @@ std::string AdaptorComp::accept(const link::PortTable& partner) {
     const std::lock_guard lock(mutex_);
     if (!grown_) {
         table_ = partner;
-        return "";
+        return check_names(partner, settings_.link);
     }
     for (const auto& port : table_.ports) {
         const auto* now = partner.find(port.name);
@@ -122,13 +140,16 @@ std::string AdaptorComp::accept(const link::PortTable& partner) {
 
 void AdaptorComp::link_changed(bool up) {
     if (!up) spdlog::warn("{}: link '{}' is down: the partner process has gone", getId(), settings_.link);
-    push_link_state(up);
+    push_link_state();
 }
 
 void AdaptorComp::partner_came() {
     if (!started_) return;
     spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
-    drive(control::activate);
+    for (int attempt = 1; attempt < activation_attempts && started_ && link_->up(); ++attempt)
+        if (drive(control::activate) == OPROS_SUCCESS) return;
+    if (link_->up() && started_.exchange(false))
+        stopOnError(); // while it is down, the next partner is waited for
 }
 
 void AdaptorComp::partner_went() {}
@@ -138,6 +159,7 @@ Answer AdaptorComp::serve(const link::Request& request) {
         if (request.operation != control::failed)
             return Answer::failure(CallStatus::no_such_operation, "unknown verb");
         spdlog::error("{}: {}", getId(), control::decode_text(request.arguments));
+        rtc_failed_ = true;
         if (started_.exchange(false)) stopOnError();
         return {};
     }
@@ -156,7 +178,9 @@ MirroredRequired* AdaptorComp::find_required(std::string_view name) {
 // ---- driving the partner
 
 Answer AdaptorComp::control(std::string_view verb, std::span<const std::byte> arguments) {
-    return link_->call({"", verb, "", arguments}, settings_.call_timeout);
+    // An activation may wait for two execution contexts, and for a call that the RTC makes in it.
+    const auto bound = verb == control::activate ? 4 * settings_.call_timeout : settings_.call_timeout;
+    return link_->call({"", verb, "", arguments}, bound);
 }
 
 std::string AdaptorComp::tell_bindings() {
@@ -179,10 +203,11 @@ ReturnType AdaptorComp::drive(std::string_view verb) {
     return OPROS_CALL_API_ERROR;
 }
 
-void AdaptorComp::push_link_state(bool up) {
+void AdaptorComp::push_link_state() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::lock_guard lock(link_state_mutex_);
+    const bool up = link_->up(); // looked at here, so that an older answer cannot overtake a newer one
     const double stamp = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
     link_state_.push(std::vector<double>{stamp, static_cast<double>(++link_state_sequence_), up ? 1.0 : 0.0});
 }

@@ -53,14 +53,14 @@ class AdaptorComp final : public Component, private link::LinkHandler {
     ReturnType drive(std::string_view verb);
     std::string tell_bindings();
     link::Answer control(std::string_view verb, std::span<const std::byte> arguments = {});
-    void push_link_state(bool up);
+    void push_link_state();
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
     std::mutex mutex_; ///< table_, grown_, required_ while it grows
     link::PortTable table_;
     bool grown_ = false;
-    std::atomic<bool> started_{false};
+    std::atomic<bool> started_{false}, rtc_failed_{false};
 
     std::vector<std::unique_ptr<MirroredInput>> inputs_;
     std::vector<std::unique_ptr<MirroredOutput>> outputs_;

@@ -67,8 +67,9 @@ void MirroredOutput::done() {
 }
 
 void MirroredOutput::undecodable(const std::string& why) {
-    spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped", partner_.name,
-                  record_bytes_, why);
+    if (undecodable_.now())
+        spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
+                      partner_.name, record_bytes_, why, undecodable_.count());
 }
 
 } // namespace tandem::adaptor

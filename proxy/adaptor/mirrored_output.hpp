@@ -4,6 +4,7 @@
 #include "proxy/adaptor/cdr_archive.hpp"
 #include "proxy/link/channel.hpp"
 #include "proxy/link/port_table.hpp"
+#include "proxy/link/rare.hpp"
 
 #include <DataPortSource.h>
 #include <InputDataPortInterface.h>
@@ -46,6 +47,7 @@ class MirroredOutput final : public OutputDataPortInterface, private DataPortSou
 
     std::unique_lock<std::mutex> held_; ///< from next() to done(): the record must stay while it is read
     std::size_t record_bytes_ = 0;
+    link::Rare undecodable_;
     std::vector<std::byte> timed_; ///< time and payload, for targets whose type has the time
     std::optional<CdrIarchive> archive_;
 };

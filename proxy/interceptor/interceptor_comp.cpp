@@ -188,9 +188,7 @@ Answer InterceptorComp::serve(const link::Request& request) {
 Answer InterceptorComp::serve_control(const link::Request& request) {
     std::string error;
     if (request.operation == control::activate) {
-        error = own_driver_->activate(); // the RTC may call through our ports from its onActivated on
-        if (error.empty()) error = driver_->activate();
-        activated_by_link_ = error.empty();
+        error = activate();
     } else if (request.operation == control::deactivate) {
         error = driver_->deactivate();
         activated_by_link_ = false;
@@ -204,6 +202,16 @@ Answer InterceptorComp::serve_control(const link::Request& request) {
     return error.empty() ? Answer{} : Answer::failure(CallStatus::exception, error);
 }
 
+std::string InterceptorComp::activate() {
+    activated_by_link_ =
+        true; // first, so that a partner that dies meanwhile is followed by partner_went()'s rest
+    std::string error = own_driver_->activate(); // the RTC may call through our ports from its onActivated on
+    if (error.empty()) error = driver_->activate();
+    if (!error.empty()) activated_by_link_ = false;
+    if (!link_->up()) partner_went();
+    return error;
+}
+
 std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     try {
         const auto binding = control::decode_binding(arguments);
@@ -215,9 +223,15 @@ std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     }
 }
 
+void InterceptorComp::partner_came() {
+    if (failed_) report_failure(); // it could not be told before
+}
+
 void InterceptorComp::report_failure() {
+    failed_ = true;
     const auto text = control::encode(fmt::format("RTC '{}' went to ERROR", settings_.rtc));
-    link_->call({"", control::failed, "", text}, settings_.call_timeout);
+    if (link_->call({"", control::failed, "", text}, settings_.call_timeout).status == CallStatus::ok)
+        failed_ = false;
 }
 
 } // namespace tandem::interceptor

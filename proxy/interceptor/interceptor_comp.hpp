@@ -45,12 +45,13 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
 
     std::string accept(const link::PortTable&) override { return ""; }
     void link_changed(bool up) override;
-    void partner_came() override {}
+    void partner_came() override;
     void partner_went() override;
     link::Answer serve(const link::Request&) override;
     link::Answer serve_control(const link::Request&);
     std::string bind(std::span<const std::byte> arguments);
     void report_failure();
+    std::string activate();
 
     std::string channel_key(const std::string& port) const;
 
@@ -58,6 +59,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::unique_ptr<link::Link> link_;
     std::unique_ptr<RtcDriver> driver_, own_driver_;
     std::atomic<bool> activated_by_link_{false};
+    std::atomic<bool> failed_{false}; ///< the RTC went to ERROR and the partner does not know yet
 
     std::vector<std::unique_ptr<RTC::PortBase>> data_ports_;
     std::map<std::string, std::unique_ptr<RTC::CorbaPort>> service_ports_;

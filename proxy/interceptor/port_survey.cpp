@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <stdexcept>
 
 namespace tandem::interceptor {
@@ -64,9 +65,11 @@ link::Port service_port(const RTC::PortProfile& profile, const RTC::PortInterfac
 std::vector<SurveyedPort> survey(RTC::RTObject_impl& rtc) {
     std::vector<SurveyedPort> ports;
     RTC::PortServiceList_var services = rtc.get_ports();
+    std::set<std::string> names{"linkState"}; // both halves have a port of that name themselves
     for (CORBA::ULong i = 0; i < services->length(); ++i) {
         RTC::PortService_var service = RTC::PortService::_duplicate(services[i]);
         RTC::PortProfile_var profile = service->get_port_profile();
+        if (!names.insert(short_name(profile)).second) continue;
         const std::string kind = property(profile, "port.port_type");
         if (kind == "DataOutPort")
             ports.push_back({data_port(profile, PortKind::data_out), "", service});

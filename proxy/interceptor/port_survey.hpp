@@ -17,6 +17,7 @@ struct SurveyedPort {
 };
 
 /// The ports of an RTC. A service port with several interfaces becomes one entry for each, `port.instance`.
+/// A port named `linkState` is not shared: the two halves have one of that name.
 /// Throws std::runtime_error, one line, for a data port whose type the process does not know.
 std::vector<SurveyedPort> survey(RTC::RTObject_impl& rtc);
 

@@ -4,6 +4,7 @@
 #include "proxy/interceptor/generic_servant.hpp"
 #include "proxy/link/control.hpp"
 #include "proxy/link/link.hpp"
+#include "proxy/link/rare.hpp"
 
 #include <chrono>
 #include <map>
@@ -36,6 +37,7 @@ class ProviderMirror final : private CallTarget {
     std::mutex mutex_; ///< the maps; what they hold lives as long as this, since calls under way use it
     std::map<std::string, std::unique_ptr<Operation>, std::less<>> operations_;
     std::vector<std::unique_ptr<Operation>> retired_;
+    link::Rare failed_;
     GenericServant servant_;
 };
 

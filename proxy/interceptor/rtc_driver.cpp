@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/rtc_driver.hpp"
 
+#include <rtm/Manager.h>
+
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -38,7 +40,7 @@ constexpr auto entering_error = RTC::PostComponentActionListenerType::POST_ON_AB
 }
 
 RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds bound, std::function<void()> failed)
-    : rtc_(rtc), reference_(rtc.getObjRef()), bound_(bound),
+    : rtc_(rtc), name_(rtc.getInstanceName()), reference_(rtc.getObjRef()), bound_(bound),
       listener_(std::make_unique<FailureListener>(std::move(failed))) {
     RTC::ExecutionContextList_var contexts = rtc.get_owned_contexts();
     if (contexts->length() == 0)
@@ -48,7 +50,11 @@ RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds bound, s
     rtc_.addPostComponentActionListener(entering_error, listener_.get(), false);
 }
 
-RtcDriver::~RtcDriver() { rtc_.removePostComponentActionListener(entering_error, listener_.get()); }
+RtcDriver::~RtcDriver() {
+    // The RTC may have left before us, by its own exit() or a tool's.
+    if (RTC::Manager::instance().getComponent(name_.c_str()) == &rtc_)
+        rtc_.removePostComponentActionListener(entering_error, listener_.get());
+}
 
 RTC::LifeCycleState RtcDriver::state() const {
     try {
@@ -61,7 +67,7 @@ RTC::LifeCycleState RtcDriver::state() const {
 std::string RtcDriver::activate() {
     const std::lock_guard lock(mutex_);
     if (state() == RTC::ACTIVE_STATE) return "";
-    if (state() == RTC::ERROR_STATE) return "it is in ERROR; reset it first";
+    if (state() == RTC::ERROR_STATE) return name_ + " is in ERROR; reset it first";
     return transition(RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,
                       &RTC::_objref_ExecutionContext::activate_component, "activated");
 }
@@ -93,10 +99,10 @@ std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState 
             if (answer != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        return fmt::format("it is {}, {} was expected, and it was not {}: its context answers {}",
+        return fmt::format("{} is {}, {} was expected, and it was not {}: its context answers {}", name_,
                            name_of(state()), name_of(from), verb, static_cast<int>(answer));
     } catch (const CORBA::Exception& gone) { // the RTC or its context has left
-        return fmt::format("it was not {}: {}", verb, gone._name());
+        return fmt::format("{} was not {}: {}", name_, verb, gone._name());
     }
 }
 
@@ -109,8 +115,8 @@ std::string RtcDriver::reach(RTC::LifeCycleState wanted, const char* verb) const
         now = state();
     }
     if (now == wanted) return "";
-    if (now == RTC::ERROR_STATE) return "it went to ERROR; its own messages say why";
-    return fmt::format("it is {} and was not {} within {} ms", name_of(now), verb, bound_.count());
+    if (now == RTC::ERROR_STATE) return name_ + " went to ERROR; its own messages say why";
+    return fmt::format("{} is {} and was not {} within {} ms", name_, name_of(now), verb, bound_.count());
 }
 
 } // namespace tandem::interceptor

@@ -31,6 +31,7 @@ class RtcDriver {
     RTC::LifeCycleState state() const;
 
     RTC::RTObject_impl& rtc_;
+    const std::string name_;
     RTC::RTObject_var reference_;
     RTC::ExecutionContext_var context_;
     const std::chrono::milliseconds bound_;

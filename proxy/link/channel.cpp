@@ -13,6 +13,11 @@ bool ChannelWriter::bound() const {
     return bound_.has_value();
 }
 
+bool ChannelWriter::corrupt() const {
+    const std::lock_guard lock(mutex_);
+    return bound_ && bound_->end.corrupt();
+}
+
 std::uint64_t ChannelWriter::unlinked() const {
     const std::lock_guard lock(mutex_);
     return unlinked_;
@@ -31,6 +36,11 @@ void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter 
 void ChannelWriter::unbind() {
     const std::lock_guard lock(mutex_);
     bound_.reset();
+}
+
+bool ChannelReader::corrupt() const {
+    const std::lock_guard lock(mutex_);
+    return bound_ && bound_->end.corrupt();
 }
 
 bool ChannelReader::empty() const {

@@ -33,7 +33,7 @@ class ChannelWriter {
             if (room.data() == nullptr) return false;
             wire::CdrWriter writer(room);
             encode(writer);
-            if (writer.fits()) return commit(writer.size(), stamp), true;
+            if (writer.fits()) return commit(writer.size(), stamp), !bound_->end.corrupt();
             bound_->end.abandon();
             room_ = writer.size();
         }
@@ -41,6 +41,7 @@ class ChannelWriter {
     }
 
     bool bound() const;
+    bool corrupt() const;
     /// Messages written while there was no partner.
     std::uint64_t unlinked() const;
     shm::RingCounters counters() const;
@@ -61,6 +62,7 @@ class ChannelWriter {
 class ChannelReader {
   public:
     bool empty() const;
+    bool corrupt() const;
     /// The oldest message that was not read, newest if asked for; passed to use(Record) while the channel is
     /// held.
     template <class Use>

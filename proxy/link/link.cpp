@@ -5,6 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace tandem::link {
@@ -18,6 +19,7 @@ constexpr std::uint64_t contract = 0x7461'6e64'656d'0001; // "tandem", 1
 constexpr auto watch_up = 10ms; // also the beat of the heart
 constexpr auto watch_down =
     3ms; // a partner that comes is noticed by the watcher; this is for what it cannot see
+constexpr std::size_t ring_overhead = 64; // of the longest record, of which two fit
 constexpr auto retry_side = 1ms;
 constexpr auto retry_join = 10ms;
 
@@ -85,12 +87,13 @@ std::shared_ptr<Session> Link::join() const {
     join_options.arena_bytes = options_.segment_bytes;
     join_options.contract = contract;
     std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
-    const auto peer = side_ == shm::Side::first ? shm::Side::second : shm::Side::first;
+    const auto peer = shm::other(side_);
     for (const Port& port : own_.ports) {
         if (!is_data(port.kind)) continue;
         shm::RingOptions ring;
         ring.writer = port.kind == PortKind::data_out ? side_ : peer;
         ring.capacity = options_.ring_bytes;
+        ring.max_record = options_.ring_bytes / 2 - ring_overhead;
         ring.policy = shm::RingPolicy::drop_oldest;
         segment->add_ring(ring_name(port.name), ring);
     }
@@ -111,7 +114,8 @@ void Link::run_link() {
             continue;
         }
         now->segment->heartbeat();
-        if (session_over(*now)) {
+        if (damaged()) spdlog::error("link '{}': a ring is damaged; the link starts afresh", options_.name);
+        if (session_over(*now) || damaged()) {
             take_down();
             continue;
         }
@@ -123,6 +127,14 @@ void Link::run_link() {
 
 bool Link::session_over(const Session& session) const {
     return session.segment->peer() == shm::PeerState::dead || session.segment->superseded();
+}
+
+/// Words in a ring that cannot be: somebody else has written there, and nothing more would come through it.
+bool Link::damaged() {
+    const std::lock_guard lock(mutex_);
+    const auto corrupt = [](const auto& channel) { return channel.second.corrupt(); };
+    return std::any_of(writers_.begin(), writers_.end(), corrupt) ||
+           std::any_of(readers_.begin(), readers_.end(), corrupt);
 }
 
 void Link::rejoin() {
@@ -147,7 +159,7 @@ void Link::wait_to_rejoin(std::chrono::milliseconds bound, const std::string& wh
 }
 
 void Link::try_bring_up(const std::shared_ptr<Session>& session) {
-    const auto peer = side_ == shm::Side::first ? shm::Side::second : shm::Side::first;
+    const auto peer = shm::other(side_);
     std::string refusal;
     try {
         const auto bytes = session->segment->copy_blob(peer, table_name);
@@ -178,7 +190,7 @@ void Link::try_bring_up(const std::shared_ptr<Session>& session) {
 }
 
 void Link::bind(Session& session, const PortTable& table, bool own) {
-    const auto peer = side_ == shm::Side::first ? shm::Side::second : shm::Side::first;
+    const auto peer = shm::other(side_);
     for (const Port& port : table.ports) {
         if (!is_data(port.kind)) continue;
         const auto ring = session.segment->find_ring(own ? side_ : peer, ring_name(port.name));
@@ -236,6 +248,7 @@ void Link::run_worker() {
 
 void Link::serve(shm::IncomingCall call) {
     { // The partner may be up a moment before us, and what it asks for may call it in turn.
+        watcher_.interrupt();
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, 1s, [this] { return up() || !refusal_.empty() || !session_ || stopping_; });
     }
@@ -249,11 +262,17 @@ void Link::serve(shm::IncomingCall call) {
 }
 
 Answer Link::call(const Request& request, std::chrono::milliseconds timeout) {
-    const auto now = up() ? session() : nullptr;
-    if (!now || !now->outgoing) return Answer::failure(CallStatus::peer_died, "the partner is not there");
+    std::shared_ptr<Session> now; // keeps the segment mapped during the call
+    shm::CallClient* client = nullptr;
+    {
+        const std::lock_guard lock(mutex_);
+        now = session_;
+        if (now && now->outgoing && up()) client = &*now->outgoing;
+    }
+    if (!client) return Answer::failure(CallStatus::peer_died, "the partner is not there");
     thread_local std::vector<std::byte> slot;
     encode(request, slot);
-    auto reply = now->outgoing->call(0, slot, timeout);
+    auto reply = client->call(0, slot, timeout);
     return {reply.status, std::move(reply.bytes)};
 }
 

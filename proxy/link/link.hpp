@@ -68,6 +68,7 @@ class Link {
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds bound, const std::string& why);
     bool session_over(const Session&) const;
+    bool damaged();
     void try_bring_up(const std::shared_ptr<Session>&);
     void bind(Session&, const PortTable&, bool own);
     void take_down();

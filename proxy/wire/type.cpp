@@ -46,6 +46,7 @@ class Parser {
         Type structure;
         while (at_ < text_.size() && text_[at_] != ')') add_member(structure, next(depth + 1));
         if (at_ == text_.size()) fail("')' is missing");
+        if (structure.children.empty()) fail("a structure without members takes no bytes");
         ++at_;
         return structure;
     }

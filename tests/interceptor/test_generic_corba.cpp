@@ -105,6 +105,7 @@ void check_chair(TestChair::Chair_ptr chair) {
     CHECK((scaled[0] == 0.5 && scaled[1] == -1.0 && scaled[2] == 2.0));
     TestChair::Seats seats;
     seats.length(2);
+    seats[0].used = seats[1].used = true;
     seats[1].legs = -4, seats[1].height[2] = 0.7, seats[1].used = true;
     TestChair::Seats_var renamed = chair->rename(seats, "driver");
     REQUIRE(renamed->length() == 2);

@@ -167,11 +167,24 @@ TEST_CASE("a JoystickComp that was started again slows the chair down instead of
     run.steps(300);
     REQUIRE(run.control.state() == ControlState::run);
     const double before = run.wires.last_voltage.left;
-    JoystickBody restarted(read_settings({}), chair_limits());
+    SettingTexts texts;
+    texts.clock = "simulated";
+    JoystickBody restarted(read_settings(texts), chair_limits());
     restarted.tick(run.wires); // within 50 ms, and from speed 0
     run.control.tick(run.wires);
     CHECK(run.control.state() == ControlState::stale);
     CHECK(run.wires.last_voltage.left > before - 2.0);
+}
+
+TEST_CASE("a JoystickComp whose stick position is old sends nothing, for the driver may have let go") {
+    JoystickBody joystick(read_settings({}), chair_limits()); // monotonic time
+    Wires wires;
+    wires.send(Stamped<JoystickPosition>{monotonic_seconds() - 1.0, 100, {0.0, 900.0, false}}, {});
+    joystick.tick(wires);
+    CHECK_FALSE(wires.references().newest);
+    wires.send(Stamped<JoystickPosition>{monotonic_seconds(), 200, {0.0, 900.0, false}}, {});
+    joystick.tick(wires);
+    CHECK(wires.references().newest);
 }
 
 TEST_CASE("a reference left over from the tick before does not end the look-out for the next one") {

@@ -91,13 +91,16 @@ void Application::start() {
     for (auto& executor : executors_) executor->start();
 }
 
+// One after the other: what started first, hardware as a rule, keeps running, its watchdog with it, until all that use
+// it have stopped. However long one of them takes, or hangs, nobody drives on old commands meanwhile.
 void Application::stop() {
     if (!started_) return;
     started_ = false;
     step_server_.reset();
-    for (auto& executor : executors_) executor->interrupt(); // all at once, then wait for each
-    executors_.clear();
-    for (auto component = order_.rbegin(); component != order_.rend(); ++component) (*component)->stop();
+    for (auto component = order_.rbegin(); component != order_.rend(); ++component) {
+        std::erase_if(executors_, [&](const auto& executor) { return executor->runs(**component); });
+        (*component)->stop();
+    }
 }
 
 void Application::step(const std::string& name) {

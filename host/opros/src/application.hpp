@@ -37,7 +37,7 @@ class Application {
     /// Starts all components, last listed first unless <coordination> says otherwise, then their executors.
     /// One that fails is out and the rest runs, or, if strict, SetupError is thrown.
     void start();
-    /// Ends the executors, then stops the components in the reverse order of start.
+    /// In the reverse order of start: ends each component's executor, then stops the component.
     void stop();
 
     /// One cycle of the named component in the calling thread. Throws std::runtime_error: no such component,

@@ -65,7 +65,7 @@ std::string ComponentHost::guarded(const char* what, const std::function<void()>
 }
 
 bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::*step)()) {
-    ReturnType result = OPROS_SUCCESS;
+    ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
     const std::string thrown = guarded(what, [&] { result = (component_.get()->*step)(); });
     if (thrown.empty() && result == OPROS_SUCCESS) return true;
     if (thrown.empty())

@@ -45,6 +45,10 @@ void Executor::interrupt() {
     if (tick_) tick_->interrupt();
 }
 
+bool Executor::runs(const ComponentHost& component) const {
+    return std::find(components_.begin(), components_.end(), &component) != components_.end();
+}
+
 void Executor::run() {
     // A loop without pauses at a real-time priority would take a processor from everybody else.
     const int priority = tick_ ? components_.front()->profile().priority : 0;

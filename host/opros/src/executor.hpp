@@ -28,6 +28,7 @@ class Executor {
     void start();
     /// Asks for the end; the destructor waits for it.
     void interrupt();
+    bool runs(const ComponentHost& component) const;
 
   private:
     void run();

@@ -21,11 +21,15 @@ namespace tandem::wheelchair::component {
 using Values = std::vector<double>;
 constexpr int queue_length = 16;
 
-/// Empties the port. As many as the queue holds are taken, so a fast sender cannot hold the tick.
+/// Most messages taken in one tick, so that a mad sender cannot hold it: more than a sender at 10 ms leaves behind
+/// while this process was paused for half a minute, since what is newest only comes after all that is old.
+constexpr int most_per_tick = 4096;
+
+/// Empties the port.
 template <class T>
 Drained<T> drain(InputDataPort<Values>& port) {
     Drained<T> in;
-    for (int i = 0; i < queue_length; ++i) {
+    for (int i = 0; i < most_per_tick; ++i) {
         const std::unique_ptr<opros_any> any(port.pop());
         if (!any) break;
         in.take(*port.getContentPointer(*any));

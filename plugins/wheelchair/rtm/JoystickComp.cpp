@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The joystick as an RTC: turns stick positions into reference direction and speed.
+#include <atomic>
+
 #include "WheelchairSkel.h"
 #include "component.hpp"
 #include "plugins/wheelchair/core/joystick_body.hpp"
@@ -10,14 +12,12 @@ namespace {
 
 class JoystickService : public POA_Wheelchair::Joystick, public virtual PortableServer::RefCountServantBase {
   public:
-    explicit JoystickService(const std::unique_ptr<JoystickBody>& body) : body_(body) {}
-    CORBA::Double dead_zone() override { return parameters().dead_zone; }
-    CORBA::Double direction_rate() override { return parameters().direction_rate; }
+    CORBA::Double dead_zone() override { return JoystickParameters{}.dead_zone; }
+    CORBA::Double direction_rate() override { return direction_rate_; }
+    void set_direction_rate(double degrees_per_second) { direction_rate_ = degrees_per_second; }
 
   private:
-    /// Servants answer only while the RTC is active, and so while there is a body.
-    const JoystickParameters& parameters() const { return body_->parameters(); }
-    const std::unique_ptr<JoystickBody>& body_;
+    std::atomic<double> direction_rate_{JoystickParameters{}.direction_rate};
 };
 
 std::vector<double> limits(Wheelchair::Chair_ptr chair) {
@@ -32,8 +32,7 @@ std::vector<double> limits(Wheelchair::Chair_ptr chair) {
 class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
   public:
     explicit JoystickComp(RTC::Manager* manager)
-        : RTC::DataFlowComponentBase(manager), joystickPort_("joystick"), chairPort_("chair"),
-          joystick_(body_) {}
+        : RTC::DataFlowComponentBase(manager), joystickPort_("joystick"), chairPort_("chair") {}
 
     RTC::ReturnCode_t onInitialize() override {
         registerInPort("joystickPos", joystickPos_.port);
@@ -49,7 +48,9 @@ class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::guarded(getInstanceName(), [this] {
             body_.reset(); // closes the trace of an earlier activation
-            body_ = std::make_unique<JoystickBody>(read_settings(parameters_.texts), limits(chair_._ptr()));
+            const Settings settings = read_settings(parameters_.texts);
+            joystick_.set_direction_rate(settings.scenario.direction_rate);
+            body_ = std::make_unique<JoystickBody>(settings, limits(chair_._ptr()));
         });
     }
 

@@ -21,7 +21,7 @@
 
 namespace tandem::wheelchair::component {
 
-constexpr int most_per_tick = 16; // messages read from a port, so a fast sender cannot hold the tick
+constexpr int most_per_tick = 4096; // messages read from a port, so a fast sender cannot hold the tick
 
 /// An in-port with the variable it reads into.
 struct SequenceIn {
