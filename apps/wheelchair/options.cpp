@@ -13,6 +13,7 @@ namespace {
 const std::map<std::string, Configuration> configurations{{"opros", Configuration::opros},
                                                           {"rtm", Configuration::rtm},
                                                           {"mixed", Configuration::mixed},
+                                                          {"swapped", Configuration::swapped},
                                                           {"memory", Configuration::memory}};
 
 std::string absolute(const std::string& path) {
@@ -45,8 +46,11 @@ Options parse_options(int argc, char** argv) {
         "Drives a simulated power wheelchair with components of two robot models: joystick, control and\n"
         "hardware as OPRoS components, as RT-Components, or mixed and joined through shared memory.",
         "wheelchair"};
-    app.add_option("--config", configuration, "opros, rtm, mixed, or memory (no hosts; the expected result)")
-        ->check(CLI::IsMember({"opros", "rtm", "mixed", "memory"}))
+    app.add_option("--config", configuration,
+                   "opros, rtm, mixed (joystick an RTC), swapped (control and hardware RTCs), or memory (no "
+                   "hosts; the "
+                   "expected result)")
+        ->check(CLI::IsMember({"opros", "rtm", "mixed", "swapped", "memory"}))
         ->capture_default_str();
     app.add_option("--scenario", o.scenario, "step20 (default), doorway, ... ; a wrong name lists them all");
     app.add_option("--joystick", o.joystick_file,

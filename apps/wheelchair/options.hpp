@@ -8,7 +8,8 @@
 namespace tandem::wheelchair {
 
 /// Where the three components run. memory: in this process without any host, what the others must reproduce.
-enum class Configuration { opros, rtm, mixed, memory };
+/// mixed: the joystick an RTC, control and hardware OPRoS components; swapped: the other way round.
+enum class Configuration { opros, rtm, mixed, swapped, memory };
 
 std::string name_of(Configuration configuration);
 

@@ -62,7 +62,7 @@ class HostedRun {
         fmt::print("{}: {}\n", name_of(configuration_), pids);
         std::fflush(stdout);
         // The halves of a link wait for each other before their hosts are ready.
-        supervisor_.wait_until_ready(options_.host_wait * (directory_.link().empty() ? 1.0 : 2.0));
+        supervisor_.wait_until_ready(options_.host_wait * (directory_.links().empty() ? 1.0 : 2.0));
     }
 
     void drive_lockstep() {
@@ -191,7 +191,7 @@ class HostedRun {
                                 host.complaint().empty() ? "" : ", it said: ", host.complaint()));
         }
 #ifdef TANDEM_WITH_LINK
-        if (!directory_.link().empty()) shm::remove_dead(directory_.link());
+        for (const auto& [adaptor, link] : directory_.links()) shm::remove_dead(link);
 #endif
     }
 

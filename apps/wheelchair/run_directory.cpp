@@ -71,9 +71,11 @@ std::string escaped(const std::string& text) {
 
 using Parameters = std::vector<std::pair<std::string, std::string>>;
 
-Parameters parameters_of(const std::string& member, const Options& o, const fs::path& run,
-                         const std::string& link) {
-    if (member == adaptor) return {{"link", link}, {"wait", fmt::format("{:g}", o.host_wait)}};
+Parameters adaptor_parameters(const std::string& link, const Options& o) {
+    return {{"link", link}, {"wait", fmt::format("{:g}", o.host_wait)}};
+}
+
+Parameters parameters_of(const std::string& member, const Options& o, const fs::path& run) {
     Parameters p{{"scenario", load_scenario(o.scenario, o.joystick_file).name},
                  {"joystick_file", o.joystick_file},
                  {"clock", o.lockstep ? "simulated" : "monotonic"},
@@ -83,7 +85,7 @@ Parameters parameters_of(const std::string& member, const Options& o, const fs::
 }
 
 std::string component_profile(const std::string& member) {
-    return member == adaptor ? "AdaptorComp.xml" : member + ".xml";
+    return member.ends_with("Adaptor") ? "AdaptorComp.xml" : member + ".xml";
 }
 
 std::string subcomponent(const Member& member, const Parameters& parameters) {
@@ -125,7 +127,8 @@ Folder::~Folder() {
 RunDirectory::RunDirectory(const Options& options, Configuration configuration, const fs::path& programs)
     : folder_(run_folder(options, configuration), !options.keep.empty()),
       sockets_(temporary_folder("tandem-step"), false) {
-    if (configuration == Configuration::mixed) link_ = fmt::format("wheelchair-{}", getpid());
+    for (const Bridge& bridge : bridges(configuration))
+        links_[bridge.adaptor] = fmt::format("wheelchair-{}{}", getpid(), bridge.link_suffix);
     for (const char* part : {"trace", "log"}) fs::create_directories(path() / part);
     if (!opros_members(configuration).empty()) {
         write_opros(options, configuration);
@@ -161,7 +164,8 @@ void RunDirectory::write_opros(const Options& options, Configuration configurati
         "  <!-- The component listed last starts first. -->\n  <subcomponents>\n";
     const auto members = opros_members(configuration);
     for (auto m = members.rbegin(); m != members.rend(); ++m)
-        xml += subcomponent(*m, parameters_of(m->name, options, path(), link_));
+        xml += subcomponent(*m, links_.count(m->name) ? adaptor_parameters(links_.at(m->name), options)
+                                                      : parameters_of(m->name, options, path()));
     xml += "  </subcomponents>\n  <port_connections>\n";
     for (const auto& wire : opros_wires(configuration)) xml += port_connection(wire);
     write_file(path() / "opros" / "wheelchair.xml", xml + "  </port_connections>\n</package_profile>\n");
@@ -169,12 +173,11 @@ void RunDirectory::write_opros(const Options& options, Configuration configurati
 
 void RunDirectory::write_rtm(const Options& options, Configuration configuration) {
     fs::create_directories(path() / "rtm");
-    const bool mixed = configuration == Configuration::mixed;
     std::vector<std::string> modules, create, activate, connect;
     std::string files;
     for (const auto& member : rtm_members(configuration)) {
         std::string conf;
-        for (const auto& [name, value] : parameters_of(member.name, options, path(), link_))
+        for (const auto& [name, value] : parameters_of(member.name, options, path()))
             conf += fmt::format("conf.default.{}: {}\n", name, value);
         const auto file = path() / "rtm" / (member.name + "0.conf");
         conf += fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n"
@@ -188,12 +191,13 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
     }
     for (const auto& w : rtm_wires(configuration))
         connect.push_back(fmt::format("{}0.{}?port={}0.{}", w.from, w.from_port, w.to, w.to_port));
-    if (mixed) {
-        // InterceptorComp activates JoystickComp when AdaptorComp starts.
+    if (!links_.empty()) {
         modules.push_back("InterceptorComp.so");
-        create.push_back(fmt::format("InterceptorComp?link={}&rtc=JoystickComp0", link_));
-        activate = {"InterceptorComp0"};
+        activate.clear(); // each InterceptorComp activates its RTC, and itself, when its AdaptorComp starts
     }
+    for (const Bridge& bridge : bridges(configuration))
+        create.push_back(
+            fmt::format("InterceptorComp?link={}&rtc={}", links_.at(bridge.adaptor), bridge.rtc));
     std::string conf = rtc_conf_head + files;
     conf += list_setting("manager.modules.preload", modules) +
             list_setting("manager.components.precreate", create) +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,7 +44,8 @@ class RunDirectory {
     std::string traces() const { return (path() / "trace").string(); }
     const std::vector<HostCommand>& hosts() const { return hosts_; }
     /// Name of the link between the two halves; empty without one.
-    const std::string& link() const { return link_; }
+    /// Of the links between the hosts, by the AdaptorComp that has it.
+    const std::map<std::string, std::string>& links() const { return links_; }
     /// Where the host listens for a conductor in lock-step.
     std::string step_socket(const std::string& host) const;
 
@@ -55,7 +57,7 @@ class RunDirectory {
 
     Folder folder_;
     Folder sockets_; // apart and short: a socket's path may have 107 characters
-    std::string link_;
+    std::map<std::string, std::string> links_;
     std::vector<HostCommand> hosts_;
 };
 

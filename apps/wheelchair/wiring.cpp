@@ -21,28 +21,48 @@ std::vector<Wire> all_wires(const std::string& stick) {
 
 } // namespace
 
+std::vector<Bridge> bridges(Configuration configuration) {
+    if (configuration == Configuration::mixed) return {{"Adaptor", "JoystickComp0", ""}};
+    if (configuration == Configuration::swapped)
+        return {{"HWAdaptor", "HWComp0", "-hw"}, {"ControlAdaptor", "ControlComp0", "-control"}};
+    return {};
+}
+
 std::vector<Member> opros_members(Configuration configuration) {
     if (configuration == Configuration::opros) return {hw, joystick, control};
-    if (configuration == Configuration::mixed) return {hw, {adaptor, 0.0, 0}, control};
+    if (configuration == Configuration::mixed) return {hw, {"Adaptor", 0.0, 0}, control};
+    if (configuration == Configuration::swapped)
+        return {{"HWAdaptor", 0.0, 0}, joystick, {"ControlAdaptor", 0.0, 0}};
     return {};
 }
 
 std::vector<Member> rtm_members(Configuration configuration) {
     if (configuration == Configuration::rtm) return {hw, joystick, control};
     if (configuration == Configuration::mixed) return {joystick};
+    if (configuration == Configuration::swapped) return {hw, control};
     return {};
 }
 
 std::vector<Wire> opros_wires(Configuration configuration) {
     if (configuration == Configuration::opros) return all_wires("JoystickComp");
+    if (configuration == Configuration::swapped)
+        return {{Wire::data, "HWAdaptor", "joystickPos", "JoystickComp", "joystickPos"},
+                {Wire::data, "JoystickComp", "reference", "ControlAdaptor", "reference"},
+                {Wire::service, "JoystickComp", "chair", "HWAdaptor", "chair"},
+                {Wire::service, "ControlAdaptor", "joystick", "JoystickComp", "joystick"}};
     if (configuration != Configuration::mixed) return {};
-    auto wires = all_wires(adaptor);
-    wires.push_back({Wire::data, adaptor, "linkState", "HWComp", "linkState"});
+    auto wires = all_wires("Adaptor");
+    wires.push_back({Wire::data, "Adaptor", "linkState", "HWComp", "linkState"});
     return wires;
 }
 
 std::vector<Wire> rtm_wires(Configuration configuration) {
-    return configuration == Configuration::rtm ? all_wires("JoystickComp") : std::vector<Wire>{};
+    if (configuration == Configuration::rtm) return all_wires("JoystickComp");
+    if (configuration == Configuration::swapped)
+        return {{Wire::data, "HWComp", "wheelSpeed", "ControlComp", "wheelSpeed"},
+                {Wire::data, "ControlComp", "refVoltage", "HWComp", "refVoltage"},
+                {Wire::data, "InterceptorComp", "linkState", "HWComp", "linkState"}};
+    return {};
 }
 
 } // namespace tandem::wheelchair

@@ -29,7 +29,11 @@ std::vector<Member> rtm_members(Configuration configuration);
 std::vector<Wire> opros_wires(Configuration configuration);
 std::vector<Wire> rtm_wires(Configuration configuration);
 
-/// AdaptorComp's name among the OPRoS components; it stands for JoystickComp in the mixed configuration.
-inline constexpr const char* adaptor = "Adaptor";
+/// One link between the hosts: AdaptorComp's name among the OPRoS components, and the RTC it stands for.
+struct Bridge {
+    std::string adaptor, rtc;
+    std::string link_suffix; // after the run's link name
+};
+std::vector<Bridge> bridges(Configuration configuration);
 
 } // namespace tandem::wheelchair

@@ -20,13 +20,14 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// A mixed run in the background, its files in a folder of its own.
+/// A mixed (or swapped) run in the background, its files in a folder of its own.
 class MixedRun {
   public:
-    explicit MixedRun(const std::vector<std::string>& more)
+    explicit MixedRun(const std::vector<std::string>& more, const std::string& configuration = "mixed")
         : output_(open_file("output")), errors_(open_file("errors")) {
-        std::vector<std::string> command{WHEELCHAIR_PROGRAM, "--config",   "mixed",  "--duration",     "5",
-                                         "--keep",           dir_ / "run", "--json", dir_ / "run.json"};
+        std::vector<std::string> command{WHEELCHAIR_PROGRAM, "--config", configuration,
+                                         "--duration",       "5",        "--keep",
+                                         dir_ / "run",       "--json",   dir_ / "run.json"};
         command.insert(command.end(), more.begin(), more.end());
         process_.emplace(command, ChildIo{-1, output_.get(), errors_.get(), ""});
     }
@@ -112,6 +113,19 @@ TEST_CASE("a killed opros_host that is started again gets its data without a res
     INFO(run.errors);
     REQUIRE(result["incidents"].size() == 1);
     CHECK(result["incidents"][0]["host"] == "opros_host");
+    CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    CHECK_FALSE(left_in_shared_memory(run.link()));
+}
+
+TEST_CASE("with the roles exchanged the hardware RTC stops the motors when opros_host is killed") {
+    MixedRun run({"--restart"}, "swapped");
+    run.kill_when_driving("opros_host");
+    const auto result = run.result();
+    INFO(run.errors);
+    REQUIRE(result["incidents"].size() == 1);
+    CHECK(result["incidents"][0]["host"] == "opros_host");
+    REQUIRE(result["incidents"][0]["motors_off_after_ms"].is_number());
+    CHECK(result["incidents"][0]["motors_off_after_ms"] < 1000.0);
     CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
     CHECK_FALSE(left_in_shared_memory(run.link()));
 }

@@ -43,4 +43,8 @@ TEST_CASE("all-RTM lock-step is the in-memory run, byte for byte, in every scena
 TEST_CASE("mixed lock-step is the in-memory run, byte for byte, in every scenario") {
     check_all_scenarios("mixed");
 }
+
+TEST_CASE("swapped lock-step is the in-memory run, byte for byte, in every scenario") {
+    check_all_scenarios("swapped");
+}
 #endif

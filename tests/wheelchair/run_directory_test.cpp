@@ -23,19 +23,31 @@ TEST_CASE("the mixed run has both hosts, a link of its own name, and the provide
     const RunDirectory run(Options{}, Configuration::mixed, "/programs");
     REQUIRE(run.hosts().size() == 2);
     CHECK(run.hosts()[0].command[0] == "/programs/opros_host");
-    CHECK_THAT(run.link(), Catch::StartsWith("wheelchair-"));
+    const std::string link = run.links().at("Adaptor");
+    CHECK_THAT(link, Catch::StartsWith("wheelchair-"));
     const auto xml = content(run.path() / "opros/wheelchair.xml");
     const auto control = xml.find("<name>ControlComp"), adaptor = xml.find("<name>Adaptor"),
                hw = xml.find("<name>HWComp");
     CHECK(control < adaptor); // the last listed starts first
     CHECK(adaptor < hw);
-    CHECK_THAT(xml, Catch::Contains("<property name=\"link\">" + run.link() + "<"));
+    CHECK_THAT(xml, Catch::Contains("<property name=\"link\">" + link + "<"));
     CHECK_THAT(xml, Catch::Contains("component_name=\"Adaptor\" port_name=\"linkState\""));
     const auto conf = content(run.path() / "rtm/rtc.conf");
-    CHECK_THAT(conf, Catch::Contains("InterceptorComp?link=" + run.link() + "&rtc=JoystickComp0"));
-    CHECK_THAT(conf, Catch::Contains("preactivation: InterceptorComp0\n"));
+    CHECK_THAT(conf, Catch::Contains("InterceptorComp?link=" + link + "&rtc=JoystickComp0"));
+    CHECK_THAT(conf,
+               !Catch::Contains("preactivation")); // AdaptorComp activates what stands behind InterceptorComp
     CHECK_THAT(content(run.path() / "rtm/JoystickComp0.conf"),
                Catch::Contains("conf.default.clock: monotonic"));
+}
+
+TEST_CASE("the swapped run has a link for each RTC that the joystick deals with") {
+    const RunDirectory run(Options{}, Configuration::swapped, "/programs");
+    REQUIRE(run.links().size() == 2);
+    const auto conf = content(run.path() / "rtm/rtc.conf");
+    CHECK_THAT(conf, Catch::Contains("InterceptorComp?link=" + run.links().at("HWAdaptor") + "&rtc=HWComp0"));
+    CHECK_THAT(conf, Catch::Contains("InterceptorComp?link=" + run.links().at("ControlAdaptor") +
+                                     "&rtc=ControlComp0"));
+    CHECK_THAT(conf, Catch::Contains("InterceptorComp0.linkState?port=HWComp0.linkState"));
 }
 
 TEST_CASE("the all-RTM run connects every port and activates the hardware first") {
@@ -45,7 +57,7 @@ TEST_CASE("the all-RTM run connects every port and activates the hardware first"
     CHECK_THAT(conf, Catch::Contains("preactivation: HWComp0, JoystickComp0, ControlComp0\n"));
     CHECK_THAT(conf, Catch::Contains("JoystickComp0.reference?port=ControlComp0.reference"));
     CHECK_THAT(conf, Catch::Contains("ControlComp0.joystick?port=JoystickComp0.joystick"));
-    CHECK(run.link().empty());
+    CHECK(run.links().empty());
 }
 
 TEST_CASE("in lock-step the components stamp in simulated time and the hosts listen for a conductor") {
