@@ -43,7 +43,9 @@ ReturnType AdaptorComp::onInitialize() {
     if (link_) return OPROS_SUCCESS; // reset() comes here again; what stands connected keeps its link
     try {
         settings_ = read_settings(getPropertyMap());
-        link::LinkOptions options{settings_.link, settings_.ring_bytes, settings_.segment_bytes};
+        link::LinkOptions options;
+        options.name = settings_.link;
+        options.segment_bytes = settings_.segment_bytes;
         link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
                                              static_cast<LinkHandler&>(*this));
         link_->open();

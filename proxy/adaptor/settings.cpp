@@ -36,7 +36,6 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
     };
     settings.wait = milliseconds(1000 * number(properties, "wait", 10));
     settings.call_timeout = milliseconds(number(properties, "call_timeout", 1000));
-    settings.ring_bytes = 1024 * static_cast<std::size_t>(number(properties, "ring_kib", 256));
     settings.segment_bytes = 1024 * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
     return settings;
 }
