@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call_client.hpp"
 
+#include "shm/call_slot.hpp"
 #include "shm/error.hpp"
 #include "shm/shared_copy.hpp"
 
@@ -10,13 +11,6 @@ namespace {
 using layout::SlotState;
 
 constexpr auto look_after_peer = std::chrono::milliseconds(5);
-
-std::uint32_t word(SlotState state) { return static_cast<std::uint32_t>(state); }
-
-bool change(layout::CallSlot& slot, SlotState from, SlotState to) {
-    std::uint32_t expected = word(from);
-    return slot.state.compare_exchange_strong(expected, word(to), std::memory_order_acq_rel);
-}
 
 CallStatus say(CallStatus status, const std::string& text, std::vector<std::byte>& results) {
     const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
@@ -71,8 +65,8 @@ std::uint32_t CallClient::claim() {
     for (std::uint32_t i = 0; i < rounds * queue_.slot_count; ++i) {
         const std::uint32_t index = (start + i) % queue_.slot_count;
         auto& slot = queue_.slot(index);
-        const bool is_free = slot.state.load(std::memory_order_relaxed) == word(SlotState::free);
-        if (is_free && change(slot, SlotState::free, SlotState::claimed)) return index;
+        const bool is_free = slot.state.load(std::memory_order_relaxed) == slot_word(SlotState::free);
+        if (is_free && change_slot(slot, SlotState::free, SlotState::claimed)) return index;
     }
     return no_slot;
 }
@@ -86,7 +80,7 @@ void CallClient::submit(std::uint32_t index, std::uint32_t operation, std::span<
     slot.length.store(arguments.size(), std::memory_order_relaxed);
     copy_to_shared(queue_.buffer(index), arguments.data(), arguments.size());
     slot.ticket.store(shared.tickets.fetch_add(1, std::memory_order_relaxed), std::memory_order_relaxed);
-    slot.state.store(word(SlotState::submitted), std::memory_order_release);
+    slot.state.store(slot_word(SlotState::submitted), std::memory_order_release);
     // As in futex.hpp: the submission and the look at `sleepers` here, the announcement and the look at
     // `submissions` there, all seq_cst; so either the worker sees the call, or this sees the worker.
     shared.submissions.fetch_add(1, std::memory_order_seq_cst);
@@ -98,7 +92,7 @@ CallStatus CallClient::await(std::uint32_t index, std::uint64_t deadline) {
     auto& slot = queue_.slot(index);
     const auto over = [&slot] {
         const std::uint32_t state = slot.state.load(std::memory_order_seq_cst);
-        return state != word(SlotState::submitted) && state != word(SlotState::running);
+        return state != slot_word(SlotState::submitted) && state != slot_word(SlotState::running);
     };
     WaitOptions how = how_;
     bool done = over();
@@ -118,11 +112,11 @@ CallStatus CallClient::await(std::uint32_t index, std::uint64_t deadline) {
 CallStatus CallClient::give_up(std::uint32_t index, CallStatus reason) {
     auto& slot = queue_.slot(index);
     if (reason == CallStatus::peer_died) {
-        slot.state.store(word(SlotState::free), std::memory_order_release); // nobody else will
+        slot.state.store(slot_word(SlotState::free), std::memory_order_release); // nobody else will
         return reason;
     }
-    if (change(slot, SlotState::submitted, SlotState::free) ||
-        change(slot, SlotState::running, SlotState::abandoned))
+    if (change_slot(slot, SlotState::submitted, SlotState::free) ||
+        change_slot(slot, SlotState::running, SlotState::abandoned))
         return reason;
     return CallStatus::ok;
 }
@@ -132,12 +126,12 @@ CallStatus CallClient::collect(std::uint32_t index, std::vector<std::byte>& resu
     const std::uint32_t state = slot.state.load(std::memory_order_acquire);
     const std::uint32_t status = slot.status.load(std::memory_order_relaxed);
     const std::uint64_t length = slot.length.load(std::memory_order_relaxed);
-    if (state != word(SlotState::replied) || status > static_cast<std::uint32_t>(CallStatus::shut_down) ||
+    if (state != slot_word(SlotState::replied) || status > static_cast<std::uint32_t>(CallStatus::shut_down) ||
         length > queue_.max_bytes)
         return say(CallStatus::exception, "the other side has damaged the reply", results);
     results.resize(length);
     copy_from_shared(results.data(), queue_.buffer(index), length);
-    slot.state.store(word(SlotState::free), std::memory_order_release);
+    slot.state.store(slot_word(SlotState::free), std::memory_order_release);
     return static_cast<CallStatus>(status);
 }
 

@@ -2,15 +2,9 @@
 // Inside of the serving end; users include call_server.hpp.
 #pragma once
 #include "shm/call_server.hpp"
+#include "shm/call_slot.hpp"
 
 namespace tandem::shm {
-
-constexpr std::uint32_t slot_word(layout::SlotState state) { return static_cast<std::uint32_t>(state); }
-
-inline bool change_slot(layout::CallSlot& slot, layout::SlotState from, layout::SlotState to) {
-    std::uint32_t expected = slot_word(from);
-    return slot.state.compare_exchange_strong(expected, slot_word(to), std::memory_order_acq_rel);
-}
 
 /// What all calls of one server share: the queue, and one private argument buffer per slot.
 struct IncomingCall::State {

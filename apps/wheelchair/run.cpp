@@ -14,9 +14,7 @@
 #include "apps/wheelchair/wiring.hpp"
 #include "plugins/wheelchair/core/clock.hpp"
 
-#ifdef TANDEM_WITH_LINK
 #include "shm/segment.hpp"
-#endif
 
 namespace tandem::wheelchair {
 
@@ -190,9 +188,7 @@ class HostedRun {
                                 host.process.poll() ? host.process.poll()->text() : "hangs",
                                 host.complaint().empty() ? "" : ", it said: ", host.complaint()));
         }
-#ifdef TANDEM_WITH_LINK
         for (const auto& [adaptor, link] : directory_.links()) shm::remove_dead(link);
-#endif
     }
 
     RunResult result() {

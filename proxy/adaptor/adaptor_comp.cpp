@@ -18,7 +18,7 @@ using link::PortKind;
 
 namespace {
 
-constexpr int activation_attempts = 4;
+constexpr int activation_attempts = 3;
 
 std::string check_names(const link::PortTable& partner, const std::string& link) {
     std::set<std::string> names{"linkState"};
@@ -148,7 +148,7 @@ void AdaptorComp::link_changed(bool up) {
 void AdaptorComp::partner_came() {
     if (!started_) return;
     spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
-    for (int attempt = 1; attempt < activation_attempts && started_ && link_->up(); ++attempt)
+    for (int attempt = 0; attempt < activation_attempts && started_ && link_->up(); ++attempt)
         if (drive(control::activate) == OPROS_SUCCESS) return;
     if (link_->up() && started_.exchange(false))
         stopOnError(); // while it is down, the next partner is waited for
@@ -179,10 +179,13 @@ MirroredRequired* AdaptorComp::find_required(std::string_view name) {
 
 // ---- driving the partner
 
+/// An activation may wait for two execution contexts, and for a call that the RTC makes in it.
+std::chrono::milliseconds AdaptorComp::bound_of(std::string_view verb) const {
+    return verb == control::activate ? 4 * settings_.call_timeout : settings_.call_timeout;
+}
+
 Answer AdaptorComp::control(std::string_view verb, std::span<const std::byte> arguments) {
-    // An activation may wait for two execution contexts, and for a call that the RTC makes in it.
-    const auto bound = verb == control::activate ? 4 * settings_.call_timeout : settings_.call_timeout;
-    return link_->call({"", verb, "", arguments}, bound);
+    return link_->call({"", verb, "", arguments}, bound_of(verb));
 }
 
 std::string AdaptorComp::tell_bindings() {
@@ -199,7 +202,7 @@ ReturnType AdaptorComp::drive(std::string_view verb) {
     if (error.empty()) {
         const auto answer = control(verb);
         if (answer.status == CallStatus::ok) return OPROS_SUCCESS;
-        error = describe(answer, settings_.call_timeout);
+        error = describe(answer, bound_of(verb));
     }
     spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, verb, table_.component, error);
     return OPROS_CALL_API_ERROR;

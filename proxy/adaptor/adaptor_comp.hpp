@@ -52,6 +52,7 @@ class AdaptorComp final : public Component, private link::LinkHandler {
     MirroredRequired* find_required(std::string_view name);
     ReturnType drive(std::string_view verb);
     std::string tell_bindings();
+    std::chrono::milliseconds bound_of(std::string_view verb) const;
     link::Answer control(std::string_view verb, std::span<const std::byte> arguments = {});
     void push_link_state();
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/settings.hpp"
 
+#include "proxy/link/number.hpp"
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <stdexcept>
 
 namespace tandem::adaptor {
@@ -12,14 +13,8 @@ namespace {
 double number(const std::map<std::string, std::string>& properties, const std::string& name,
               double otherwise) {
     const auto at = properties.find(name);
-    if (at == properties.end() || at->second.empty()) return otherwise;
-    const std::string& text = at->second;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value < 1e6))
-        throw std::runtime_error(
-            fmt::format("property '{}' is '{}', a number above 0 was expected", name, text));
-    return value;
+    return at == properties.end() ? otherwise
+                                  : link::positive_number("property", name, at->second, otherwise);
 }
 
 } // namespace

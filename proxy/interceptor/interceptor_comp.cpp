@@ -203,8 +203,8 @@ Answer InterceptorComp::serve_control(const link::Request& request) {
 }
 
 std::string InterceptorComp::activate() {
-    activated_by_link_ =
-        true; // first, so that a partner that dies meanwhile is followed by partner_went()'s rest
+    // First, so that partner_went() sees it when the partner dies meanwhile.
+    activated_by_link_ = true;
     std::string error = own_driver_->activate(); // the RTC may call through our ports from its onActivated on
     if (error.empty()) error = driver_->activate();
     if (!error.empty()) activated_by_link_ = false;

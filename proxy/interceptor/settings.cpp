@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/settings.hpp"
 
+#include "proxy/link/number.hpp"
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <stdexcept>
 
 namespace tandem::interceptor {
@@ -18,14 +19,7 @@ std::string required(coil::Properties& properties, const std::string& name, cons
 }
 
 double number(coil::Properties& properties, const std::string& name, double otherwise) {
-    const std::string text = properties.getProperty(name);
-    if (text.empty()) return otherwise;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value < 1e6))
-        throw std::runtime_error(
-            fmt::format("parameter '{}' is '{}', a number above 0 was expected", name, text));
-    return value;
+    return link::positive_number("parameter", name, properties.getProperty(name), otherwise);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 #include "proxy/link/control.hpp"
 
 #include "proxy/link/error.hpp"
-#include "proxy/wire/cdr.hpp"
+#include "proxy/link/operation_list.hpp"
 
 namespace tandem::link::control {
 
@@ -10,11 +10,7 @@ std::vector<std::byte> encode(const Binding& binding) {
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);
     out.put_string(binding.port);
-    out.put(static_cast<std::uint32_t>(binding.operations.size()));
-    for (const auto& operation : binding.operations) {
-        out.put_string(operation.name);
-        out.put_string(operation.signature);
-    }
+    put(out, binding.operations);
     return bytes;
 }
 
@@ -22,11 +18,7 @@ Binding decode_binding(std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
     Binding binding;
     binding.port = in.get_string();
-    binding.operations.resize(in.get_count(8));
-    for (auto& operation : binding.operations) {
-        operation.name = in.get_string();
-        operation.signature = in.get_string();
-    }
+    binding.operations = get_operations(in);
     if (!in.ok()) throw LinkError("a service binding of the partner is damaged");
     return binding;
 }

@@ -114,8 +114,9 @@ void Link::run_link() {
             continue;
         }
         now->segment->heartbeat();
-        if (damaged()) spdlog::error("link '{}': a ring is damaged; the link starts afresh", options_.name);
-        if (session_over(*now) || damaged()) {
+        const bool afresh = damaged();
+        if (afresh) spdlog::error("link '{}': a ring is damaged; the link starts afresh", options_.name);
+        if (afresh || session_over(*now)) {
             take_down();
             continue;
         }

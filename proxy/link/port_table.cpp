@@ -2,7 +2,7 @@
 #include "proxy/link/port_table.hpp"
 
 #include "proxy/link/error.hpp"
-#include "proxy/wire/cdr.hpp"
+#include "proxy/link/operation_list.hpp"
 
 #include <algorithm>
 
@@ -12,11 +12,7 @@ namespace {
 void put(wire::CdrWriter& out, const Port& port) {
     out.put(static_cast<std::uint32_t>(port.kind));
     for (const auto* text : {&port.name, &port.type, &port.signature, &port.instance}) out.put_string(*text);
-    out.put(static_cast<std::uint32_t>(port.operations.size()));
-    for (const auto& operation : port.operations) {
-        out.put_string(operation.name);
-        out.put_string(operation.signature);
-    }
+    put(out, port.operations);
 }
 
 void put(wire::CdrWriter& out, const PortTable& table) {
@@ -31,11 +27,7 @@ Port get_port(wire::CdrReader& in) {
     if (port.kind > PortKind::service_required)
         throw LinkError("the partner's port table has a port of unknown kind");
     for (auto* text : {&port.name, &port.type, &port.signature, &port.instance}) *text = in.get_string();
-    port.operations.resize(in.get_count(8));
-    for (auto& operation : port.operations) {
-        operation.name = in.get_string();
-        operation.signature = in.get_string();
-    }
+    port.operations = get_operations(in);
     return port;
 }
 

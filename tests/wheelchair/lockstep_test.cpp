@@ -27,19 +27,14 @@ void check_all_scenarios(const std::string& configuration) {
 
 } // namespace
 
-#ifdef TANDEM_WITH_OPROS_HOST
 TEST_CASE("all-OPRoS lock-step is the in-memory run, byte for byte, in every scenario") {
     check_all_scenarios("opros");
 }
-#endif
 
-#ifdef TANDEM_WITH_RTM_HOST
 TEST_CASE("all-RTM lock-step is the in-memory run, byte for byte, in every scenario") {
     check_all_scenarios("rtm");
 }
-#endif
 
-#ifdef TANDEM_WITH_MIXED
 TEST_CASE("mixed lock-step is the in-memory run, byte for byte, in every scenario") {
     check_all_scenarios("mixed");
 }
@@ -47,4 +42,3 @@ TEST_CASE("mixed lock-step is the in-memory run, byte for byte, in every scenari
 TEST_CASE("swapped lock-step is the in-memory run, byte for byte, in every scenario") {
     check_all_scenarios("swapped");
 }
-#endif

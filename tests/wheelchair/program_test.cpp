@@ -65,14 +65,8 @@ TEST_CASE("a run whose files are kept can be repeated by hand") {
     CHECK(std::filesystem::exists(dir / "log/opros_host.log"));
 }
 
-#ifdef TANDEM_WITH_OPROS_HOST
 TEST_CASE("all-OPRoS runs in real time and loses nothing") { check_real_time("opros"); }
-#endif
 
-#ifdef TANDEM_WITH_RTM_HOST
 TEST_CASE("all-RTM runs in real time and loses nothing") { check_real_time("rtm"); }
-#endif
 
-#ifdef TANDEM_WITH_MIXED
 TEST_CASE("mixed runs in real time and loses nothing") { check_real_time("mixed"); }
-#endif
