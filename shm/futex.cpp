@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/futex.hpp"
 
+#include "shm/atomics.hpp"
+
 #include <climits>
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -21,6 +23,15 @@ void futex_wait(layout::Word32& word, std::uint32_t expected, std::uint64_t dead
 
 void futex_wake(layout::Word32& word, int sleepers) {
     syscall(SYS_futex, &word, FUTEX_WAKE, sleepers, nullptr, nullptr, 0);
+}
+
+void RealAtomics::futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected,
+                             std::uint64_t deadline) {
+    shm::futex_wait(word, expected, deadline);
+}
+
+void RealAtomics::futex_wake(std::atomic<std::uint32_t>& word, int sleepers) {
+    shm::futex_wake(word, sleepers);
 }
 
 } // namespace tandem::shm

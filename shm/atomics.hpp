@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the ring and the call queue touch memory that both sides use. They are templates over this struct, so
+// that the code that ships is the code that tests/shm/model runs under a scheduler and a memory model of its
+// own: there Atomic<T> has the same member functions, and every access below is a step of the scheduler.
+#pragma once
+#include "shm/clock.hpp"
+#include "shm/shared_copy.hpp"
+
+#include <immintrin.h>
+
+namespace tandem::shm {
+
+struct RealAtomics {
+    /// load, store, exchange, fetch_add, fetch_or, compare_exchange_strong, each with its order written out.
+    template <class T>
+    using Atomic = std::atomic<T>;
+
+    /// A word of record memory: payload and record headers.
+    using Cell = std::uint64_t;
+
+    static std::uint64_t load(const Cell& cell, std::memory_order order) {
+        return std::atomic_ref<std::uint64_t>(const_cast<Cell&>(cell)).load(order);
+    }
+    static void store(Cell& cell, std::uint64_t value, std::memory_order order) {
+        std::atomic_ref<std::uint64_t>(cell).store(value, order);
+    }
+
+    /// Word-wise copies that may overlap with the other side's writing: acquire loads, release stores.
+    static void copy_out(void* to, const Cell* from, std::size_t bytes) { copy_from_shared(to, from, bytes); }
+    static void copy_in(Cell* to, const void* from, std::size_t bytes) { copy_to_shared(to, from, bytes); }
+
+    /// Plain copies of memory that, by protocol, is this side's alone at the moment.
+    static void take_out(void* to, const Cell* from, std::size_t bytes) {
+        if (bytes != 0) std::memcpy(to, from, bytes);
+    }
+    static void put_in(Cell* to, const void* from, std::size_t bytes) {
+        if (bytes != 0) std::memcpy(to, from, bytes);
+    }
+
+    static void fence() { std::atomic_thread_fence(std::memory_order_seq_cst); }
+    static void pause() { _mm_pause(); }
+    static std::uint64_t now() { return now_ns(); }
+
+    /// Sleeps while `word` holds `expected`, until woken or now() reaches `deadline`; may return early.
+    static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
+    static void futex_wake(Atomic<std::uint32_t>& word, int sleepers);
+};
+
+} // namespace tandem::shm
