@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the cases come from: one function per file of cases.
+#pragma once
+
+namespace tandem::bench {
+
+struct Registry;
+
+void add_floor_line_cases(Registry& registry);
+void add_floor_ring_cases(Registry& registry);
+void add_floor_memory_cases(Registry& registry);
+void add_our_ring_cases(Registry& registry);
+void add_our_stream_cases(Registry& registry);
+void add_our_call_cases(Registry& registry);
+void add_our_port_cases(Registry& registry);
+
+} // namespace tandem::bench

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clock of every measurement: the time-stamp counter, fenced on both sides, where it counts evenly
+// (invariant TSC); CLOCK_MONOTONIC_RAW elsewhere.
+#pragma once
+#include <cstdint>
+#include <ctime>
+#include <string>
+
+#ifdef __x86_64__
+#include <x86intrin.h>
+#endif
+
+namespace tandem::bench {
+
+struct Clock {
+    static inline bool tsc = false;
+    static inline double ns_per_tick = 1.0;
+
+    /// [before any fork] Chooses the clock and measures the counter's rate against CLOCK_MONOTONIC_RAW.
+    static void calibrate();
+    static std::string name();
+};
+
+inline std::uint64_t raw_ns() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC_RAW, &now);
+    return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000ULL +
+           static_cast<std::uint64_t>(now.tv_nsec);
+}
+
+/// Now, in ticks. The fences keep what is measured from drifting out of the measured stretch.
+inline std::uint64_t ticks() {
+#ifdef __x86_64__
+    if (Clock::tsc) {
+        _mm_lfence();
+        const std::uint64_t now = __rdtsc();
+        _mm_lfence();
+        return now;
+    }
+#endif
+    return raw_ns();
+}
+
+inline double to_ns(std::uint64_t ticks) { return static_cast<double>(ticks) * Clock::ns_per_tick; }
+inline std::uint64_t to_ticks(double ns) { return static_cast<std::uint64_t>(ns / Clock::ns_per_tick); }
+
+} // namespace tandem::bench

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace tandem::bench {
+
+Options read_options(int argc, char** argv, int& exit_code) {
+    Options options;
+    CLI::App app("Latency and throughput of Tandem's shared memory, of the machine's floor, and of peers.");
+    app.add_flag("--list", options.list, "Name the cases and stop");
+    app.add_option("--only", options.only, "Cases whose name contains one of these words, comma-separated");
+    app.add_flag("--quick", options.quick, "Few samples: seconds instead of minutes, rough figures");
+    app.add_option("--runs", options.runs, "Median of so many runs (default 1; with --bar 5)")
+        ->check(CLI::Range(1, 100));
+    app.add_option("--cores", options.cores, "Cores of A and B")->delimiter(',')->expected(1, 2);
+    app.add_option("--json", options.json, "Write the report as JSON");
+    app.add_option("--html", options.html, "Write the report as one HTML page with plots");
+    app.add_option("--compare", options.compare, "Show what changed since this JSON report");
+    app.add_flag("--bar", options.bar, "Measure what the bar asks for, and print ratio, bound, pass or FAIL");
+    app.add_flag("--quiet", options.quiet, "No progress on stderr");
+    exit_code = -1;
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& end) {
+        exit_code = app.exit(end);
+    }
+    return options;
+}
+
+Limits limits_of(const Options& options) {
+    Limits limits;
+    if (options.quick) {
+        limits.warm_up = 2'000;
+        limits.samples = 5'000;
+        limits.warm_up_seconds = 0.05;
+        limits.seconds = 0.2;
+        limits.window_seconds = 0.03;
+        limits.bound_seconds = 10;
+    }
+    return limits;
+}
+
+Cores cores_of(const Options& options) {
+    const std::vector<int> allowed = allowed_cores();
+    const std::vector<int>& wanted = options.cores.empty() ? allowed : options.cores;
+    for (int core : options.cores)
+        if (std::find(allowed.begin(), allowed.end(), core) == allowed.end())
+            throw std::runtime_error(
+                fmt::format("--cores: this process may not use core {}; see taskset -p {}", core, getpid()));
+    return {wanted.front(), wanted.size() > 1 ? wanted[1] : wanted.front()};
+}
+
+} // namespace tandem::bench

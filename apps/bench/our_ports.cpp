@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many ports behind one doorbell: N rings each way are open, and the messages go round them.
+#include "apps/bench/cases.hpp"
+#include "apps/bench/our_link.hpp"
+
+namespace tandem::bench {
+
+namespace {
+
+constexpr unsigned doorbell_bits = shm::Doorbell::user_bits;
+
+std::size_t ports_of(const Session& session) { return std::stoul(session.measured().detail); }
+
+class PortsEnd {
+  public:
+    explicit PortsEnd(Session& session)
+        : bytes_(session.bytes()), how_(wait_options(session.measured().wake)),
+          link_(session, ports_of(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)) {
+        const std::size_t ports = ports_of(session);
+        for (std::size_t i = 0; i < ports; ++i) out_.emplace_back(link_.add_ring(std::to_string(i), bytes_));
+        link_.open();
+        for (std::size_t i = 0; i < ports; ++i) in_.emplace_back(link_.peer_ring(std::to_string(i)));
+    }
+
+    void send(std::uint64_t sequence) {
+        const std::size_t port = next_++ % out_.size();
+        const auto room = out_[port].reserve(bytes_);
+        fill(room.data(), bytes_, sequence);
+        out_[port].commit(bytes_, sequence, 0);
+        link_.segment().ring_peer(static_cast<unsigned>(port % doorbell_bits));
+    }
+
+    /// The doorbell says which ports may have something; those are looked at, and no other.
+    std::uint64_t receive() {
+        for (;;) {
+            const std::uint64_t bits = link_.segment().doorbell().wait(std::chrono::seconds(1), how_);
+            for (std::uint64_t rest = bits; rest != 0; rest &= rest - 1)
+                for (auto port = static_cast<std::size_t>(__builtin_ctzll(rest)); port < in_.size();
+                     port += doorbell_bits)
+                    if (const auto record = in_[port].read())
+                        return sequence_of(record->bytes.data(), bytes_);
+        }
+    }
+
+  private:
+    std::size_t bytes_;
+    shm::WaitOptions how_;
+    OurLink link_;
+    std::vector<shm::RingWriter> out_;
+    std::vector<shm::RingReader> in_;
+    std::size_t next_ = 0;
+};
+
+} // namespace
+
+void add_our_port_cases(Registry& registry) {
+    for (const char* ports : {"1 port", "4 ports", "16 ports", "64 ports", "256 ports"}) {
+        Case one;
+        one.who = "ring";
+        one.what = "ports";
+        one.wake = Wake::spin_then_futex;
+        one.detail = ports;
+        one.divisor = 2;
+        one.run = echo<PortsEnd>;
+        registry.cases.push_back(one);
+    }
+}
+
+} // namespace tandem::bench

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two rings of ours, one for each direction: written in place, read in place where the ring can.
+#pragma once
+#include "apps/bench/our_link.hpp"
+
+namespace tandem::bench {
+
+class OurRingEnd {
+  public:
+    explicit OurRingEnd(Session& session)
+        : bytes_(session.bytes()), wake_(session.measured().wake), how_(wait_options(wake_)),
+          link_(session, OurLink::ring_bytes(session.bytes())), out_(link_.add_ring("out", bytes_)),
+          in_((link_.open(), link_.peer_ring("out"))) {}
+
+    void send(std::uint64_t sequence) {
+        std::span<std::byte> room;
+        while ((room = out_.reserve(bytes_)).data() == nullptr) {
+        } // full: the reader is behind
+        fill(room.data(), bytes_, sequence);
+        out_.commit(bytes_, sequence, 0);
+        if (wake_ != Wake::spin) link_.segment().ring_peer(0);
+    }
+
+    std::uint64_t receive() {
+        for (;;) {
+            if (const auto record = in_.read()) return sequence_of(record->bytes.data(), bytes_);
+            if (wake_ != Wake::spin) link_.segment().doorbell().wait(std::chrono::seconds(1), how_);
+        }
+    }
+
+  private:
+    std::size_t bytes_;
+    Wake wake_;
+    shm::WaitOptions how_;
+    OurLink link_;
+    shm::RingWriter out_;
+    shm::RingReader in_;
+};
+
+} // namespace tandem::bench

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs one case in two fresh processes, forked from a driver that never initialises a middleware, A pinned to
+// core a and B to core b. Bounded; leaves no process and no file in /dev/shm, whatever the case does.
+#pragma once
+#include "apps/bench/regime.hpp"
+#include "apps/bench/session.hpp"
+
+namespace tandem::bench {
+
+struct Outcome {
+    std::vector<double> samples;
+    std::string failure; ///< one line; empty if it went well
+};
+
+Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores);
+
+/// Ctrl-C and SIGTERM end the case that runs; interrupted() tells.
+void catch_interrupts();
+bool interrupted();
+
+} // namespace tandem::bench

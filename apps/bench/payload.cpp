@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/payload.hpp"
+
+#include <fmt/format.h>
+
+// The widest vectors that the machine has, chosen when the program starts: the limit is to be the memory.
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define TANDEM_BENCH_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define TANDEM_BENCH_WIDE
+#endif
+
+namespace tandem::bench::detail {
+
+TANDEM_BENCH_WIDE void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value) {
+    for (std::size_t i = 0; i < count; ++i) words[i] = value;
+}
+
+TANDEM_BENCH_WIDE std::uint64_t sum_large(const std::uint64_t* words, std::size_t count) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < count; ++i) sum += words[i];
+    return sum;
+}
+
+void damaged(std::uint64_t first, std::uint64_t sum, std::size_t count) {
+    throw std::runtime_error(
+        fmt::format("a message of {} words is damaged: first word {}, sum {} instead of {}", count, first,
+                    sum, first * count));
+}
+
+} // namespace tandem::bench::detail

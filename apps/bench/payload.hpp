@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every message holds: its sequence number in every word, so that the reader's sum over all words shows
+// a lost, torn or repeated message, and so that writer and reader touch every byte.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+
+namespace tandem::bench {
+
+/// The last message of a case.
+constexpr std::uint64_t stop_sequence = ~std::uint64_t{0};
+
+namespace detail {
+void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value);
+std::uint64_t sum_large(const std::uint64_t* words, std::size_t count);
+[[noreturn]] void damaged(std::uint64_t first, std::uint64_t sum, std::size_t count);
+constexpr std::size_t large_words = 64;
+} // namespace detail
+
+inline void fill(void* memory, std::size_t bytes, std::uint64_t sequence) {
+    auto* words = static_cast<std::uint64_t*>(memory);
+    const std::size_t count = bytes / sizeof(std::uint64_t);
+    if (count > detail::large_words) return detail::fill_large(words, count, sequence);
+    for (std::size_t i = 0; i < count; ++i) words[i] = sequence;
+}
+
+/// The message's sequence number. Throws if the words do not agree.
+inline std::uint64_t sequence_of(const void* memory, std::size_t bytes) {
+    const auto* words = static_cast<const std::uint64_t*>(memory);
+    const std::size_t count = bytes / sizeof(std::uint64_t);
+    std::uint64_t sum = 0;
+    if (count > detail::large_words)
+        sum = detail::sum_large(words, count);
+    else
+        for (std::size_t i = 0; i < count; ++i) sum += words[i];
+    if (sum != words[0] * count) detail::damaged(words[0], sum, count);
+    return words[0];
+}
+
+} // namespace tandem::bench

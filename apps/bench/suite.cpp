@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/suite.hpp"
+
+#include "apps/bench/service.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+namespace tandem::bench {
+
+namespace {
+
+std::string cores_text(const Case& measured, const Cores& cores) {
+    if (measured.placement == Placement::alone) return std::to_string(cores.a);
+    return fmt::format("{},{}", cores.a, measured.regime == Regime::same_core ? cores.a : cores.b);
+}
+
+Row empty_row(const Case& measured, const Cores& cores) {
+    Row row;
+    row.id = measured.id();
+    row.group = name_of(measured.group);
+    row.who = measured.who;
+    row.what = measured.what;
+    row.bytes = measured.bytes;
+    row.wake = name_of(measured.wake);
+    row.regime = name_of(measured.regime);
+    row.placement = name_of(measured.placement);
+    row.detail = measured.detail;
+    row.unit = name_of(measured.unit);
+    row.cores = cores_text(measured, cores);
+    return row;
+}
+
+/// One case of one run; what failed stands in the outcome.
+Outcome measure_once(const Case& measured, const Plan& plan) {
+    Outcome outcome;
+    outcome.failure = obstacle(measured, plan.cores);
+    if (!outcome.failure.empty()) return outcome;
+    try {
+        const Service service(measured.service);
+        return run_pair(measured, plan.limits, plan.cores);
+    } catch (const std::exception& failure) {
+        outcome.failure = failure.what();
+    }
+    return outcome;
+}
+
+void finish_row(Row& row, const std::vector<Summary>& summaries, const std::string& failure) {
+    row.summary = median_of(summaries);
+    if (summaries.empty()) row.skipped = failure.empty() ? "not measured" : failure;
+}
+
+} // namespace
+
+std::vector<Case> selected(const std::vector<Case>& cases, const std::string& patterns) {
+    if (patterns.empty()) return cases;
+    std::vector<Case> out;
+    for (const Case& one : cases) {
+        std::istringstream list(patterns);
+        for (std::string pattern; std::getline(list, pattern, ',');)
+            if (!pattern.empty() && one.id().find(pattern) != std::string::npos) {
+                out.push_back(one);
+                break;
+            }
+    }
+    return out;
+}
+
+Machine this_machine() {
+    Machine machine;
+    utsname name{};
+    uname(&name);
+    machine.kernel = fmt::format("{} {} {}", name.sysname, name.release, name.machine);
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; machine.processor.empty() && std::getline(info, line);)
+        if (line.rfind("model name", 0) == 0) machine.processor = line.substr(line.find(':') + 2);
+    machine.cores = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    machine.clock = Clock::name();
+    machine.date = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    return machine;
+}
+
+Report measure(const Plan& plan) {
+    Report report;
+    report.machine = this_machine();
+    std::vector<std::vector<Summary>> summaries(plan.cases.size());
+    std::vector<std::string> failures(plan.cases.size());
+    for (const Case& one : plan.cases) report.rows.push_back(empty_row(one, plan.cores));
+    for (int run = 0; run < plan.runs; ++run) {
+        for (std::size_t i = 0; i < plan.cases.size() && !interrupted(); ++i) {
+            if (plan.progress)
+                fmt::print(stderr, "\r\033[K[run {}/{}, {}/{}] {}", run + 1, plan.runs, i + 1,
+                           plan.cases.size(), report.rows[i].id);
+            Outcome outcome = measure_once(plan.cases[i], plan);
+            if (outcome.failure.empty()) {
+                summaries[i].push_back(summarize(std::move(outcome.samples)));
+                report.rows[i].runs.push_back(summaries[i].back().p50);
+            } else {
+                failures[i] = outcome.failure;
+                report.rows[i].runs.push_back(NAN);
+            }
+        }
+    }
+    if (plan.progress) fmt::print(stderr, "\r\033[K");
+    for (std::size_t i = 0; i < plan.cases.size(); ++i) finish_row(report.rows[i], summaries[i], failures[i]);
+    for (const Skipped& skipped : plan.skipped) {
+        Row row;
+        row.id = "peer/" + skipped.who;
+        row.group = "peer";
+        row.who = skipped.who;
+        row.skipped = skipped.reason;
+        report.rows.push_back(row);
+    }
+    return report;
+}
+
+} // namespace tandem::bench
