@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// tandem: one command with sub-commands. See --help.
+#include "apps/tandem/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+    CLI::App tandem{"Looks at, and looks after, a system of Tandem hosts on this machine.", "tandem"};
+    tandem.require_subcommand(1);
+    tandem.footer("tandem COMMAND --help says more about a command.");
+    tandem::command::Run chosen;
+    tandem::command::add_shm(tandem, chosen);
+    try {
+        tandem.parse(argc, argv);
+    } catch (const CLI::ParseError& end) {
+        return tandem.exit(end);
+    }
+    try {
+        return chosen();
+    } catch (const std::exception& failure) {
+        fmt::print(stderr, "tandem: {}\n", failure.what());
+        return 1;
+    }
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/text.hpp"
+
+#include "shm/clock.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <pwd.h>
+
+namespace tandem::command {
+
+Table::Table(std::vector<std::string> headings) {
+    for (auto& heading : headings) {
+        right_.push_back(!heading.empty() && heading.front() == '>');
+        if (right_.back()) heading.erase(0, 1);
+    }
+    rows_.push_back(std::move(headings));
+}
+
+void Table::add(std::vector<std::string> row) {
+    row.resize(right_.size());
+    rows_.push_back(std::move(row));
+}
+
+std::string Table::text() const {
+    std::vector<std::size_t> width(right_.size());
+    for (const auto& row : rows_)
+        for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+    std::string text;
+    for (const auto& row : rows_) {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            line += right_[i] ? fmt::format("{:>{}}  ", row[i], width[i])
+                              : fmt::format("{:<{}}  ", row[i], width[i]);
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + '\n';
+    }
+    return text;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+    if (bytes < 1024) return fmt::format("{} B", bytes);
+    auto value = static_cast<double>(bytes);
+    const char* unit = "B";
+    for (const char* next : {"KiB", "MiB", "GiB", "TiB"}) {
+        if (value < 1024) break;
+        value /= 1024;
+        unit = next;
+    }
+    return fmt::format("{:.{}f} {}", value, value < 100 ? 1 : 0, unit);
+}
+
+std::string duration_text(std::uint64_t ns) {
+    constexpr std::uint64_t us = 1000, ms = 1000 * us, s = 1000 * ms, minute = 60 * s, hour = 60 * minute;
+    if (ns < 10 * us) return fmt::format("{} ns", ns);
+    if (ns < 10 * ms) return fmt::format("{} us", ns / us);
+    if (ns < 10 * s) return fmt::format("{} ms", ns / ms);
+    if (ns < 3 * minute) return fmt::format("{} s", ns / s);
+    if (ns < 3 * hour) return fmt::format("{} min", ns / minute);
+    return ns < 48 * hour ? fmt::format("{} h", ns / hour) : fmt::format("{} d", ns / hour / 24);
+}
+
+std::string age_text(std::uint64_t then_ns) {
+    const std::uint64_t now = shm::now_ns();
+    return then_ns == 0 || then_ns > now ? "-" : duration_text(now - then_ns);
+}
+
+std::string user_text(uid_t user) {
+    std::vector<char> buffer(16384);
+    struct passwd entry {};
+    struct passwd* found = nullptr;
+    getpwuid_r(user, &entry, buffer.data(), buffer.size(), &found);
+    return found != nullptr ? found->pw_name : std::to_string(user);
+}
+
+std::string printable(const std::string& text) {
+    std::string safe = text;
+    for (char& c : safe)
+        if (c < ' ' || c > '~') c = '?';
+    return safe;
+}
+
+void print_text(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+}
+
+void print_json(const nlohmann::json& value, bool one_line) {
+    print_text(value.dump(one_line ? -1 : 2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+} // namespace tandem::command

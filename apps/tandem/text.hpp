@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace tandem::command {
+
+/// Rows of cells under headings, columns as wide as needed. A column whose heading begins with '>' is
+/// aligned to the right.
+class Table {
+  public:
+    explicit Table(std::vector<std::string> headings);
+    void add(std::vector<std::string> row);
+    bool empty() const { return rows_.size() == 1; }
+    std::string text() const; ///< lines, each with its newline
+
+  private:
+    std::vector<bool> right_;
+    std::vector<std::vector<std::string>> rows_;
+};
+
+std::string bytes_text(std::uint64_t bytes); ///< 640 B, 8.1 MiB
+std::string duration_text(std::uint64_t ns); ///< 12 us, 3 ms, 41 s, 3 h
+std::string
+age_text(std::uint64_t then_ns); ///< from a point of shm::now_ns() until now; "-" if that is not in the past
+std::string user_text(uid_t user);              ///< the name, or the number if there is none
+std::string printable(const std::string& text); ///< bytes that are not printable ASCII become '?'
+
+void print_text(const std::string& text);
+void print_json(const nlohmann::json& value,
+                bool one_line = false); ///< bytes that are not UTF-8 are replaced
+
+} // namespace tandem::command

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/observer.hpp"
+#include "shm/quiet_file.hpp"
+#include "shm/shared_copy.hpp"
+
+#include <bit>
+
+namespace tandem::shm {
+namespace {
+
+using layout::CallQueueHeader;
+using layout::CallSlot;
+using layout::DirectoryEntry;
+using layout::RingHeader;
+using layout::SideHeader;
+
+constexpr auto cut_off = "the file ends within it";
+
+/// Reads part of a struct into its place in the copy.
+template <std::size_t Bytes>
+bool read_part(const QuietFile& file, std::uint64_t place, Copied<Bytes>& copy, std::size_t from,
+               std::size_t to) {
+    return file.read(place + from, {copy.bytes + from, to - from});
+}
+
+RingView view_ring(const QuietFile& file, ObjectView object, std::uint64_t place) {
+    RingView ring{std::move(object)};
+    Copied<sizeof(RingHeader)> copy;
+    // The reader's counters first: what was received then had been sent before, so never more is received
+    // than sent.
+    const bool complete =
+        ring.bytes >= sizeof(RingHeader) && read_part(file, place, copy, 0, offsetof(RingHeader, head)) &&
+        read_part(file, place, copy, offsetof(RingHeader, received), sizeof(RingHeader)) &&
+        read_part(file, place, copy, offsetof(RingHeader, sent), offsetof(RingHeader, received));
+    if (!complete) {
+        ring.damage = cut_off;
+        return ring;
+    }
+    const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
+    const auto policy = copy.get<std::uint32_t>(offsetof(RingHeader, policy));
+    const auto writer = copy.get<std::uint32_t>(offsetof(RingHeader, writer));
+    ring.policy = static_cast<RingPolicy>(policy);
+    ring.writer = static_cast<Side>(writer);
+    ring.capacity = word(offsetof(RingHeader, capacity));
+    ring.max_record = word(offsetof(RingHeader, max_record));
+    ring.wait_ns = word(offsetof(RingHeader, wait_ns));
+    ring.counters.sent = word(offsetof(RingHeader, sent));
+    ring.counters.refused = word(offsetof(RingHeader, refused));
+    ring.counters.overwritten = word(offsetof(RingHeader, overwritten));
+    ring.counters.bytes_sent = word(offsetof(RingHeader, bytes_sent));
+    ring.counters.received = word(offsetof(RingHeader, received));
+    ring.counters.skipped = word(offsetof(RingHeader, skipped));
+    ring.counters.bytes_received = word(offsetof(RingHeader, bytes_received));
+    if (ring.capacity != ring.bytes - sizeof(RingHeader) || !std::has_single_bit(ring.capacity) ||
+        ring.max_record > ring.capacity / 2 || policy > 3 || writer > 1)
+        ring.damage = "its header is not that of a ring of " + std::to_string(ring.bytes) + " bytes";
+    return ring;
+}
+
+std::uint64_t slots_in_use(const QuietFile& file, std::uint64_t slots_begin, std::uint32_t slots,
+                           std::uint64_t slot_bytes) {
+    std::uint64_t in_use = 0;
+    for (std::uint32_t i = 0; i < slots; ++i) {
+        Copied<4> state;
+        if (file.read(slots_begin + i * slot_bytes + offsetof(CallSlot, state), state.bytes) &&
+            state.get<std::uint32_t>(0) != static_cast<std::uint32_t>(layout::SlotState::free))
+            ++in_use;
+    }
+    return in_use;
+}
+
+CallQueueView view_call_queue(const QuietFile& file, ObjectView object, std::uint64_t place) {
+    constexpr std::uint32_t most_slots = 256;
+    CallQueueView queue{std::move(object)};
+    Copied<sizeof(CallQueueHeader)> copy;
+    // The server's counters first: what was taken then had been submitted before.
+    const bool complete =
+        queue.bytes >= sizeof(CallQueueHeader) &&
+        read_part(file, place, copy, offsetof(CallQueueHeader, taken), sizeof(CallQueueHeader)) &&
+        read_part(file, place, copy, 0, offsetof(CallQueueHeader, taken));
+    if (!complete) {
+        queue.damage = cut_off;
+        return queue;
+    }
+    const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
+    const auto half_word = [&](std::size_t offset) { return copy.get<std::uint32_t>(offset); };
+    queue.slots = half_word(offsetof(CallQueueHeader, slot_count));
+    queue.callers = static_cast<Side>(half_word(offsetof(CallQueueHeader, callers)));
+    queue.max_bytes = word(offsetof(CallQueueHeader, max_bytes));
+    queue.closed = half_word(offsetof(CallQueueHeader, closed)) != 0;
+    const std::uint64_t slot_bytes = word(offsetof(CallQueueHeader, slot_bytes));
+    const std::uint64_t room = queue.bytes - sizeof(CallQueueHeader);
+    if (queue.slots < 1 || queue.slots > most_slots || queue.callers > Side::second ||
+        slot_bytes < sizeof(CallSlot) || queue.max_bytes > slot_bytes - sizeof(CallSlot) ||
+        slot_bytes > room || queue.slots * slot_bytes != room) {
+        queue.damage = "its header is not that of a call queue of " + std::to_string(queue.bytes) + " bytes";
+        return queue;
+    }
+    queue.counters.calls = word(offsetof(CallQueueHeader, tickets));
+    queue.counters.overloads = word(offsetof(CallQueueHeader, overloads));
+    queue.counters.timeouts = word(offsetof(CallQueueHeader, timeouts));
+    queue.counters.taken = word(offsetof(CallQueueHeader, taken));
+    queue.counters.answered = word(offsetof(CallQueueHeader, answered));
+    queue.counters.in_use = slots_in_use(file, place + sizeof(CallQueueHeader), queue.slots, slot_bytes);
+    return queue;
+}
+
+void view_entry(const QuietFile& file, Observation& into, Side half, std::uint32_t index) {
+    const SegmentView& segment = into.segment;
+    const std::string where =
+        std::string("directory of side ") + name_of(half) + ", entry " + std::to_string(index);
+    const std::uint64_t place = sizeof(layout::SegmentHeader) + index_of(half) * sizeof(SideHeader) +
+                                offsetof(SideHeader, directory) + index * sizeof(DirectoryEntry);
+    Copied<sizeof(DirectoryEntry)> copy;
+    if (!file.read(place, copy.bytes)) {
+        into.damage.push_back(where + ": the file ends before it");
+        return;
+    }
+    const auto* name = reinterpret_cast<const char*>(copy.bytes);
+    const auto kind = copy.get<std::uint32_t>(offsetof(DirectoryEntry, kind));
+    const auto offset = copy.get<std::uint64_t>(offsetof(DirectoryEntry, offset));
+    const auto bytes = copy.get<std::uint64_t>(offsetof(DirectoryEntry, bytes));
+    const std::uint64_t arena = segment.arena_bytes[index_of(half)];
+    if (name[layout::name_bytes - 1] != '\0' || kind < 1 || kind > 3 || offset % layout::line_pair != 0 ||
+        offset > arena || bytes > arena - offset) {
+        into.damage.push_back(where + ": names no object within the arena");
+        return;
+    }
+    ObjectView object{half, name, bytes, {}};
+    const std::uint64_t at = segment.arena_offset[index_of(half)] + offset;
+    switch (static_cast<layout::ObjectKind>(kind)) {
+    case layout::ObjectKind::ring:
+        into.rings.push_back(view_ring(file, std::move(object), at));
+        break;
+    case layout::ObjectKind::call_queue:
+        into.call_queues.push_back(view_call_queue(file, std::move(object), at));
+        break;
+    case layout::ObjectKind::blob:
+        into.blobs.push_back(std::move(object));
+        break;
+    }
+}
+
+} // namespace
+
+void observe_objects(const QuietFile& file, Observation& into) {
+    for (const Side half : {Side::first, Side::second}) {
+        Copied<4> count;
+        const std::uint64_t place = sizeof(layout::SegmentHeader) + index_of(half) * sizeof(SideHeader) +
+                                    offsetof(SideHeader, published);
+        if (!file.read(place, count.bytes)) {
+            into.damage.push_back(std::string("side ") + name_of(half) +
+                                  ": the file ends before its directory");
+            continue;
+        }
+        const auto published = count.get<std::uint32_t>(0);
+        if (published > 1 + layout::max_objects) {
+            into.damage.push_back(std::string("directory of side ") + name_of(half) + ": claims " +
+                                  std::to_string(published - 1) + " entries, " +
+                                  std::to_string(layout::max_objects) + " are possible");
+            continue;
+        }
+        for (std::uint32_t i = 0; i + 1 < published; ++i) view_entry(file, into, half, i);
+    }
+}
+
+} // namespace tandem::shm
