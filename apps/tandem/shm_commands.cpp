@@ -49,6 +49,15 @@ constexpr Manual clean_manual{"Removes segments that nobody alive holds",
                               "too; never one that a living\n"
                               "process holds, nor one of another user. Exit code 0."};
 
+constexpr Manual doctor_manual{
+    "Checks this machine's limits, permissions and timing, and says what to do about each shortcoming",
+    "  ok     as it should be\n"
+    "  warn   works, but slower, less predictable, or not under every circumstance\n"
+    "  bad    Tandem will not run, or not for long\n"
+    "Run it as the user who runs the hosts: permissions are tried out in a child process; nothing is "
+    "changed.\n"
+    "Exit code 1 if anything is bad, otherwise 0."};
+
 struct Common {
     std::string link;
     std::uint64_t generation = 0;
@@ -110,6 +119,10 @@ void add_shm(CLI::App& tandem, Run& chosen) {
     clean->add_option("LINK", common->link, "only segments of this link");
     add_json(clean, common->json);
     clean->callback([=, &chosen] { chosen = [common] { return shm_clean(common->link, common->json); }; });
+
+    CLI::App* doctor = add(*shm, "doctor", doctor_manual);
+    add_json(doctor, common->json);
+    doctor->callback([=, &chosen] { chosen = [common] { return shm_doctor(common->json); }; });
 }
 
 } // namespace tandem::command

@@ -197,6 +197,19 @@ TEST_CASE("clean removes what the dead left and nothing else") {
     CHECK(shm_program({"stats", living.name}).exit_code == 0);
 }
 
+TEST_CASE("doctor ends with 1 exactly if something is bad") {
+    const auto result = shm_program({"doctor", "--json"});
+    const auto json = result.json();
+    bool any_bad = false;
+    for (const auto& finding : json["findings"]) {
+        any_bad = any_bad || finding["verdict"] == "bad";
+        CHECK(finding.contains("advice") == (finding["verdict"] != "ok"));
+    }
+    CHECK(json["findings"].size() == 20);
+    CHECK(result.exit_code == (any_bad ? 1 : 0));
+    CHECK(shm_program({"doctor"}).says("/dev/shm mount"));
+}
+
 TEST_CASE("what cannot be done is one line that says what and an exit code that is not 0") {
     const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
     for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", "nosuchlink"},
@@ -219,7 +232,8 @@ TEST_CASE("every command explains itself") {
                                                       {"list", "--help"},
                                                       {"info", "--help"},
                                                       {"stats", "--help"},
-                                                      {"clean", "--help"}}) {
+                                                      {"clean", "--help"},
+                                                      {"doctor", "--help"}}) {
         const auto result = shm_program(arguments);
         CHECK(result.exit_code == 0);
         CHECK(result.output.size() > 200);
