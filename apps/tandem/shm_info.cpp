@@ -14,7 +14,7 @@ std::string segment_text(const shm::SegmentView& segment) {
     std::string text = fmt::format("{}: {}, owner {}, mode {:04o}", segment.path,
                                    bytes_text(segment.file_bytes), user_text(segment.owner), segment.mode);
     if (segment.readability != shm::Readability::readable) return text + "\n";
-    text += fmt::format(", layout {}, contract {}, {} old", segment.layout_version, segment.contract,
+    text += fmt::format(", layout {}, contract {:#x}, {} old", segment.layout_version, segment.contract,
                         age_text(segment.created_ns));
     if (segment.superseded_by != 0)
         text += fmt::format(", superseded by generation {}", segment.superseded_by);

@@ -38,14 +38,15 @@ std::optional<Rates> rates_between(const shm::Observation& before, const shm::Ob
     for (const auto& ring : after.rings)
         if (const auto* then = earlier(before.rings, ring)) {
             const auto &a = then->counters, &b = ring.counters;
-            rates.rings.push_back({ring.name, rate(a.sent, b.sent), rate(a.received, b.received),
+            rates.rings.push_back({ring.name, ring.writer, rate(a.sent, b.sent), rate(a.received, b.received),
                                    rate(a.dropped(), b.dropped()), rate(a.bytes_sent, b.bytes_sent),
                                    ring.waiting()});
         }
     for (const auto& queue : after.call_queues)
         if (const auto* then = earlier(before.call_queues, queue)) {
             const auto &a = then->counters, &b = queue.counters;
-            rates.call_queues.push_back({queue.name, rate(a.calls, b.calls), rate(a.answered, b.answered),
+            rates.call_queues.push_back({queue.name, queue.callers, rate(a.calls, b.calls),
+                                         rate(a.answered, b.answered),
                                          rate(a.overloads + a.timeouts, b.overloads + b.timeouts), b.in_use});
         }
     return rates;
@@ -53,14 +54,14 @@ std::optional<Rates> rates_between(const shm::Observation& before, const shm::Ob
 
 std::string to_text(const Rates& rates) {
     const auto number = [](double value) { return fmt::format("{:.{}f}", value, value < 100 ? 1 : 0); };
-    Table rings({"ring", ">sent/s", ">received/s", ">dropped/s", ">MB/s", ">waiting"});
+    Table rings({"ring", "writer", ">sent/s", ">received/s", ">dropped/s", ">MB/s", ">waiting"});
     for (const auto& r : rates.rings)
-        rings.add({printable(r.name), number(r.sent), number(r.received), number(r.dropped),
-                   fmt::format("{:.3f}", r.bytes_sent / 1e6), std::to_string(r.waiting)});
-    Table calls({"call queue", ">calls/s", ">answered/s", ">failed/s", ">in use"});
+        rings.add({printable(r.name), name_of(r.writer), number(r.sent), number(r.received),
+                   number(r.dropped), fmt::format("{:.3f}", r.bytes_sent / 1e6), std::to_string(r.waiting)});
+    Table calls({"call queue", "callers", ">calls/s", ">answered/s", ">failed/s", ">in use"});
     for (const auto& c : rates.call_queues)
-        calls.add({printable(c.name), number(c.calls), number(c.answered), number(c.failed),
-                   std::to_string(c.in_use)});
+        calls.add({printable(c.name), name_of(c.callers), number(c.calls), number(c.answered),
+                   number(c.failed), std::to_string(c.in_use)});
     return (rings.empty() ? "" : rings.text()) + (calls.empty() ? "" : calls.text());
 }
 
@@ -68,6 +69,7 @@ nlohmann::json to_json(const Rates& rates) {
     auto rings = nlohmann::json::array(), calls = nlohmann::json::array();
     for (const auto& r : rates.rings)
         rings.push_back({{"name", r.name},
+                         {"writer", name_of(r.writer)},
                          {"sent_per_s", r.sent},
                          {"received_per_s", r.received},
                          {"dropped_per_s", r.dropped},
@@ -75,6 +77,7 @@ nlohmann::json to_json(const Rates& rates) {
                          {"waiting", r.waiting}});
     for (const auto& c : rates.call_queues)
         calls.push_back({{"name", c.name},
+                         {"callers", name_of(c.callers)},
                          {"calls_per_s", c.calls},
                          {"answered_per_s", c.answered},
                          {"failed_per_s", c.failed},

@@ -13,12 +13,14 @@ namespace tandem::command {
 
 struct RingRate {
     std::string name;
+    shm::Side writer;
     double sent, received, dropped, bytes_sent; ///< per second
     std::uint64_t waiting;                      ///< now
 };
 
 struct CallRate {
     std::string name;
+    shm::Side callers;
     double calls, answered, failed; ///< per second; failed: overload or time-out
     std::uint64_t in_use;           ///< now
 };

@@ -98,7 +98,7 @@ nlohmann::json to_json(const shm::SegmentView& segment) {
                      {"second", side_json(segment, shm::Side::second)}};
     if (segment.readability != shm::Readability::readable) return json;
     json["layout_version"] = segment.layout_version;
-    json["contract"] = segment.contract;
+    json["contract"] = fmt::format("{:#x}", segment.contract); // JSON numbers are exact up to 2^53 only
     json["created_ns_ago"] = age_json(segment.created_ns);
     json["superseded_by"] =
         segment.superseded_by != 0 ? nlohmann::json(segment.superseded_by) : nlohmann::json();

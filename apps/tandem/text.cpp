@@ -49,7 +49,10 @@ std::string bytes_text(std::uint64_t bytes) {
         value /= 1024;
         unit = next;
     }
-    return fmt::format("{:.{}f} {}", value, value < 100 ? 1 : 0, unit);
+    std::string number = fmt::format("{:.{}f}", value, value < 100 ? 1 : 0);
+    if (number.size() > 2 && number.compare(number.size() - 2, 2, ".0") == 0)
+        number.resize(number.size() - 2);
+    return number + " " + unit;
 }
 
 std::string duration_text(std::uint64_t ns) {

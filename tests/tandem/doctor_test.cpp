@@ -109,11 +109,11 @@ TEST_CASE("/dev/shm must be a tmpfs that can be written") {
 
 TEST_CASE("/dev/shm must have room for a link and should have room for images") {
     Patient patient;
-    is(check_shm_space(patient.machine), Verdict::ok, "1.0 GiB free");
+    is(check_shm_space(patient.machine), Verdict::ok, "1 GiB free");
     patient.machine.answers.shm_free = std::uint64_t{64} << 20;
-    is(check_shm_space(patient.machine), Verdict::warn, "64.0 MiB free of 1.0 GiB");
+    is(check_shm_space(patient.machine), Verdict::warn, "64 MiB free of 1 GiB");
     patient.machine.answers.shm_free = std::uint64_t{1} << 20;
-    is(check_shm_space(patient.machine), Verdict::bad, "1.0 MiB free");
+    is(check_shm_space(patient.machine), Verdict::bad, "1 MiB free");
 }
 
 TEST_CASE("huge pages depend on the mount unless the kernel forces or denies them") {
@@ -189,10 +189,10 @@ TEST_CASE("a low limit counts only for those whom it binds") {
     is(check_realtime_limit(patient.machine), Verdict::ok, "90");
     answers.locked_limit = 8 << 20;
     answers.realtime_limit = 0;
-    is(check_locked_limit(patient.machine), Verdict::ok, "8.0 MiB, does not bind");
+    is(check_locked_limit(patient.machine), Verdict::ok, "8 MiB, does not bind");
     is(check_realtime_limit(patient.machine), Verdict::ok, "0, does not bind");
     answers.lock_error = answers.fifo_error = EPERM;
-    is(check_locked_limit(patient.machine), Verdict::warn, "8.0 MiB");
+    is(check_locked_limit(patient.machine), Verdict::warn, "8 MiB");
     is(check_realtime_limit(patient.machine), Verdict::warn, "0");
 }
 
