@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call_client.hpp"
 
-#include "shm/call_slot.hpp"
+#include "shm/adaptive_spin.hpp"
+#include "shm/call_caller.hpp"
 #include "shm/error.hpp"
-#include "shm/shared_copy.hpp"
 
 namespace tandem::shm {
 namespace {
 
-using layout::SlotState;
-
-constexpr auto look_after_peer = std::chrono::milliseconds(5);
+constexpr std::uint64_t look_after_peer_ns = 5'000'000;
 
 CallStatus say(CallStatus status, const std::string& text, std::vector<std::byte>& results) {
     const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
@@ -18,13 +16,145 @@ CallStatus say(CallStatus status, const std::string& text, std::vector<std::byte
     return status;
 }
 
+/// The slot this thread had last, in whichever queue: only a hint where to look first.
+thread_local std::uint32_t last_slot = 0;
+
 } // namespace
 
-CallClient::CallClient(CallQueueHandle queue, const WaitOptions& how) : queue_(std::move(queue)), how_(how) {
-    if (queue_.callers != queue_.mapping->side())
-        throw Error(queue_.mapping->path() + ": a call queue for callers of side " + name_of(queue_.callers) +
-                    " cannot be called here; use CallServer");
+struct CallClient::State {
+    State(const CallQueueHandle& handle, const WaitOptions& options)
+        : queue(handle), how(options), spin_ns(bounded_ns(options.spin)), calling(handle),
+          caller(handle.view), spins(handle.view.slot_count) {}
+
+    /// The calling end of the queue, for one State at a time: it alone knows which slots are idle.
+    struct Calling {
+        explicit Calling(const CallQueueHandle& handle) : word(handle.view.header->calling) {
+            const std::string& path = handle.mapping->path();
+            if (handle.callers != handle.mapping->side())
+                throw Error(path + ": a call queue for callers of side " + name_of(handle.callers) +
+                            " cannot be called here; use CallServer");
+            if (word.exchange(1, std::memory_order_acquire) != 0)
+                throw Error(path + ": this call queue has a CallClient already; share that one");
+        }
+        ~Calling() { word.store(0, std::memory_order_release); }
+        Calling(const Calling&) = delete;
+        Calling& operator=(const Calling&) = delete;
+        layout::Word32& word;
+    };
+
+    CallStatus begin(std::uint32_t operation, std::span<const std::byte> arguments,
+                     std::chrono::nanoseconds timeout, bool waits, CallTicket& ticket,
+                     std::vector<std::byte>& text);
+    CallStatus finish(CallTicket& ticket, std::uint64_t now, std::vector<std::byte>& results);
+    CallStatus await(CallTicket& ticket, std::uint64_t now);
+    CallStatus give_up(const CallTicket& ticket, CallStatus reason);
+    CallStatus collect(const CallTicket& ticket, std::vector<std::byte>& results);
+    void take_time(const CallTicket& ticket);
+
+    const CallQueueHandle queue;
+    const WaitOptions how;
+    const std::uint64_t spin_ns;
+    Calling calling;
+    CallCaller<RealAtomics> caller;
+    std::vector<AdaptiveSpin> spins; // by slot, which is nearly by thread
+    std::atomic<bool> stopped{false};
+    std::atomic<bool> timing{false};
+};
+
+/// ok: submitted. Anything else: `text` says why, if there is more to say.
+CallStatus CallClient::State::begin(std::uint32_t operation, std::span<const std::byte> arguments,
+                                    std::chrono::nanoseconds timeout, bool waits, CallTicket& ticket,
+                                    std::vector<std::byte>& text) {
+    text.clear();
+    if (arguments.size() > queue.view.max_bytes)
+        return say(CallStatus::bad_arguments,
+                   "arguments of " + std::to_string(arguments.size()) + " bytes, the call queue takes " +
+                       std::to_string(queue.view.max_bytes),
+                   text);
+    auto& shared = *queue.view.header;
+    if (stopped.load(std::memory_order_relaxed) || shared.closed.load(std::memory_order_relaxed) != 0)
+        return CallStatus::shut_down;
+    switch (caller.begin(operation, arguments.data(), arguments.size(), bounded_ns(timeout), last_slot, waits,
+                         ticket)) {
+    case CallStart::ok:
+        last_slot = ticket.slot;
+        return CallStatus::ok;
+    case CallStart::closed:
+        return CallStatus::shut_down;
+    case CallStart::overload:
+        break;
+    }
+    shared.overloads.fetch_add(1, std::memory_order_relaxed);
+    return CallStatus::overload;
 }
+
+CallStatus CallClient::State::finish(CallTicket& ticket, std::uint64_t now, std::vector<std::byte>& results) {
+    const CallStatus status = await(ticket, now);
+    if (status == CallStatus::ok) return collect(ticket, results);
+    auto& shared = *queue.view.header;
+    if (status == CallStatus::timeout) shared.timeouts.fetch_add(1, std::memory_order_relaxed);
+    if (status == CallStatus::cancelled || status == CallStatus::shut_down)
+        shared.cancels.fetch_add(1, std::memory_order_relaxed);
+    results.clear();
+    return status;
+}
+
+/// ok: there is a reply to collect. Anything else: the slot is no longer this call's.
+CallStatus CallClient::State::await(CallTicket& ticket, std::uint64_t now) {
+    auto& spin = spins[ticket.slot];
+    const std::uint64_t began = now, deadline = ticket.deadline_ns;
+    bool over = caller.replied(ticket);
+    if (!over && how.mode != WaitMode::futex)
+        over = caller.spin(ticket, std::min(now + spin.limit_ns(spin_ns), deadline));
+    if (over && caller.replied(ticket)) {
+        spin.learn(spin_ns, 0);
+        return CallStatus::ok;
+    }
+    while (!over) {
+        now = now_ns();
+        if (queue.mapping->peer() == PeerState::dead) return give_up(ticket, CallStatus::peer_died);
+        if (stopped.load(std::memory_order_relaxed)) return give_up(ticket, CallStatus::shut_down);
+        if (now >= deadline) return give_up(ticket, CallStatus::timeout);
+        const std::uint64_t slice = std::min(now + look_after_peer_ns, deadline);
+        over = how.mode == WaitMode::spin ? caller.spin(ticket, slice) : caller.sleep(ticket, slice);
+    }
+    spin.learn(spin_ns, now_ns() - began);
+    return caller.replied(ticket) ? CallStatus::ok : give_up(ticket, CallStatus::cancelled);
+}
+
+/// The worker may take or answer the call at this very moment: whoever changes the word first decides.
+CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reason) {
+    if (reason == CallStatus::peer_died) {
+        caller.forget(ticket);
+        return reason;
+    }
+    return caller.withdraw(ticket) ? reason : CallStatus::ok;
+}
+
+CallStatus CallClient::State::collect(const CallTicket& ticket, std::vector<std::byte>& results) {
+    const std::uint64_t word = caller.reply(ticket);
+    const auto status = static_cast<CallStatus>(tag_of(word));
+    const std::uint64_t length = length_of(word);
+    if (word == 0 || status > CallStatus::cancelled || length > queue.view.max_bytes) {
+        caller.forget(ticket); // whatever stands there, it is not submitted any more
+        return say(CallStatus::exception, "the other side has damaged the reply", results);
+    }
+    results.resize(length);
+    caller.copy_results(ticket, results.data(), length);
+    take_time(ticket);
+    caller.done(ticket);
+    return status;
+}
+
+/// One thread at a time writes the histogram; who finds another one at it leaves its time out.
+void CallClient::State::take_time(const CallTicket& ticket) {
+    if (!is_timed(ticket.word) || timing.exchange(true, std::memory_order_acquire)) return;
+    queue.times->round_trip.add(now_ns() - ticket.begun_ns);
+    timing.store(false, std::memory_order_release);
+}
+
+CallClient::CallClient(const CallQueueHandle& queue, const WaitOptions& how)
+    : state_(std::make_shared<State>(queue, how)) {}
 
 Reply CallClient::call(std::uint32_t operation, std::span<const std::byte> arguments,
                        std::chrono::nanoseconds timeout) {
@@ -35,104 +165,58 @@ Reply CallClient::call(std::uint32_t operation, std::span<const std::byte> argum
 
 CallStatus CallClient::call_into(std::uint32_t operation, std::span<const std::byte> arguments,
                                  std::chrono::nanoseconds timeout, std::vector<std::byte>& results) {
-    results.clear();
-    if (arguments.size() > queue_.max_bytes)
-        return say(CallStatus::bad_arguments,
-                   "arguments of " + std::to_string(arguments.size()) + " bytes, the call queue takes " +
-                       std::to_string(queue_.max_bytes),
-                   results);
-    if (stopped_.load(std::memory_order_relaxed) ||
-        queue_.shared->closed.load(std::memory_order_relaxed) != 0)
-        return CallStatus::shut_down;
-    const std::uint32_t index = claim();
-    if (index == no_slot) {
-        queue_.shared->overloads.fetch_add(1, std::memory_order_relaxed);
-        return CallStatus::overload;
+    CallTicket ticket;
+    const CallStatus begun = state_->begin(operation, arguments, timeout, true, ticket, results);
+    return begun == CallStatus::ok ? state_->finish(ticket, ticket.begun_ns, results) : begun;
+}
+
+PendingCall CallClient::begin(std::uint32_t operation, std::span<const std::byte> arguments,
+                              std::chrono::nanoseconds timeout) {
+    PendingCall call(state_);
+    call.refused_ = state_->begin(operation, arguments, timeout, false, call.ticket_, call.reason_);
+    return call;
+}
+
+void CallClient::shut_down() { state_->stopped.store(true, std::memory_order_relaxed); }
+
+CallCounters CallClient::counters() const { return read_counters(state_->queue.view); }
+
+void CancelToken::cancel() const {
+    if (client_) client_->caller.cancel(ticket_);
+}
+
+PendingCall::~PendingCall() {
+    if (!client_ || refused_ != CallStatus::ok) return;
+    if (!client_->caller.withdraw(ticket_)) client_->caller.done(ticket_);
+}
+
+bool PendingCall::ready() const {
+    return !client_ || refused_ != CallStatus::ok || client_->caller.over(ticket_);
+}
+
+CallStatus PendingCall::wait_into(std::vector<std::byte>& results) {
+    const auto client = std::move(client_);
+    if (!client) return say(CallStatus::cancelled, "this call has been waited for already", results);
+    if (refused_ != CallStatus::ok) {
+        results = reason_;
+        return refused_;
     }
-    const std::uint64_t deadline = deadline_after(timeout);
-    submit(index, operation, arguments, deadline);
-    CallStatus status = await(index, deadline);
-    if (status == CallStatus::ok) status = collect(index, results);
-    if (status == CallStatus::timeout) queue_.shared->timeouts.fetch_add(1, std::memory_order_relaxed);
-    return status;
+    return client->finish(ticket_, now_ns(), results);
 }
 
-/// While this looks, slots that it has passed may become free and those ahead be taken: so it looks several
-/// times before it says that there is none.
-std::uint32_t CallClient::claim() {
-    constexpr std::uint32_t rounds = 8;
-    const std::uint32_t start = next_.fetch_add(1, std::memory_order_relaxed) % queue_.slot_count;
-    for (std::uint32_t i = 0; i < rounds * queue_.slot_count; ++i) {
-        const std::uint32_t index = (start + i) % queue_.slot_count;
-        auto& slot = queue_.slot(index);
-        const bool is_free = slot.state.load(std::memory_order_relaxed) == slot_word(SlotState::free);
-        if (is_free && change_slot(slot, SlotState::free, SlotState::claimed)) return index;
-    }
-    return no_slot;
+Reply PendingCall::wait() {
+    Reply reply{CallStatus::ok, {}};
+    reply.status = wait_into(reply.bytes);
+    return reply;
 }
 
-void CallClient::submit(std::uint32_t index, std::uint32_t operation, std::span<const std::byte> arguments,
-                        std::uint64_t deadline) {
-    auto& slot = queue_.slot(index);
-    auto& shared = *queue_.shared;
-    slot.operation.store(operation, std::memory_order_relaxed);
-    slot.deadline_ns.store(deadline, std::memory_order_relaxed);
-    slot.length.store(arguments.size(), std::memory_order_relaxed);
-    copy_to_shared(queue_.buffer(index), arguments.data(), arguments.size());
-    slot.ticket.store(shared.tickets.fetch_add(1, std::memory_order_relaxed), std::memory_order_relaxed);
-    slot.state.store(slot_word(SlotState::submitted), std::memory_order_release);
-    // As in futex.hpp: the submission and the look at `sleepers` here, the announcement and the look at
-    // `submissions` there, all seq_cst; so either the worker sees the call, or this sees the worker.
-    shared.submissions.fetch_add(1, std::memory_order_seq_cst);
-    if (shared.sleepers.load(std::memory_order_seq_cst) != 0) futex_wake(shared.submissions, 1);
-}
+void PendingCall::cancel() { token().cancel(); }
 
-/// ok: there is a reply to collect. Anything else: the slot is no longer this call's.
-CallStatus CallClient::await(std::uint32_t index, std::uint64_t deadline) {
-    auto& slot = queue_.slot(index);
-    const auto over = [&slot] {
-        const std::uint32_t state = slot.state.load(std::memory_order_seq_cst);
-        return state != slot_word(SlotState::submitted) && state != slot_word(SlotState::running);
-    };
-    WaitOptions how = how_;
-    bool done = over();
-    for (std::uint64_t slice = deadline_after(how.spin); !done; slice = deadline_after(look_after_peer)) {
-        done = wait_until(slot.caller_sleeps, how, std::min(slice, deadline), over);
-        if (done) break;
-        if (queue_.mapping->peer() == PeerState::dead) return give_up(index, CallStatus::peer_died);
-        if (stopped_.load(std::memory_order_relaxed)) return give_up(index, CallStatus::shut_down);
-        if (now_ns() >= deadline) return give_up(index, CallStatus::timeout);
-        if (how.mode == WaitMode::spin_then_futex) how.mode = WaitMode::futex; // the time to spin is over
-    }
-    // A state that no honest server sets would end as a damaged reply in collect().
-    return CallStatus::ok;
-}
-
-/// The worker may take or answer the call at this very moment: whoever changes the state first decides.
-CallStatus CallClient::give_up(std::uint32_t index, CallStatus reason) {
-    auto& slot = queue_.slot(index);
-    if (reason == CallStatus::peer_died) {
-        slot.state.store(slot_word(SlotState::free), std::memory_order_release); // nobody else will
-        return reason;
-    }
-    if (change_slot(slot, SlotState::submitted, SlotState::free) ||
-        change_slot(slot, SlotState::running, SlotState::abandoned))
-        return reason;
-    return CallStatus::ok;
-}
-
-CallStatus CallClient::collect(std::uint32_t index, std::vector<std::byte>& results) {
-    auto& slot = queue_.slot(index);
-    const std::uint32_t state = slot.state.load(std::memory_order_acquire);
-    const std::uint32_t status = slot.status.load(std::memory_order_relaxed);
-    const std::uint64_t length = slot.length.load(std::memory_order_relaxed);
-    if (state != slot_word(SlotState::replied) || status > static_cast<std::uint32_t>(CallStatus::shut_down) ||
-        length > queue_.max_bytes)
-        return say(CallStatus::exception, "the other side has damaged the reply", results);
-    results.resize(length);
-    copy_from_shared(results.data(), queue_.buffer(index), length);
-    slot.state.store(slot_word(SlotState::free), std::memory_order_release);
-    return static_cast<CallStatus>(status);
+CancelToken PendingCall::token() const {
+    CancelToken token;
+    if (refused_ == CallStatus::ok) token.client_ = client_;
+    token.ticket_ = ticket_;
+    return token;
 }
 
 } // namespace tandem::shm

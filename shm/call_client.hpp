@@ -11,11 +11,14 @@ struct Reply {
     std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 };
 
-/// [any-thread, any number at once] The calling end of a call queue.
+class PendingCall;
+
+/// [any-thread, any number at once] The calling end of a call queue; a queue has one at a time.
 class CallClient {
   public:
-    /// Throws Error if this side is not the callers' side. `how`: how a caller waits for its reply.
-    explicit CallClient(CallQueueHandle queue, const WaitOptions& how = {});
+    /// Throws Error if this side is not the callers' side, or another CallClient has this queue. `how`: how a
+    /// caller waits for its reply.
+    explicit CallClient(const CallQueueHandle& queue, const WaitOptions& how = {});
 
     /// Runs an operation on the other side and waits for its reply, at most `timeout`. timeout: whether it
     /// ran is unknown, but it will not start any more. overload: no slot was free, it has not run. peer_died:
@@ -27,25 +30,56 @@ class CallClient {
     CallStatus call_into(std::uint32_t operation, std::span<const std::byte> arguments,
                          std::chrono::nanoseconds timeout, std::vector<std::byte>& results);
 
-    /// Ends all calls within 5 ms, and all later ones, with CallStatus::shut_down.
-    void shut_down() { stopped_.store(true, std::memory_order_relaxed); }
+    /// Submits a call and goes on. `timeout` runs from here. Errors come out of PendingCall::wait().
+    PendingCall begin(std::uint32_t operation, std::span<const std::byte> arguments,
+                      std::chrono::nanoseconds timeout);
 
-    CallCounters counters() const { return read_counters(queue_); }
+    /// Ends all calls within 5 ms, and all later ones, with CallStatus::shut_down.
+    void shut_down();
+
+    CallCounters counters() const;
 
   private:
-    static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
+    friend class PendingCall;
+    friend class CancelToken;
+    struct State;
+    std::shared_ptr<State> state_;
+};
 
-    std::uint32_t claim();
-    void submit(std::uint32_t index, std::uint32_t operation, std::span<const std::byte> arguments,
-                std::uint64_t deadline);
-    CallStatus await(std::uint32_t index, std::uint64_t deadline);
-    CallStatus give_up(std::uint32_t index, CallStatus reason);
-    CallStatus collect(std::uint32_t index, std::vector<std::byte>& results);
+/// [any-thread] Ends one call with CallStatus::cancelled: it will not start any more; if it runs already, its
+/// worker may learn of it (IncomingCall::cancelled). After the call's end it does nothing.
+class CancelToken {
+  public:
+    void cancel() const;
 
-    CallQueueHandle queue_;
-    WaitOptions how_;
-    std::atomic<std::uint32_t> next_{0};
-    std::atomic<bool> stopped_{false};
+  private:
+    friend class PendingCall;
+    std::shared_ptr<CallClient::State> client_;
+    CallTicket ticket_;
+};
+
+/// [one thread at a time] A call begun and not yet waited for. Destroyed before, it cancels the call.
+class PendingCall {
+  public:
+    PendingCall(PendingCall&& from) noexcept = default;
+    PendingCall& operator=(PendingCall&&) = delete;
+    ~PendingCall();
+
+    bool ready() const; ///< wait() will return at once
+    Reply wait();       ///< Once.
+    CallStatus wait_into(std::vector<std::byte>& results);
+
+    void cancel(); ///< wait() returns CallStatus::cancelled, unless the reply was there before.
+    CancelToken token() const;
+
+  private:
+    friend class CallClient;
+    explicit PendingCall(std::shared_ptr<CallClient::State> client) : client_(std::move(client)) {}
+
+    std::shared_ptr<CallClient::State> client_; // empty once waited for (or moved from)
+    CallTicket ticket_;
+    CallStatus refused_ = CallStatus::ok; // if not, it was never submitted, for this
+    std::vector<std::byte> reason_;       // and that text
 };
 
 } // namespace tandem::shm

@@ -15,11 +15,15 @@ class IncomingCall {
     IncomingCall& operator=(IncomingCall&&) = delete;
     ~IncomingCall();
 
-    std::uint32_t operation() const { return operation_; }
-    std::span<const std::byte> arguments() const {
-        return arguments_;
-    }                                                       ///< a private copy; valid until reply()
-    std::uint64_t deadline_ns() const { return deadline_; } ///< of now_ns()
+    std::uint32_t operation() const { return taken_.operation; }
+    std::span<const std::byte> arguments() const { ///< A private copy; valid until reply().
+        return {static_cast<const std::byte*>(taken_.arguments), taken_.bytes()};
+    }
+    std::uint64_t deadline_ns() const { return taken_.deadline_ns; } ///< of now_ns()
+
+    /// The caller has given up (deadline, cancel, shut-down): nobody waits for the reply any more.
+    /// [any-thread]
+    bool cancelled() const;
 
     /// Results, or the text of an error. Results longer than the queue takes become CallStatus::exception.
     void reply(CallStatus status, std::span<const std::byte> bytes);
@@ -28,12 +32,11 @@ class IncomingCall {
   private:
     friend class CallServer;
     struct State;
-    IncomingCall(std::shared_ptr<State> server, std::uint32_t index);
+    IncomingCall(std::shared_ptr<State> server, const TakenCall& taken)
+        : server_(std::move(server)), taken_(taken) {}
 
     std::shared_ptr<State> server_; // empty once answered (or moved from)
-    std::uint32_t index_, operation_ = 0;
-    std::uint64_t deadline_ = 0;
-    std::span<const std::byte> arguments_;
+    TakenCall taken_;
 };
 
 /// [any-thread, any number at once] The serving end of a call queue.
@@ -41,7 +44,7 @@ class CallServer {
   public:
     /// Throws Error if this side is the callers' side. `how`: how an idle worker waits; only one at a time
     /// spins.
-    explicit CallServer(CallQueueHandle queue, const WaitOptions& how = {});
+    explicit CallServer(const CallQueueHandle& queue, const WaitOptions& how = {});
     ~CallServer(); ///< shut_down()
     CallServer(const CallServer&) = delete;
     CallServer& operator=(const CallServer&) = delete;
@@ -59,15 +62,7 @@ class CallServer {
     CallCounters counters() const;
 
   private:
-    std::optional<IncomingCall> take_waiting();
-    std::uint32_t claim_oldest();
-    void wait_for_submission(std::uint32_t seen, std::uint64_t deadline);
-    void free_slots_of_dead_callers();
-
     std::shared_ptr<IncomingCall::State> state_;
-    WaitOptions how_;
-    std::atomic<bool> interrupted_{false};
-    std::atomic<bool> spinning_{false};
 };
 
 } // namespace tandem::shm

@@ -18,10 +18,13 @@ inline std::uint64_t now_ns() {
 /// No wait of this room is longer; a bound beyond it (or "forever") is cut to it.
 constexpr std::chrono::nanoseconds longest_wait = std::chrono::hours(24);
 
-/// The point of now_ns() at which a wait of this bound ends.
-inline std::uint64_t deadline_after(std::chrono::nanoseconds bound) {
-    return now_ns() + static_cast<std::uint64_t>(
-                          std::clamp(bound, std::chrono::nanoseconds::zero(), longest_wait).count());
+/// A bound in nanoseconds, none negative and none too long.
+inline std::uint64_t bounded_ns(std::chrono::nanoseconds bound) {
+    return static_cast<std::uint64_t>(
+        std::clamp(bound, std::chrono::nanoseconds::zero(), longest_wait).count());
 }
+
+/// The point of now_ns() at which a wait of this bound ends.
+inline std::uint64_t deadline_after(std::chrono::nanoseconds bound) { return now_ns() + bounded_ns(bound); }
 
 } // namespace tandem::shm

@@ -1,68 +1,83 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/incoming_call.hpp"
 
-#include "shm/shared_copy.hpp"
-
 namespace tandem::shm {
 
-using layout::SlotState;
-
-IncomingCall::State::State(CallQueueHandle handle)
-    : queue(std::move(handle)), words_per_slot(round_up(queue.max_bytes, word_bytes) / word_bytes),
-      busy(queue.slot_count) {
-    buffers.resize(words_per_slot * queue.slot_count);
+/// Calls that must not run are answered here.
+std::optional<TakenCall> IncomingCall::State::take_waiting(bool& watches) {
+    for (std::uint32_t i = 0; i < queue.view.slot_count; ++i) {
+        const auto call = worker.take(watches);
+        if (!call) break;
+        if (!call->sound) {
+            answer(*call, CallStatus::bad_arguments, {});
+        } else if (worker.closed()) {
+            answer(*call, CallStatus::shut_down, {});
+        } else if (call->taken_ns >= call->deadline_ns) {
+            queue.view.header->expired.fetch_add(1, std::memory_order_relaxed);
+            answer(*call, CallStatus::timeout, {});
+        } else {
+            return call;
+        }
+    }
+    return std::nullopt;
 }
 
-bool IncomingCall::State::load(std::uint32_t index, std::uint32_t& operation, std::uint64_t& deadline,
-                               std::span<const std::byte>& arguments) {
-    const auto& slot = queue.slot(index);
-    operation = slot.operation.load(std::memory_order_relaxed);
-    deadline = slot.deadline_ns.load(std::memory_order_relaxed);
-    const std::uint64_t length = slot.length.load(std::memory_order_relaxed);
-    if (length > queue.max_bytes) return false;
-    auto* copy = reinterpret_cast<std::byte*>(buffers.data() + index * words_per_slot);
-    copy_from_shared(copy, queue.buffer(index), length);
-    arguments = {copy, length};
-    return true;
+std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds bound) {
+    const std::uint64_t began = now_ns(), deadline = began + bounded_ns(bound);
+    const std::uint64_t spin_end = std::min(deadline, began + spin.limit_ns(spin_ns));
+    std::uint64_t now = began; // not read anew for a call that was found by polling: only learn() uses it
+    for (bool watches = false, polled = false;;) {
+        auto call = take_waiting(watches);
+        if (call || worker.interrupted() || now >= deadline) {
+            if (watches) worker.stop_watching();
+            if (polled) spin.learn(spin_ns, now - began);
+            return call;
+        }
+        if (how.mode == WaitMode::spin) {
+            if (worker.spin(deadline)) continue;
+        } else {
+            watches = watches || (how.mode == WaitMode::spin_then_futex && worker.watch());
+            polled = polled || watches;
+            if (watches && worker.spin(spin_end)) continue;
+            if (watches) worker.stop_watching();
+            watches = false;
+            worker.sleep(deadline);
+        }
+        now = now_ns();
+    }
 }
 
-void IncomingCall::State::answer(std::uint32_t index, CallStatus status, std::span<const std::byte> bytes) {
-    auto& slot = queue.slot(index);
-    queue.shared->answered.fetch_add(1, std::memory_order_relaxed);
-    slot.status.store(static_cast<std::uint32_t>(status), std::memory_order_relaxed);
-    slot.length.store(bytes.size(), std::memory_order_relaxed);
-    copy_to_shared(queue.buffer(index), bytes.data(), bytes.size());
-    busy[index].store(false, std::memory_order_release);
-    // seq_cst against the caller's announcement of its sleep (futex.hpp).
-    std::uint32_t expected = slot_word(SlotState::running);
-    if (slot.state.compare_exchange_strong(expected, slot_word(SlotState::replied),
-                                           std::memory_order_seq_cst))
-        wake(slot.caller_sleeps);
-    else
-        change_slot(slot, SlotState::abandoned, SlotState::free);
+void IncomingCall::State::answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes) {
+    // One thread at a time writes the histogram; who finds another one at it leaves its time out.
+    if (is_timed(call.word) && !timing.exchange(true, std::memory_order_acquire)) {
+        queue.times->service.add(now_ns() - call.taken_ns);
+        timing.store(false, std::memory_order_release);
+    }
+    if (worker.answer(call, static_cast<std::uint32_t>(status), bytes.data(), bytes.size()))
+        queue.view.header->caller_wakes.fetch_add(1, std::memory_order_relaxed);
 }
-
-IncomingCall::IncomingCall(std::shared_ptr<State> server, std::uint32_t index)
-    : server_(std::move(server)), index_(index) {}
 
 IncomingCall::~IncomingCall() {
     if (server_) reply(CallStatus::exception, "the call was not answered");
 }
 
+bool IncomingCall::cancelled() const { return !server_ || server_->worker.cancelled(taken_); }
+
 void IncomingCall::reply(CallStatus status, std::span<const std::byte> bytes) {
     if (!server_) return;
-    if (bytes.size() > server_->queue.max_bytes)
+    const std::uint64_t longest = server_->queue.view.max_bytes;
+    if (bytes.size() > longest)
         return reply(status == CallStatus::ok ? CallStatus::exception : status,
                      "a result of " + std::to_string(bytes.size()) + " bytes, the call queue takes " +
-                         std::to_string(server_->queue.max_bytes));
-    server_->answer(index_, status, bytes);
+                         std::to_string(longest));
+    server_->answer(taken_, status, bytes);
     server_.reset();
 }
 
 void IncomingCall::reply(CallStatus status, const std::string& text) {
     if (!server_) return;
     const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
-    reply(status, std::span(bytes, std::min<std::size_t>(text.size(), server_->queue.max_bytes)));
+    reply(status, std::span(bytes, std::min<std::size_t>(text.size(), server_->queue.view.max_bytes)));
 }
 
 } // namespace tandem::shm

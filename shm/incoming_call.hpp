@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inside of the serving end; users include call_server.hpp.
 #pragma once
+#include "shm/adaptive_spin.hpp"
 #include "shm/call_server.hpp"
-#include "shm/call_slot.hpp"
+#include "shm/call_worker.hpp"
 
 namespace tandem::shm {
 
-/// What all calls of one server share: the queue, and one private argument buffer per slot.
+/// What all calls of one server share.
 struct IncomingCall::State {
-    explicit State(CallQueueHandle handle);
+    State(const CallQueueHandle& handle, const WaitOptions& options)
+        : queue(handle), how(options), spin_ns(bounded_ns(options.spin)), worker(handle.view) {}
 
-    /// Reserves a slot's private buffer. False: a worker of this server still uses it, so the other side has
-    /// tampered with the slot's state.
-    bool enter(std::uint32_t index) { return !busy[index].exchange(true, std::memory_order_acquire); }
+    std::optional<TakenCall> take(std::chrono::nanoseconds bound);
+    std::optional<TakenCall> take_waiting(bool& watches);
+    void answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes);
 
-    /// Copies a running slot's call out of shared memory. False: it is longer than the queue takes.
-    bool load(std::uint32_t index, std::uint32_t& operation, std::uint64_t& deadline,
-              std::span<const std::byte>& arguments);
-    void answer(std::uint32_t index, CallStatus status, std::span<const std::byte> bytes);
+    const CallQueueHandle queue;
+    const WaitOptions how;
+    const std::uint64_t spin_ns;
+    CallWorker<RealAtomics> worker;
 
-    CallQueueHandle queue;
-    std::vector<std::uint64_t> buffers;
-    std::size_t words_per_slot;
-    std::vector<std::atomic<bool>> busy;
+  private:
+    AdaptiveSpin spin;
+    std::atomic<bool> timing{false};
 };
 
 } // namespace tandem::shm

@@ -15,8 +15,8 @@
 //        +---------------------------+
 //        | SideHeader of second      |
 //        +---------------------------+  arena_offset[0], page aligned
-//        | arena of first            |  objects of first: RingHeader + bytes | CallQueueHeader + slots |
-//        blobs
+//        | arena of first            |  objects of first: RingHeader + bytes | CallQueueHeader + CallTimes +
+//        slots | blobs
 //        +---------------------------+  arena_offset[1]
 //        | arena of second           |
 //        +---------------------------+  total_bytes = size of the file, reserved and touched at creation
@@ -32,6 +32,9 @@
 // Words that change while both sides look are std::atomic; they stand on cache-line pairs of their own,
 // because the hardware fetches lines in pairs.
 #pragma once
+#include "shm/atomics.hpp"
+#include "shm/histogram.hpp"
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -44,7 +47,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 1;
+constexpr std::uint32_t layout_version = 2;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line_pair = 128;
 constexpr std::size_t max_objects = 512;
@@ -149,49 +152,97 @@ static_assert(offsetof(RingHeader, sent) == 384 && offsetof(RingHeader, received
 static_assert(sizeof(RingHeader) == 640);
 static_assert(sizeof(RecordHeader) == 24);
 
-// Call queue: slot_count slots follow the header, each CallSlot + max_bytes (rounded up to a line pair). The
-// buffer holds the arguments while the state is submitted, the results from replied on.
+// Call queue: header, then CallTimes, then slot_count slots, then slot_count overflow buffers of
+// overflow_bytes each. A slot is two line pairs, one per direction, because each direction has one writer and
+// one poller. A call whose arguments and results are short moves no other line than these:
 //
-//          caller             caller              worker             worker             caller
-//   free ---------> claimed ---------> submitted ---------> running ---------> replied ---------> free
-//                                          |                   | caller gave up           (also: server, when
-//                                          | caller gave up    v                           the caller is
-//                                          dead)
-//                                          +--> free       abandoned -- worker done --> free
-enum class SlotState : std::uint32_t { free, claimed, submitted, running, replied, abandoned };
+//          0             8                   16          24             32      40
+//   request  word (64)   operation | ticket  deadline    caller_sleeps  calls   arguments (88)
+//   reply    word (64)   answered            results (112)
+//
+// What is longer goes on in the slot's overflow buffer (arguments from their byte 88 on, results from 112
+// on). Request word: state (4 bits) | sequence (28) | length in bytes (32); reply word: status (4) | sequence
+// (28) | length (32). The sequence counts the calls of the slot; a reply belongs to the request that has the
+// same one, and that makes the slot idle again without a further write to a shared line:
+//
+//           caller               worker               reply word has the same sequence
+//   (idle) ---------> submitted ---------> running -------------------------------------> (idle)
+//                         | caller gave up    | caller gave up                              ^
+//                         v                   v                                             |
+//                     cancelled (idle)    abandoned ----------------------------------------+
+//
+// Which idle slots are whose is known to the callers' process alone: callers live in one process, its death
+// ends them all, and a dead process' generation has no other callers. Nothing has to be cleaned up for it.
+enum class CallState : std::uint32_t { none, submitted, running, cancelled, abandoned };
 
-struct CallSlot {
-    Word32 state;         // SlotState
-    Word32 caller_sleeps; // futex word
-    Word64 ticket;        // order of submission
-    Word64 deadline_ns;   // CLOCK_MONOTONIC
-    Word32 operation;
-    Word32 status; // CallStatus
-    Word64 length; // bytes of arguments or results
-    std::byte unused[88];
+template <class A>
+struct alignas(line_pair) BasicCallRequest {
+    typename A::template Atomic<std::uint64_t> word; // the caller's, but submitted -> running by a worker
+    typename A::template Atomic<std::uint64_t> what; // operation (32 bits) | ticket: submission time in us
+    typename A::template Atomic<std::uint64_t> deadline_ns;   // CLOCK_MONOTONIC
+    typename A::template Atomic<std::uint32_t> caller_sleeps; // futex word
+    std::uint32_t unused;
+    typename A::template Atomic<std::uint64_t> calls; // counter: submitted in this slot
+    typename A::Cell arguments[11];
 };
 
-struct CallQueueHeader {
+template <class A>
+struct alignas(line_pair) BasicCallReply {
+    typename A::template Atomic<std::uint64_t> word;
+    typename A::template Atomic<std::uint64_t> answered; // counter: replies given in this slot
+    typename A::Cell results[14];
+};
+
+template <class A>
+struct BasicCallSlot {
+    BasicCallRequest<A> request;
+    BasicCallReply<A> reply;
+};
+
+template <class A>
+struct BasicCallQueueHeader {
     std::uint32_t slot_count;
-    std::uint32_t callers;    // Side
-    std::uint64_t max_bytes;  // of arguments, and of results
-    std::uint64_t slot_bytes; // from slot to slot
-    std::byte unused0[104];
-    alignas(line_pair) Word32 submissions; // futex word of idle workers; grows with every call
-    Word32 sleepers;                       // workers asleep
-    Word32 closed;                         // 1 = no further call will be served
-    std::byte unused1[116];
-    alignas(line_pair) Word64 tickets; // counters of the callers; tickets = calls submitted
-    Word64 overloads;
-    Word64 timeouts;
-    std::byte unused2[104];
-    alignas(line_pair) Word64 taken; // counters of the server
-    Word64 answered;
-    std::byte unused3[112];
+    std::uint32_t callers;        // Side
+    std::uint64_t max_bytes;      // of arguments, and of results
+    std::uint64_t overflow_bytes; // of each overflow buffer
+    // Read by callers with every call, written by the server when its workers fall asleep or wake.
+    alignas(line_pair) typename A::template Atomic<std::uint32_t> sleepers; // workers asleep or about to
+    typename A::template Atomic<std::uint32_t> watching;                    // CallWatch
+    typename A::template Atomic<std::uint32_t> closed; // 1 = no further call will be served
+    typename A::template Atomic<std::uint32_t> rung;   // futex word of sleeping workers
+    // Events that are rare; several threads of the callers' side count them.
+    alignas(line_pair) typename A::template Atomic<std::uint32_t> calling; // 1 = a CallClient has this end
+    typename A::template Atomic<std::uint64_t> overloads;                  // refused: no idle slot
+    typename A::template Atomic<std::uint64_t> timeouts;                   // given up at the deadline
+    typename A::template Atomic<std::uint64_t> cancels;                    // given up for cancel or shut-down
+    typename A::template Atomic<std::uint64_t> worker_wakes;               // system calls to wake a worker
+    // The same of the server's side.
+    alignas(line_pair)
+        typename A::template Atomic<std::uint64_t> expired;  // taken after the deadline, not run
+    typename A::template Atomic<std::uint64_t> caller_wakes; // system calls to wake a caller
 };
 
-static_assert(sizeof(CallSlot) == line_pair && offsetof(CallSlot, length) == 32);
-static_assert(offsetof(CallQueueHeader, submissions) == 128 && offsetof(CallQueueHeader, tickets) == 256);
-static_assert(sizeof(CallQueueHeader) == 512);
+// Does a worker look at the slots at this moment? no: wake one. yes: it polls. soon: it has just answered and
+// is expected back; a caller that waits itself may rely on that, because it looks again before it sleeps.
+enum class CallWatch : std::uint32_t { no, yes, soon };
+
+// Every 16th call of a slot is timed (the first 1024 all), by the side that waits or works.
+struct alignas(line_pair) CallTimes {
+    Histogram round_trip; // begin of the call to its reply, as the caller sees it
+    Histogram service;    // taken to answered, as the server sees it
+};
+
+using CallRequest = BasicCallRequest<RealAtomics>;
+using CallReply = BasicCallReply<RealAtomics>;
+using CallSlot = BasicCallSlot<RealAtomics>;
+using CallQueueHeader = BasicCallQueueHeader<RealAtomics>;
+
+static_assert(sizeof(CallSlot) == 2 * line_pair && offsetof(CallSlot, reply) == line_pair);
+static_assert(offsetof(CallRequest, calls) == 32);
+static_assert(offsetof(CallRequest, arguments) == 40);
+static_assert(offsetof(CallReply, results) == 16);
+static_assert(offsetof(CallQueueHeader, sleepers) == 128 && offsetof(CallQueueHeader, calling) == 256);
+static_assert(offsetof(CallQueueHeader, expired) == 384 && sizeof(CallQueueHeader) == 512);
+static_assert(sizeof(CallTimes) == 2048);
 
 } // namespace tandem::shm::layout

@@ -7,6 +7,7 @@
 #include "shm/segment_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -73,6 +74,8 @@ struct CallQueueView : ObjectView {
     std::uint64_t max_bytes = 0;
     bool closed = false;
     CallCounters counters{};
+    /// Counts by bucket of layout::Histogram; a sample of the calls (layout::CallTimes).
+    std::array<std::uint64_t, layout::Histogram::buckets> round_trip{}, service{};
 };
 
 struct Observation {

@@ -57,28 +57,40 @@ RingView view_ring(const QuietFile& file, ObjectView object, std::uint64_t place
     return ring;
 }
 
-std::uint64_t slots_in_use(const QuietFile& file, std::uint64_t slots_begin, std::uint32_t slots,
-                           std::uint64_t slot_bytes) {
-    std::uint64_t in_use = 0;
-    for (std::uint32_t i = 0; i < slots; ++i) {
-        Copied<4> state;
-        if (file.read(slots_begin + i * slot_bytes + offsetof(CallSlot, state), state.bytes) &&
-            state.get<std::uint32_t>(0) != static_cast<std::uint32_t>(layout::SlotState::free))
-            ++in_use;
+bool count_slots(const QuietFile& file, std::uint64_t slots_begin, CallQueueView& queue) {
+    using layout::CallReply;
+    using layout::CallRequest;
+    for (std::uint32_t i = 0; i < queue.slots; ++i) {
+        const std::uint64_t place = slots_begin + i * sizeof(CallSlot);
+        Copied<sizeof(CallReply)> reply;
+        Copied<sizeof(CallRequest)> request;
+        // The reply first: what was answered then had been submitted before.
+        if (!file.read(place + offsetof(CallSlot, reply), reply.bytes) ||
+            !file.read(place + offsetof(CallSlot, request), request.bytes))
+            return false;
+        count_slot(queue.counters, reply.get<std::uint64_t>(offsetof(CallReply, answered)),
+                   reply.get<std::uint64_t>(offsetof(CallReply, word)),
+                   request.get<std::uint64_t>(offsetof(CallRequest, word)),
+                   request.get<std::uint64_t>(offsetof(CallRequest, calls)));
     }
-    return in_use;
+    return true;
+}
+
+bool copy_times(const QuietFile& file, std::uint64_t place, CallQueueView& queue) {
+    using layout::CallTimes;
+    Copied<sizeof(CallTimes)> copy;
+    if (!file.read(place, copy.bytes)) return false;
+    for (std::size_t i = 0; i < layout::Histogram::buckets; ++i) {
+        queue.round_trip[i] = copy.get<std::uint64_t>(offsetof(CallTimes, round_trip) + 8 * i);
+        queue.service[i] = copy.get<std::uint64_t>(offsetof(CallTimes, service) + 8 * i);
+    }
+    return true;
 }
 
 CallQueueView view_call_queue(const QuietFile& file, ObjectView object, std::uint64_t place) {
-    constexpr std::uint32_t most_slots = 256;
     CallQueueView queue{std::move(object)};
     Copied<sizeof(CallQueueHeader)> copy;
-    // The server's counters first: what was taken then had been submitted before.
-    const bool complete =
-        queue.bytes >= sizeof(CallQueueHeader) &&
-        read_part(file, place, copy, offsetof(CallQueueHeader, taken), sizeof(CallQueueHeader)) &&
-        read_part(file, place, copy, 0, offsetof(CallQueueHeader, taken));
-    if (!complete) {
+    if (queue.bytes < sizeof(CallQueueHeader) || !file.read(place, copy.bytes)) {
         queue.damage = cut_off;
         return queue;
     }
@@ -88,20 +100,20 @@ CallQueueView view_call_queue(const QuietFile& file, ObjectView object, std::uin
     queue.callers = static_cast<Side>(half_word(offsetof(CallQueueHeader, callers)));
     queue.max_bytes = word(offsetof(CallQueueHeader, max_bytes));
     queue.closed = half_word(offsetof(CallQueueHeader, closed)) != 0;
-    const std::uint64_t slot_bytes = word(offsetof(CallQueueHeader, slot_bytes));
-    const std::uint64_t room = queue.bytes - sizeof(CallQueueHeader);
-    if (queue.slots < 1 || queue.slots > most_slots || queue.callers > Side::second ||
-        slot_bytes < sizeof(CallSlot) || queue.max_bytes > slot_bytes - sizeof(CallSlot) ||
-        slot_bytes > room || queue.slots * slot_bytes != room) {
+    const std::uint64_t bytes = call_queue_size({queue.callers, queue.slots, queue.max_bytes});
+    if (bytes == 0 || queue.bytes != bytes) {
         queue.damage = "its header is not that of a call queue of " + std::to_string(queue.bytes) + " bytes";
         return queue;
     }
-    queue.counters.calls = word(offsetof(CallQueueHeader, tickets));
     queue.counters.overloads = word(offsetof(CallQueueHeader, overloads));
     queue.counters.timeouts = word(offsetof(CallQueueHeader, timeouts));
-    queue.counters.taken = word(offsetof(CallQueueHeader, taken));
-    queue.counters.answered = word(offsetof(CallQueueHeader, answered));
-    queue.counters.in_use = slots_in_use(file, place + sizeof(CallQueueHeader), queue.slots, slot_bytes);
+    queue.counters.cancels = word(offsetof(CallQueueHeader, cancels));
+    queue.counters.expired = word(offsetof(CallQueueHeader, expired));
+    queue.counters.worker_wakes = word(offsetof(CallQueueHeader, worker_wakes));
+    queue.counters.caller_wakes = word(offsetof(CallQueueHeader, caller_wakes));
+    const std::uint64_t times = place + sizeof(CallQueueHeader);
+    if (!count_slots(file, times + sizeof(layout::CallTimes), queue) || !copy_times(file, times, queue))
+        queue.damage = cut_off;
     return queue;
 }
 

@@ -23,8 +23,8 @@ struct CallPair : Pair {
     CallQueueHandle seen_by_second() {
         auto handle = *second->find_call_queue(Side::first, "c");
         const auto same = *first->find_call_queue(Side::first, "c");
-        handle.shared = same.shared;
-        handle.slots = same.slots;
+        handle.view = same.view;
+        handle.times = same.times;
         return handle;
     }
     CallClient client;

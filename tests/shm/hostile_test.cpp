@@ -165,7 +165,7 @@ TEST_CASE("a ring whose header or records are damaged while it is in use ends cl
 }
 
 TEST_CASE("a call queue with a damaged header or slot is refused or works within bounds") {
-    constexpr std::size_t slot = sizeof(layout::CallQueueHeader);
+    constexpr std::size_t slot = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
     for (std::size_t from = 0; from < slot + sizeof(layout::CallSlot); from += 8) {
         Pair pair(small(4096));
         pair.first->add_call_queue("c", {.slots = 1, .max_bytes = 64});
@@ -187,7 +187,7 @@ TEST_CASE("a call queue with a damaged header or slot is refused or works within
 }
 
 TEST_CASE("a submitted call whose slot is damaged is taken within bounds or not at all") {
-    constexpr std::size_t slot = sizeof(layout::CallQueueHeader);
+    constexpr std::size_t slot = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
     for (std::size_t at = 0; at < sizeof(layout::CallSlot); ++at) {
         for (const unsigned value : values) {
             Pair pair(small(4096));
@@ -196,9 +196,8 @@ TEST_CASE("a submitted call whose slot is damaged is taken within bounds or not 
             CallServer server(*pair.second->find_call_queue(Side::first, "c"));
             auto* memory = memory_of(*pair.first, Side::first, "c");
             auto& raw = *reinterpret_cast<layout::CallSlot*>(memory + slot);
-            raw.length.store(8);
-            raw.deadline_ns.store(~std::uint64_t{0});
-            raw.state.store(static_cast<std::uint32_t>(layout::SlotState::submitted));
+            raw.request.deadline_ns.store(~std::uint64_t{0});
+            raw.request.word.store(call_word(layout::CallState::submitted, 1, 8));
             memory[slot + at] = static_cast<std::byte>(value);
             for (int i = 0; i < 3; ++i)
                 if (auto call = server.take(0ns)) CHECK(call->arguments().size() <= 64);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Durations in a segment, counted by one writer, read by anybody at any time.
+#pragma once
+#include <atomic>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace tandem::shm::layout {
+
+/// Four buckets per octave: bucket 0 counts what is below 64 ns, the last one everything from 160 s on.
+struct Histogram {
+    static constexpr std::size_t buckets = 128;
+
+    static constexpr std::size_t bucket_of(std::uint64_t ns) {
+        if (ns < 64) return 0;
+        const auto octave = static_cast<std::size_t>(std::bit_width(ns)) - 7;
+        const std::size_t bucket = 1 + 4 * octave + ((ns >> (octave + 4)) & 3U);
+        return bucket < buckets ? bucket : buckets - 1;
+    }
+    /// The smallest duration that falls into a bucket.
+    static constexpr std::uint64_t begin_of(std::size_t bucket) {
+        return bucket == 0 ? 0 : (4 + (bucket - 1) % 4) << ((bucket - 1) / 4 + 4);
+    }
+
+    /// [one thread at a time] A plain addition: two writers at once would lose counts.
+    void add(std::uint64_t ns) {
+        auto& count = counts[bucket_of(ns)];
+        count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    }
+
+    std::atomic<std::uint64_t> counts[buckets];
+};
+static_assert(sizeof(Histogram) == 1024);
+static_assert(Histogram::bucket_of(64) == 1 && Histogram::begin_of(1) == 64);
+static_assert(Histogram::bucket_of(127) == 4 && Histogram::bucket_of(128) == 5);
+static_assert(Histogram::begin_of(5) == 128 && Histogram::begin_of(4) == 112);
+
+} // namespace tandem::shm::layout
