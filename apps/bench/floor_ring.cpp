@@ -3,80 +3,97 @@
 #include "apps/bench/cases.hpp"
 #include "apps/bench/index_ring.hpp"
 
+#include <cstring>
+
 namespace tandem::bench {
 
 namespace {
 
-constexpr std::uint32_t small_slots = 1024;
-
 /// Two rings, one for each direction.
+template <std::size_t bytes, Wake wake>
 class RingEnd {
   public:
     explicit RingEnd(Session& session)
-        : bytes_(session.bytes()), out_(ring(session, session.is_a() ? 0 : 1)),
-          in_(ring(session, session.is_a() ? 1 : 0)) {}
+        : out_(memory(session, session.is_a() ? 0 : 1)), in_(memory(session, session.is_a() ? 1 : 0)) {}
     void send(std::uint64_t sequence) {
-        fill(out_.claim(), bytes_, sequence);
+        fill(out_.claim(), bytes, sequence);
         out_.publish();
     }
     std::uint64_t receive() {
-        const std::uint64_t sequence = sequence_of(in_.next(), bytes_);
+        const std::uint64_t sequence = sequence_of(in_.next(), bytes);
         in_.release();
         return sequence;
     }
 
   private:
-    static std::uint32_t slots(std::size_t bytes) { return bytes <= 4096 ? small_slots : 4; }
-    static IndexRing ring(Session& session, int index) {
-        const std::size_t slot = std::max<std::size_t>(session.bytes(), 64);
-        const std::size_t size = IndexRing::bytes(slot, slots(slot)) + 4096;
-        return {session.memory().data() + static_cast<std::size_t>(index) * size, slot, slots(slot),
-                session.measured().wake};
+    using Ring = IndexRing<bytes, bytes <= 4096 ? 1024 : 4, wake>;
+    static std::byte* memory(Session& session, std::size_t index) {
+        constexpr std::size_t page = 4096;
+        return session.memory().data() + index * ((Ring::memory_bytes + page) / page * page);
     }
-    std::size_t bytes_;
-    IndexRing out_, in_;
+    Ring out_, in_;
 };
 
-class PairClient : public RingEnd {
+/// One ring, for as many messages as it can carry.
+class RateEnd {
   public:
-    using RingEnd::RingEnd;
+    explicit RateEnd(Session& session) : ring_(session.memory().data()) {}
+    void send(std::uint64_t sequence) {
+        fill(ring_.claim(), bytes, sequence);
+        ring_.publish();
+    }
+    std::uint64_t receive() {
+        const std::uint64_t sequence = sequence_of(ring_.next(), bytes);
+        ring_.release();
+        return sequence;
+    }
+
+  private:
+    static constexpr std::size_t bytes = 64;
+    IndexRing<bytes, 8192, Wake::spin, RingAim::rate> ring_;
+};
+
+template <Wake wake>
+class PairClient : public RingEnd<64, wake> {
+  public:
+    using RingEnd<64, wake>::RingEnd;
     std::uint64_t call(std::uint64_t sequence) {
-        send(sequence);
-        return receive();
+        this->send(sequence);
+        return this->receive();
     }
 };
 
-class PairServer : public RingEnd {
+template <Wake wake>
+class PairServer : public RingEnd<64, wake> {
   public:
-    using RingEnd::RingEnd;
+    using RingEnd<64, wake>::RingEnd;
     std::uint64_t serve() {
-        const std::uint64_t sequence = receive();
-        send(sequence);
+        const std::uint64_t sequence = this->receive();
+        this->send(sequence);
         return sequence;
     }
 };
 
 /// One copy in and one copy out, as when the slots are not the user's to keep.
+template <std::size_t bytes>
 class CopyingEnd {
   public:
     explicit CopyingEnd(Session& session)
-        : bytes_(session.bytes()), buffer_(bytes_ / sizeof(std::uint64_t)),
-          ring_(session.memory().data(), bytes_, 4, session.measured().wake) {}
+        : buffer_(bytes / sizeof(std::uint64_t)), ring_(session.memory().data()) {}
     void send(std::uint64_t sequence) {
-        fill(buffer_.data(), bytes_, sequence);
-        std::memcpy(ring_.claim(), buffer_.data(), bytes_);
+        fill(buffer_.data(), bytes, sequence);
+        std::memcpy(ring_.claim(), buffer_.data(), bytes);
         ring_.publish();
     }
     std::uint64_t receive() {
-        std::memcpy(buffer_.data(), ring_.next(), bytes_);
+        std::memcpy(buffer_.data(), ring_.next(), bytes);
         ring_.release();
-        return sequence_of(buffer_.data(), bytes_);
+        return sequence_of(buffer_.data(), bytes);
     }
 
   private:
-    std::size_t bytes_;
     std::vector<std::uint64_t> buffer_;
-    IndexRing ring_;
+    IndexRing<bytes, 4, Wake::spin> ring_;
 };
 
 Case base(const char* who, const char* what, std::size_t bytes, Wake wake) {
@@ -89,59 +106,74 @@ Case base(const char* who, const char* what, std::size_t bytes, Wake wake) {
     return one;
 }
 
-void add_latency(Registry& registry) {
-    for (Wake wake : {Wake::spin, Wake::spin_then_futex, Wake::blocking}) {
-        Case one = base("index-ring", "one-way", 64, wake);
-        one.divisor = 2;
-        one.run = echo<RingEnd>;
-        registry.add_regimes(one);
-        if (wake != Wake::blocking) {
-            one.placement = Placement::threads;
-            registry.cases.push_back(one);
-            one.placement = Placement::processes;
-        }
-        one.regime = Regime::loaded;
+template <Wake wake>
+void add_wake(Registry& registry) {
+    Case one = base("index-ring", "one-way", 64, wake);
+    one.divisor = 2;
+    one.run = echo<RingEnd<64, wake>>;
+    registry.add_regimes(one);
+    if (wake != Wake::blocking) {
+        one.placement = Placement::threads;
         registry.cases.push_back(one);
-
-        Case call = base("ring-pair", "call", 64, wake);
-        call.run = calls<PairClient, PairServer>;
-        registry.add_regimes(call);
-
-        Case due = base("index-ring", "paced", 64, wake);
-        due.run = paced<RingEnd>;
-        registry.cases.push_back(due);
-
-        Case cost = base("index-ring", "publish", 64, wake);
-        cost.run = publish<RingEnd>;
-        registry.cases.push_back(cost);
+        one.placement = Placement::processes;
     }
-    for (std::size_t bytes :
-         {std::size_t{4096}, std::size_t{65536}, std::size_t{1} << 20U, std::size_t{6} << 20U}) {
-        Case one = base("index-ring", "one-way", bytes, Wake::spin);
-        one.divisor = 2;
-        one.run = echo<RingEnd>;
-        registry.cases.push_back(one);
-    }
+    one.regime = Regime::loaded;
+    registry.cases.push_back(one);
+
+    Case call = base("ring-pair", "call", 64, wake);
+    call.run = calls<PairClient<wake>, PairServer<wake>>;
+    registry.add_regimes(call);
+
+    Case due = base("index-ring", "paced", 64, wake);
+    due.run = paced<RingEnd<64, wake>>;
+    registry.cases.push_back(due);
+
+    Case cost = base("index-ring", "publish", 64, wake);
+    cost.run = publish<RingEnd<64, wake>>;
+    registry.cases.push_back(cost);
 }
+
+template <std::size_t bytes>
+void add_size(Registry& registry) {
+    Case one = base("index-ring", "one-way", bytes, Wake::spin);
+    one.divisor = 2;
+    one.run = echo<RingEnd<bytes, Wake::spin>>;
+    registry.cases.push_back(one);
+}
+
+template <std::size_t bytes>
+void add_stream(Registry& registry) {
+    Case one = base("index-ring", "stream", bytes, Wake::spin);
+    one.unit = Unit::gigabytes;
+    one.detail = "zero-copy";
+    one.run = stream<RingEnd<bytes, Wake::spin>>;
+    registry.cases.push_back(one);
+    one.detail = "copy";
+    one.run = stream<CopyingEnd<bytes>>;
+    registry.cases.push_back(one);
+}
+
+constexpr std::size_t mebibyte = std::size_t{1} << 20U;
 
 } // namespace
 
 void add_floor_ring_cases(Registry& registry) {
-    add_latency(registry);
+    add_wake<Wake::spin>(registry);
+    add_wake<Wake::spin_then_futex>(registry);
+    add_wake<Wake::blocking>(registry);
+    add_size<256>(registry);
+    add_size<1024>(registry);
+    add_size<4096>(registry);
+    add_size<65536>(registry);
+    add_size<mebibyte>(registry);
+    add_size<6 * mebibyte>(registry);
+
     Case rate = base("index-ring", "stream", 64, Wake::spin);
     rate.unit = Unit::megamessages;
-    rate.run = stream<RingEnd>;
+    rate.run = stream<RateEnd>;
     registry.cases.push_back(rate);
-    for (std::size_t bytes : {std::size_t{1} << 20U, std::size_t{6} << 20U}) {
-        Case large = base("index-ring", "stream", bytes, Wake::spin);
-        large.unit = Unit::gigabytes;
-        large.detail = "zero-copy";
-        large.run = stream<RingEnd>;
-        registry.cases.push_back(large);
-        large.detail = "copy";
-        large.run = stream<CopyingEnd>;
-        registry.cases.push_back(large);
-    }
+    add_stream<mebibyte>(registry);
+    add_stream<6 * mebibyte>(registry);
 }
 
 } // namespace tandem::bench

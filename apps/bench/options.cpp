@@ -38,6 +38,7 @@ Limits limits_of(const Options& options) {
         limits.seconds = 0.2;
         limits.window_seconds = 0.03;
         limits.bound_seconds = 10;
+        limits.attempts = 1;
     }
     return limits;
 }

@@ -9,6 +9,7 @@ namespace tandem::bench {
 
 namespace {
 
+constexpr std::size_t bytes = 64;
 constexpr const char* queue_name = "calls";
 constexpr std::chrono::seconds call_bound{10};
 
@@ -30,21 +31,20 @@ shm::CallQueueHandle open_queue(OurLink& link, bool callers) {
 class OurClient {
   public:
     explicit OurClient(Session& session)
-        : bytes_(session.bytes()), message_(bytes_ / sizeof(std::uint64_t)), link_(session, arena_bytes),
+        : link_(session, arena_bytes),
           client_(open_queue(link_, true), wait_options(session.measured().wake)) {}
 
     std::uint64_t call(std::uint64_t sequence) {
-        fill(message_.data(), bytes_, sequence);
+        fill(message_, bytes, sequence);
         const auto status = client_.call_into(1, std::as_bytes(std::span(message_)), call_bound, reply_);
-        if (status != shm::CallStatus::ok || reply_.size() != bytes_)
+        if (status != shm::CallStatus::ok || reply_.size() != bytes)
             throw std::runtime_error(fmt::format("call {}: {}", sequence, shm::name_of(status)));
-        return sequence_of(reply_.data(), bytes_);
+        return sequence_of(reply_.data(), bytes);
     }
     static constexpr std::size_t arena_bytes = std::size_t{1} << 20U;
 
   private:
-    std::size_t bytes_;
-    std::vector<std::uint64_t> message_;
+    std::uint64_t message_[bytes / sizeof(std::uint64_t)] = {};
     std::vector<std::byte> reply_;
     OurLink link_;
     shm::CallClient client_;
@@ -53,24 +53,22 @@ class OurClient {
 class OurServer {
   public:
     explicit OurServer(Session& session)
-        : bytes_(session.bytes()), message_(bytes_ / sizeof(std::uint64_t)),
-          link_(session, OurClient::arena_bytes),
+        : link_(session, OurClient::arena_bytes),
           server_(open_queue(link_, false), wait_options(session.measured().wake)) {}
 
     std::uint64_t serve() {
         for (;;) {
             auto call = server_.take(std::chrono::seconds(1));
             if (!call) continue;
-            const std::uint64_t sequence = sequence_of(call->arguments().data(), bytes_);
-            fill(message_.data(), bytes_, sequence);
+            const std::uint64_t sequence = sequence_of(call->arguments().data(), bytes);
+            fill(message_, bytes, sequence);
             call->reply(shm::CallStatus::ok, std::as_bytes(std::span(message_)));
             return sequence;
         }
     }
 
   private:
-    std::size_t bytes_;
-    std::vector<std::uint64_t> message_;
+    std::uint64_t message_[bytes / sizeof(std::uint64_t)] = {};
     OurLink link_;
     shm::CallServer server_;
 };

@@ -7,6 +7,7 @@ namespace tandem::bench {
 
 namespace {
 
+constexpr std::size_t bytes = 64;
 constexpr unsigned doorbell_bits = shm::Doorbell::user_bits;
 
 std::size_t ports_of(const Session& session) { return std::stoul(session.measured().detail); }
@@ -14,19 +15,19 @@ std::size_t ports_of(const Session& session) { return std::stoul(session.measure
 class PortsEnd {
   public:
     explicit PortsEnd(Session& session)
-        : bytes_(session.bytes()), how_(wait_options(session.measured().wake)),
+        : how_(wait_options(session.measured().wake)),
           link_(session, ports_of(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)) {
         const std::size_t ports = ports_of(session);
-        for (std::size_t i = 0; i < ports; ++i) out_.emplace_back(link_.add_ring(std::to_string(i), bytes_));
+        for (std::size_t i = 0; i < ports; ++i) out_.emplace_back(link_.add_ring(std::to_string(i), bytes));
         link_.open();
         for (std::size_t i = 0; i < ports; ++i) in_.emplace_back(link_.peer_ring(std::to_string(i)));
     }
 
     void send(std::uint64_t sequence) {
         const std::size_t port = next_++ % out_.size();
-        const auto room = out_[port].reserve(bytes_);
-        fill(room.data(), bytes_, sequence);
-        out_[port].commit(bytes_, sequence, 0);
+        const auto room = out_[port].reserve(bytes);
+        fill(room.data(), bytes, sequence);
+        out_[port].commit(bytes, sequence, 0);
         link_.segment().ring_peer(static_cast<unsigned>(port % doorbell_bits));
     }
 
@@ -37,13 +38,11 @@ class PortsEnd {
             for (std::uint64_t rest = bits; rest != 0; rest &= rest - 1)
                 for (auto port = static_cast<std::size_t>(__builtin_ctzll(rest)); port < in_.size();
                      port += doorbell_bits)
-                    if (const auto record = in_[port].read())
-                        return sequence_of(record->bytes.data(), bytes_);
+                    if (const auto record = in_[port].read()) return sequence_of(record->bytes.data(), bytes);
         }
     }
 
   private:
-    std::size_t bytes_;
     shm::WaitOptions how_;
     OurLink link_;
     std::vector<shm::RingWriter> out_;

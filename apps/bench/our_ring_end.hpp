@@ -5,32 +5,30 @@
 
 namespace tandem::bench {
 
+template <std::size_t bytes, Wake wake>
 class OurRingEnd {
   public:
     explicit OurRingEnd(Session& session)
-        : bytes_(session.bytes()), wake_(session.measured().wake), how_(wait_options(wake_)),
-          link_(session, OurLink::ring_bytes(session.bytes())), out_(link_.add_ring("out", bytes_)),
-          in_((link_.open(), link_.peer_ring("out"))) {}
+        : how_(wait_options(wake)), link_(session, OurLink::ring_bytes(bytes)),
+          out_(link_.add_ring("out", bytes)), in_((link_.open(), link_.peer_ring("out"))) {}
 
     void send(std::uint64_t sequence) {
         std::span<std::byte> room;
-        while ((room = out_.reserve(bytes_)).data() == nullptr) {
+        while ((room = out_.reserve(bytes)).data() == nullptr) {
         } // full: the reader is behind
-        fill(room.data(), bytes_, sequence);
-        out_.commit(bytes_, sequence, 0);
-        if (wake_ != Wake::spin) link_.segment().ring_peer(0);
+        fill(room.data(), bytes, sequence);
+        out_.commit(bytes, sequence, 0);
+        if (wake != Wake::spin) link_.segment().ring_peer(0);
     }
 
     std::uint64_t receive() {
         for (;;) {
-            if (const auto record = in_.read()) return sequence_of(record->bytes.data(), bytes_);
-            if (wake_ != Wake::spin) link_.segment().doorbell().wait(std::chrono::seconds(1), how_);
+            if (const auto record = in_.read()) return sequence_of(record->bytes.data(), bytes);
+            if (wake != Wake::spin) link_.segment().doorbell().wait(std::chrono::seconds(1), how_);
         }
     }
 
   private:
-    std::size_t bytes_;
-    Wake wake_;
     shm::WaitOptions how_;
     OurLink link_;
     shm::RingWriter out_;

@@ -39,6 +39,21 @@ class OurCopyingEnd {
     shm::RingReader in_;
 };
 
+template <std::size_t bytes>
+void add_large(Registry& registry) {
+    Case one;
+    one.who = "ring";
+    one.what = "stream";
+    one.bytes = bytes;
+    one.unit = Unit::gigabytes;
+    one.detail = "loan";
+    one.run = stream<OurRingEnd<bytes, Wake::spin>>;
+    registry.cases.push_back(one);
+    one.detail = "copy";
+    one.run = stream<OurCopyingEnd>;
+    registry.cases.push_back(one);
+}
+
 } // namespace
 
 void add_our_stream_cases(Registry& registry) {
@@ -46,18 +61,10 @@ void add_our_stream_cases(Registry& registry) {
     one.who = "ring";
     one.what = "stream";
     one.unit = Unit::megamessages;
-    one.run = stream<OurRingEnd>;
+    one.run = stream<OurRingEnd<64, Wake::spin>>;
     registry.cases.push_back(one);
-    one.unit = Unit::gigabytes;
-    for (std::size_t bytes : {std::size_t{1} << 20U, std::size_t{6} << 20U}) {
-        one.bytes = bytes;
-        one.detail = "loan";
-        one.run = stream<OurRingEnd>;
-        registry.cases.push_back(one);
-        one.detail = "copy";
-        one.run = stream<OurCopyingEnd>;
-        registry.cases.push_back(one);
-    }
+    add_large<1 << 20>(registry);
+    add_large<6 << 20>(registry);
 }
 
 } // namespace tandem::bench

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/pair_run.hpp"
 
+#include "apps/bench/machine_load.hpp"
+
 #include <fmt/format.h>
 
 #include <atomic>
@@ -168,6 +170,7 @@ Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores)
     const Stage stage(measured, limits, cores);
     {
         const RegimeHold hold(measured.regime, cores);
+        const MachineLoad load;
         Children children;
         if (measured.placement == Placement::threads) {
             start(children, [&] { stage.play_both_and_exit(); });
@@ -177,6 +180,7 @@ Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores)
                 start(children, [&] { stage.play_and_exit(Session::Role::b); });
         }
         outcome.failure = children.wait(limits.bound_seconds);
+        if (measured.regime != Regime::loaded) outcome.foreign = load.foreign_share();
     }
     remove_left_overs(stage.name);
     Control& control = stage.control();

@@ -13,13 +13,11 @@
 namespace tandem::bench::detail {
 
 TANDEM_BENCH_WIDE void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value) {
-    for (std::size_t i = 0; i < count; ++i) words[i] = value;
+    fill_words(words, count, value);
 }
 
 TANDEM_BENCH_WIDE std::uint64_t sum_large(const std::uint64_t* words, std::size_t count) {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < count; ++i) sum += words[i];
-    return sum;
+    return sum_words(words, count);
 }
 
 void damaged(std::uint64_t first, std::uint64_t sum, std::size_t count) {

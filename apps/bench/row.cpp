@@ -35,6 +35,7 @@ Json row_json(const Row& row) {
                 {"p99", s.p99},
                 {"p99.9", s.p999},
                 {"max", s.max},
+                {"foreign", row.foreign},
                 {"runs", row.runs},
                 {"curve", curve_json(s.curve)}});
     return out;
@@ -65,6 +66,7 @@ Row row_from(const Json& in) {
     s.p99 = in.at("p99");
     s.p999 = in.at("p99.9");
     s.max = in.at("max");
+    row.foreign = in.at("foreign");
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
     return row;

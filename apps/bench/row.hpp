@@ -13,8 +13,10 @@ struct Row {
     std::size_t bytes = 0;
     Summary summary;          ///< median over the runs
     std::vector<double> runs; ///< p50 of each run, in order; NaN where that run failed
+    double foreign = 0;       ///< largest share of the machine that others got during a run
     std::string skipped;      ///< why there are no figures; empty if there are
     bool higher_is_better() const { return unit != "ns" && unit != "count"; }
+    bool disturbed() const { return foreign > 0.02; }
     bool latency() const { return unit == "ns"; }
 };
 

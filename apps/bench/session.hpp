@@ -17,6 +17,7 @@ struct Limits {
     double window_seconds = 0.15;                ///< streams
     int windows = 5;
     double bound_seconds = 20; ///< then both sides are killed
+    int attempts = 4;          ///< a case is repeated if other processes disturbed it
 };
 
 /// Shared by the driver and both sides; zero at first.

@@ -19,9 +19,11 @@ namespace {
 std::string line_of(const Row& row, std::size_t width) {
     const Summary& s = row.summary;
     const auto tail = [&](double value) { return row.latency() ? figure_text(value) : std::string("-"); };
-    return fmt::format("{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width,
-                       row.unit, row.cores, s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99),
-                       tail(s.p999), figure_text(s.max), row.regime);
+    return fmt::format(
+        "{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width, row.unit, row.cores,
+        s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
+        row.regime +
+            (row.disturbed() ? fmt::format(" DISTURBED by others ({:.0f} %)", row.foreign * 100) : ""));
 }
 
 } // namespace
