@@ -3,11 +3,11 @@
 // the bytes are, what comes out is what could be read and a reason for what could not.
 #pragma once
 #include "shm/call_queue.hpp"
+#include "shm/histogram_counts.hpp"
 #include "shm/ring.hpp"
 #include "shm/segment_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -74,8 +74,7 @@ struct CallQueueView : ObjectView {
     std::uint64_t max_bytes = 0;
     bool closed = false;
     CallCounters counters{};
-    /// Counts by bucket of layout::Histogram; a sample of the calls (layout::CallTimes).
-    std::array<std::uint64_t, layout::Histogram::buckets> round_trip{}, service{};
+    HistogramCounts round_trip{}, service{}; ///< a sample of the calls, see layout::CallTimes
 };
 
 struct Observation {

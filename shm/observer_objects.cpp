@@ -76,15 +76,17 @@ bool count_slots(const QuietFile& file, std::uint64_t slots_begin, CallQueueView
     return true;
 }
 
-bool copy_times(const QuietFile& file, std::uint64_t place, CallQueueView& queue) {
-    using layout::CallTimes;
-    Copied<sizeof(CallTimes)> copy;
+bool copy_histogram(const QuietFile& file, std::uint64_t place, HistogramCounts& counts) {
+    Copied<sizeof(layout::Histogram)> copy;
     if (!file.read(place, copy.bytes)) return false;
-    for (std::size_t i = 0; i < layout::Histogram::buckets; ++i) {
-        queue.round_trip[i] = copy.get<std::uint64_t>(offsetof(CallTimes, round_trip) + 8 * i);
-        queue.service[i] = copy.get<std::uint64_t>(offsetof(CallTimes, service) + 8 * i);
-    }
+    for (std::size_t i = 0; i < counts.counts.size(); ++i)
+        counts.counts[i] = copy.get<std::uint64_t>(offsetof(layout::Histogram, counts) + 8 * i);
     return true;
+}
+
+bool copy_times(const QuietFile& file, std::uint64_t place, CallQueueView& queue) {
+    return copy_histogram(file, place + offsetof(layout::CallTimes, round_trip), queue.round_trip) &&
+           copy_histogram(file, place + offsetof(layout::CallTimes, service), queue.service);
 }
 
 CallQueueView view_call_queue(const QuietFile& file, ObjectView object, std::uint64_t place) {

@@ -39,9 +39,13 @@ constexpr Manual stats_manual{
     "  waiting      written and not read yet\n"
     "and for a call queue\n"
     "  calls        made; taken by a worker; answered\n"
+    "  expired      of these, not run, because the deadline was over\n"
     "  overload     refused, because no slot was free\n"
-    "  time-out     given up by the caller\n"
+    "  time-out     given up by the caller at the deadline\n"
+    "  cancelled    given up by the caller before it\n"
     "  in use       slots of calls that are in progress now\n"
+    "The times are of samples, counted in buckets: a percentile is shown as the upper end of its bucket, at\n"
+    "most a quarter too long. Round trip is what the caller sees, service what the server does.\n"
     "The counters are read one after the other while the system runs: the sum is exact at rest only.\n"
     "Exit code 1 if there is no such segment or it cannot be read."};
 constexpr Manual clean_manual{"Removes segments that nobody alive holds",

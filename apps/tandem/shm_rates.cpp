@@ -19,6 +19,8 @@ const View* earlier(const std::vector<View>& before, const View& now) {
     return found != before.end() && now.damage.empty() ? &*found : nullptr;
 }
 
+std::uint64_t failed(const shm::CallCounters& c) { return c.overloads + c.timeouts + c.cancels; }
+
 bool same_segment(const shm::SegmentView& a, const shm::SegmentView& b) {
     return a.readability == shm::Readability::readable && b.readability == shm::Readability::readable &&
            a.generation == b.generation && a.created_ns == b.created_ns;
@@ -46,8 +48,7 @@ std::optional<Rates> rates_between(const shm::Observation& before, const shm::Ob
         if (const auto* then = earlier(before.call_queues, queue)) {
             const auto &a = then->counters, &b = queue.counters;
             rates.call_queues.push_back({queue.name, queue.callers, rate(a.calls, b.calls),
-                                         rate(a.answered, b.answered),
-                                         rate(a.overloads + a.timeouts, b.overloads + b.timeouts), b.in_use});
+                                         rate(a.answered, b.answered), rate(failed(a), failed(b)), b.in_use});
         }
     return rates;
 }

@@ -21,7 +21,7 @@ struct RingRate {
 struct CallRate {
     std::string name;
     shm::Side callers;
-    double calls, answered, failed; ///< per second; failed: overload or time-out
+    double calls, answered, failed; ///< per second; failed: overload, time-out or cancelled
     std::uint64_t in_use;           ///< now
 };
 

@@ -20,6 +20,9 @@ std::string headline(const shm::SegmentView& segment) {
                        side_text(segment, Side::second));
 }
 
+constexpr double shares[] = {0.5, 0.9, 0.99, 0.999, 1};
+constexpr const char* share_names[] = {"p50_ns", "p90_ns", "p99_ns", "p99_9_ns", "max_ns"};
+
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
 std::string rings_text(const shm::Observation& seen) {
@@ -38,16 +41,34 @@ std::string rings_text(const shm::Observation& seen) {
 }
 
 std::string call_queues_text(const shm::Observation& seen) {
-    Table table({"call queue", "callers", ">calls", ">taken", ">answered", ">overload", ">time-out",
-                 ">in use", ">slots"});
+    Table table({"call queue", "callers", ">calls", ">taken", ">answered", ">expired", ">overload",
+                 ">time-out", ">cancelled", ">in use", ">slots"});
     for (const auto& queue : seen.call_queues) {
         const auto& c = queue.counters;
         if (queue.damage.empty())
             table.add({printable(queue.name), name_of(queue.callers), number(c.calls), number(c.taken),
-                       number(c.answered), number(c.overloads), number(c.timeouts), number(c.in_use),
-                       number(queue.slots)});
+                       number(c.answered), number(c.expired), number(c.overloads), number(c.timeouts),
+                       number(c.cancels), number(c.in_use), number(queue.slots)});
         else
             table.add({printable(queue.name), "damaged"});
+    }
+    return table.empty() ? "" : table.text();
+}
+
+void add_times(Table& table, const std::string& of, shm::Side side, const char* what,
+               const shm::HistogramCounts& times) {
+    if (times.total() == 0) return;
+    std::vector<std::string> row{printable(of), name_of(side), what, number(times.total())};
+    for (const double share : shares) row.push_back(duration_text(times.percentile(share)));
+    table.add(std::move(row));
+}
+
+std::string times_text(const shm::Observation& seen) {
+    Table table({"time", "of", "what", ">samples", ">p50 <=", ">p90 <=", ">p99 <=", ">p99.9 <=", ">max <="});
+    for (const auto& queue : seen.call_queues) {
+        if (!queue.damage.empty()) continue;
+        add_times(table, queue.name, queue.callers, "round trip", queue.round_trip);
+        add_times(table, queue.name, other(queue.callers), "service", queue.service);
     }
     return table.empty() ? "" : table.text();
 }
@@ -55,7 +76,7 @@ std::string call_queues_text(const shm::Observation& seen) {
 std::string text_of(const shm::Observation& seen) {
     if (seen.segment.readability != shm::Readability::readable) return "";
     std::string text = headline(seen.segment);
-    for (const auto& part : {rings_text(seen), call_queues_text(seen)})
+    for (const auto& part : {rings_text(seen), call_queues_text(seen), times_text(seen)})
         if (!part.empty()) text += "\n" + part;
     if (seen.rings.empty() && seen.call_queues.empty()) text += "no rings or call queues\n";
     for (const auto& damage : seen.damage) text += "damaged: " + damage + "\n";
@@ -75,14 +96,33 @@ nlohmann::json json_of(const shm::RingView& ring) {
             {"bytes_received", c.bytes_received}};
 }
 
+/// Percentiles are upper bounds; of no samples null.
+nlohmann::json json_of(const shm::HistogramCounts& times) {
+    nlohmann::json json{{"samples", times.total()}};
+    for (std::size_t i = 0; i < std::size(shares); ++i)
+        json[share_names[i]] =
+            times.total() == 0 ? nlohmann::json() : nlohmann::json(times.percentile(shares[i]));
+    return json;
+}
+
 nlohmann::json json_of(const shm::CallQueueView& queue) {
     const auto& c = queue.counters;
     if (!queue.damage.empty()) return {{"name", queue.name}, {"damage", queue.damage}};
-    return {{"name", queue.name},     {"callers", name_of(queue.callers)},
-            {"calls", c.calls},       {"taken", c.taken},
-            {"answered", c.answered}, {"overloads", c.overloads},
-            {"timeouts", c.timeouts}, {"in_use", c.in_use},
-            {"slots", queue.slots}};
+    return {{"name", queue.name},
+            {"callers", name_of(queue.callers)},
+            {"calls", c.calls},
+            {"taken", c.taken},
+            {"answered", c.answered},
+            {"expired", c.expired},
+            {"overloads", c.overloads},
+            {"timeouts", c.timeouts},
+            {"cancels", c.cancels},
+            {"in_use", c.in_use},
+            {"slots", queue.slots},
+            {"worker_wakes", c.worker_wakes},
+            {"caller_wakes", c.caller_wakes},
+            {"round_trip", json_of(queue.round_trip)},
+            {"service", json_of(queue.service)}};
 }
 
 nlohmann::json json_of(const shm::Observation& seen) {
