@@ -14,4 +14,13 @@ void add_our_stream_cases(Registry& registry);
 void add_our_call_cases(Registry& registry);
 void add_our_port_cases(Registry& registry);
 
+void add_peer_cases(Registry& registry); ///< those that this build has, and the names of the others
+void add_boost_cases(Registry& registry);
+void add_cyclone_cases(Registry& registry);
+void add_iceoryx_cases(Registry& registry);
+void add_mqueue_cases(Registry& registry);
+void add_omniorb_cases(Registry& registry);
+void add_socket_cases(Registry& registry);
+void add_zeromq_cases(Registry& registry);
+
 } // namespace tandem::bench

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -78,7 +79,8 @@ struct Stage {
         }
     }
 
-    [[noreturn]] void play_and_exit(Session::Role role) const { _exit(play(role) ? 0 : 1); }
+    // Not _exit(): some middlewares say good-bye in the destructors of their static objects.
+    [[noreturn]] void play_and_exit(Session::Role role) const { std::exit(play(role) ? 0 : 1); }
 
     [[noreturn]] void play_both_and_exit() const {
         std::thread second([&] {
@@ -93,9 +95,10 @@ struct Stage {
 /// What a killed side may have left behind under the case's name.
 void remove_left_overs(const std::string& name) {
     std::error_code ignored; // somebody else's file may vanish while we look
-    for (const auto& file : std::filesystem::directory_iterator("/dev/shm", ignored))
-        if (file.path().filename().string().find(name) != std::string::npos)
-            std::filesystem::remove(file.path(), ignored);
+    for (const auto& folder : {std::filesystem::path("/dev/shm"), std::filesystem::temp_directory_path()})
+        for (const auto& file : std::filesystem::directory_iterator(folder, ignored))
+            if (file.path().filename().string().find(name) != std::string::npos)
+                std::filesystem::remove(file.path(), ignored);
     for (const char* end : {"-0", "-1"}) mq_unlink(("/" + name + end).c_str());
 }
 

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
 #include <fcntl.h>
 #include <sched.h>
 #include <stdexcept>
@@ -47,6 +48,7 @@ std::vector<int> allowed_cores() {
 
 pid_t fork_child() {
     const pid_t parent = getpid();
+    std::fflush(nullptr); // or the child would write it once more
     const pid_t child = fork();
     if (child < 0) throw std::system_error(errno, std::generic_category(), "cannot fork");
     if (child == 0) {
