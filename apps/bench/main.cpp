@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/compare.hpp"
+#include "apps/bench/html.hpp"
 #include "apps/bench/options.hpp"
 #include "apps/bench/table.hpp"
 
@@ -19,29 +21,64 @@ void write_file(const std::string& path, const std::string& text) {
     if (!file) throw std::runtime_error(fmt::format("cannot write {}; check that its folder exists", path));
 }
 
-int run(const Options& options) {
-    const Registry registry = all_cases();
+std::string read_file(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error(fmt::format("cannot read {}; give a file written with --json", path));
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Report old_report(const std::string& path) {
+    try {
+        return from_json(read_file(path));
+    } catch (const std::runtime_error& failure) {
+        throw std::runtime_error(fmt::format("--compare {}: {}", path, failure.what()));
+    }
+}
+
+std::vector<BarLine> lines_of_bar(const Registry& registry) {
+    std::vector<std::string> ids;
+    for (const Case& one : registry.cases) ids.push_back(one.id());
+    return bar_lines(ids);
+}
+
+Plan plan_of(const Options& options, const Registry& registry, const std::vector<BarLine>& bar) {
     Plan plan;
     plan.cases = selected(registry.cases, options.only);
-    plan.skipped = registry.skipped;
-    if (options.list) {
-        for (const Case& one : plan.cases) fmt::print("{}\n", one.id());
-        for (const Skipped& skipped : plan.skipped)
-            fmt::print("skipped {}: {}\n", skipped.who, skipped.reason);
-        return 0;
-    }
+    if (options.bar && options.only.empty())
+        std::erase_if(plan.cases, [&](const Case& one) { return !needed_for_bar(bar, one.id()); });
     if (plan.cases.empty())
         throw std::runtime_error(
             fmt::format("--only {}: no case's name contains that; see --list", options.only));
+    plan.skipped = registry.skipped;
     plan.limits = limits_of(options);
     plan.cores = cores_of(options);
-    plan.runs = options.runs > 0 ? options.runs : 1;
+    plan.runs = options.runs > 0 ? options.runs : options.bar ? 5 : 1;
     plan.progress = !options.quiet && isatty(STDERR_FILENO) != 0;
+    return plan;
+}
+
+int list(const Options& options, const Registry& registry) {
+    for (const Case& one : selected(registry.cases, options.only)) fmt::print("{}\n", one.id());
+    for (const Skipped& skipped : registry.skipped)
+        fmt::print("skipped {}: {}\n", skipped.who, skipped.reason);
+    return 0;
+}
+
+int run(const Options& options) {
+    const Registry registry = all_cases();
+    if (options.list) return list(options, registry);
+    const auto bar = lines_of_bar(registry);
+    const Plan plan = plan_of(options, registry, bar);
+    const Report old = options.compare.empty() ? Report{} : old_report(options.compare);
     catch_interrupts();
     Clock::calibrate();
     const Report report = measure(plan);
+    const auto verdict = options.bar ? judge(bar, report) : std::vector<BarResult>{};
     fmt::print("{}", table_text(report));
+    if (options.bar) fmt::print("\n{}", bar_text(verdict));
+    if (!options.compare.empty()) fmt::print("\n{}", compare_text(old, report));
     if (!options.json.empty()) write_file(options.json, to_json(report));
+    if (!options.html.empty()) write_file(options.html, html_page(report, verdict));
     return interrupted() ? 130 : 0;
 }
 

@@ -9,8 +9,9 @@
 
 namespace tandem::bench {
 
-inline shm::WaitOptions wait_options(Wake wake) {
+inline shm::WaitOptions wait_options(Wake wake, std::chrono::nanoseconds spin = shm::WaitOptions{}.spin) {
     shm::WaitOptions how;
+    how.spin = spin;
     how.mode = wake == Wake::spin              ? shm::WaitMode::spin
                : wake == Wake::spin_then_futex ? shm::WaitMode::spin_then_futex
                                                : shm::WaitMode::futex;

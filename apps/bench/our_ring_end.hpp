@@ -8,8 +8,8 @@ namespace tandem::bench {
 template <std::size_t bytes, Wake wake>
 class OurRingEnd {
   public:
-    explicit OurRingEnd(Session& session)
-        : how_(wait_options(wake)), link_(session, OurLink::ring_bytes(bytes)),
+    explicit OurRingEnd(Session& session, std::chrono::nanoseconds spin = shm::WaitOptions{}.spin)
+        : how_(wait_options(wake, spin)), link_(session, OurLink::ring_bytes(bytes)),
           out_(link_.add_ring("out", bytes)), in_((link_.open(), link_.peer_ring("out"))) {}
 
     void send(std::uint64_t sequence) {

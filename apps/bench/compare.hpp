@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/bench/row.hpp"
+
+namespace tandem::bench {
+
+struct Change {
+    std::string id, unit;
+    double before, after; ///< p50
+    double noise;         ///< relative; of both reports' runs
+    bool better;
+    double ratio() const { return after / before; }
+};
+
+/// What changed beyond noise, largest first. Noise is the spread of the runs of both reports; 15 % where a
+/// report has one run only (two runs half an hour apart agree to that), and never less than 5 %.
+std::vector<Change> changes(const Report& before, const Report& after);
+
+std::string compare_text(const Report& before, const Report& after);
+
+} // namespace tandem::bench
