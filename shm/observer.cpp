@@ -27,8 +27,8 @@ bool ours(const struct stat& file) {
 }
 
 /// What the directory says of the file, without opening it. Empty: it is gone.
-std::optional<SegmentView> view_file(const std::string& link, std::uint64_t generation) {
-    SegmentView view;
+std::optional<ObservedSegment> view_file(const std::string& link, std::uint64_t generation) {
+    ObservedSegment view;
     view.link = link;
     view.generation = generation;
     view.path = segment_path(link, generation);
@@ -45,12 +45,12 @@ std::optional<SegmentView> view_file(const std::string& link, std::uint64_t gene
     return view;
 }
 
-void unreadable(SegmentView& view, Readability as, std::string reason) {
+void unreadable(ObservedSegment& view, Readability as, std::string reason) {
     view.readability = as;
     view.reason = std::move(reason);
 }
 
-void view_header(const QuietFile& file, SegmentView& view) {
+void view_header(const QuietFile& file, ObservedSegment& view) {
     using layout::SegmentHeader;
     Copied<sizeof(SegmentHeader)> copy;
     if (!file.read(0, copy.bytes)) return unreadable(view, Readability::damaged, "shorter than a header");
@@ -85,9 +85,10 @@ void view_header(const QuietFile& file, SegmentView& view) {
 }
 
 /// See Mapping::peer(): `taken` is read before the lock is looked at.
-void view_side(const QuietFile& file, SegmentView& view, Side which, std::chrono::nanoseconds late_after) {
+void view_side(const QuietFile& file, ObservedSegment& view, Side which,
+               std::chrono::nanoseconds late_after) {
     using layout::SideHeader;
-    SideView& side = view.sides[index_of(which)];
+    ObservedSide& side = view.sides[index_of(which)];
     Copied<offsetof(SideHeader, directory)> copy;
     const bool known =
         view.readability == Readability::readable &&
@@ -107,7 +108,7 @@ void view_side(const QuietFile& file, SegmentView& view, Side which, std::chrono
 }
 
 /// Fills in what is in the file. False: it is gone.
-bool view_content(const QuietFile& file, SegmentView& view, std::chrono::nanoseconds late_after) {
+bool view_content(const QuietFile& file, ObservedSegment& view, std::chrono::nanoseconds late_after) {
     if (!file && errno == ENOENT) return false;
     if (!file) {
         unreadable(view, Readability::damaged, "cannot be opened (" + errno_text() + ")");
@@ -143,8 +144,8 @@ std::set<std::string> links() {
 
 } // namespace
 
-std::vector<SegmentView> observe_segments(std::chrono::nanoseconds late_after) {
-    std::vector<SegmentView> found;
+std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after) {
+    std::vector<ObservedSegment> found;
     for (const auto& link : links())
         for (const auto generation : list_generations(link)) {
             auto view = view_file(link, generation);

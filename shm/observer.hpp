@@ -20,7 +20,7 @@ namespace tandem::shm {
 enum class Readability { readable, foreign, other_layout, damaged };
 
 /// One side of a segment. Of a segment that is not readable only `held` is known.
-struct SideView {
+struct ObservedSide {
     PeerState state = PeerState::absent;
     bool held = false;                             ///< somebody alive holds this side's lock
     std::uint32_t pid = 0;                         ///< as the side wrote it, in its own pid namespace
@@ -28,7 +28,7 @@ struct SideView {
     bool published = false;
 };
 
-struct SegmentView {
+struct ObservedSegment {
     std::string link, path;
     std::uint64_t generation = 0;
     Readability readability = Readability::damaged;
@@ -42,20 +42,20 @@ struct SegmentView {
     std::uint32_t layout_version = 0; // of the header, if readable
     std::uint64_t contract = 0, created_ns = 0, superseded_by = 0;
     std::uint64_t arena_offset[2] = {}, arena_bytes[2] = {};
-    SideView sides[2];
+    ObservedSide sides[2];
 
-    const SideView& side(Side which) const { return sides[index_of(which)]; }
+    const ObservedSide& side(Side which) const { return sides[index_of(which)]; }
 };
 
 /// What rings, call queues and blobs have in common.
-struct ObjectView {
+struct ObservedObject {
     Side half;        ///< in whose arena it lies
     std::string name; ///< as it was written: may hold any byte but zero
     std::uint64_t bytes;
     std::string damage; ///< empty: sound; otherwise nothing behind this line means anything
 };
 
-struct RingView : ObjectView {
+struct ObservedRing : ObservedObject {
     Side writer{};
     RingPolicy policy{};
     std::uint64_t capacity = 0, max_record = 0, wait_ns = 0;
@@ -68,7 +68,7 @@ struct RingView : ObjectView {
     }
 };
 
-struct CallQueueView : ObjectView {
+struct ObservedCallQueue : ObservedObject {
     Side callers{};
     std::uint32_t slots = 0;
     std::uint64_t max_bytes = 0;
@@ -78,10 +78,10 @@ struct CallQueueView : ObjectView {
 };
 
 struct Observation {
-    SegmentView segment;
-    std::vector<RingView> rings;
-    std::vector<CallQueueView> call_queues;
-    std::vector<ObjectView> blobs;
+    ObservedSegment segment;
+    std::vector<ObservedRing> rings;
+    std::vector<ObservedCallQueue> call_queues;
+    std::vector<ObservedObject> blobs;
     std::vector<std::string> damage; ///< entries of the directories that cannot be read
 };
 
@@ -90,7 +90,7 @@ constexpr std::chrono::nanoseconds usually_late_after = std::chrono::millisecond
 
 /// [any-process] All segments of the machine, by link, newest first. Throws Error if /dev/shm cannot be
 /// listed.
-std::vector<SegmentView> observe_segments(std::chrono::nanoseconds late_after = usually_late_after);
+std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after = usually_late_after);
 
 /// [any-process] One generation of a link (0: the newest) and the objects in it; empty if there is none.
 /// Throws Error for an impossible link name.

@@ -23,8 +23,8 @@ bool read_part(const QuietFile& file, std::uint64_t place, Copied<Bytes>& copy, 
     return file.read(place + from, {copy.bytes + from, to - from});
 }
 
-RingView view_ring(const QuietFile& file, ObjectView object, std::uint64_t place) {
-    RingView ring{std::move(object)};
+ObservedRing view_ring(const QuietFile& file, ObservedObject object, std::uint64_t place) {
+    ObservedRing ring{std::move(object)};
     Copied<sizeof(RingHeader)> copy;
     // The reader's counters first: what was received then had been sent before, so never more is received
     // than sent.
@@ -57,7 +57,7 @@ RingView view_ring(const QuietFile& file, ObjectView object, std::uint64_t place
     return ring;
 }
 
-bool count_slots(const QuietFile& file, std::uint64_t slots_begin, CallQueueView& queue) {
+bool count_slots(const QuietFile& file, std::uint64_t slots_begin, ObservedCallQueue& queue) {
     using layout::CallReply;
     using layout::CallRequest;
     for (std::uint32_t i = 0; i < queue.slots; ++i) {
@@ -84,13 +84,13 @@ bool copy_histogram(const QuietFile& file, std::uint64_t place, HistogramCounts&
     return true;
 }
 
-bool copy_times(const QuietFile& file, std::uint64_t place, CallQueueView& queue) {
+bool copy_times(const QuietFile& file, std::uint64_t place, ObservedCallQueue& queue) {
     return copy_histogram(file, place + offsetof(layout::CallTimes, round_trip), queue.round_trip) &&
            copy_histogram(file, place + offsetof(layout::CallTimes, service), queue.service);
 }
 
-CallQueueView view_call_queue(const QuietFile& file, ObjectView object, std::uint64_t place) {
-    CallQueueView queue{std::move(object)};
+ObservedCallQueue view_call_queue(const QuietFile& file, ObservedObject object, std::uint64_t place) {
+    ObservedCallQueue queue{std::move(object)};
     Copied<sizeof(CallQueueHeader)> copy;
     if (queue.bytes < sizeof(CallQueueHeader) || !file.read(place, copy.bytes)) {
         queue.damage = cut_off;
@@ -120,7 +120,7 @@ CallQueueView view_call_queue(const QuietFile& file, ObjectView object, std::uin
 }
 
 void view_entry(const QuietFile& file, Observation& into, Side half, std::uint32_t index) {
-    const SegmentView& segment = into.segment;
+    const ObservedSegment& segment = into.segment;
     const std::string where =
         std::string("directory of side ") + name_of(half) + ", entry " + std::to_string(index);
     const std::uint64_t place = sizeof(layout::SegmentHeader) + index_of(half) * sizeof(SideHeader) +
@@ -140,7 +140,7 @@ void view_entry(const QuietFile& file, Observation& into, Side half, std::uint32
         into.damage.push_back(where + ": names no object within the arena");
         return;
     }
-    ObjectView object{half, name, bytes, {}};
+    ObservedObject object{half, name, bytes, {}};
     const std::uint64_t at = segment.arena_offset[index_of(half)] + offset;
     switch (static_cast<layout::ObjectKind>(kind)) {
     case layout::ObjectKind::ring:

@@ -13,13 +13,13 @@ namespace {
 
 using shm::Side;
 
-std::string sides_text(const shm::SegmentView& segment) {
+std::string sides_text(const shm::ObservedSegment& segment) {
     return fmt::format("first {}; second {}", side_text(segment, Side::first),
                        side_text(segment, Side::second));
 }
 
 /// Empty: it is gone.
-std::string why_left(const shm::SegmentView& segment) {
+std::string why_left(const shm::ObservedSegment& segment) {
     if (segment.owner != geteuid()) return "of user " + user_text(segment.owner);
     const shm::Probe now = shm::probe_segment(segment.path);
     if (!now.exists) return "";

@@ -10,7 +10,7 @@ namespace {
 
 using shm::Side;
 
-std::string segment_text(const shm::SegmentView& segment) {
+std::string segment_text(const shm::ObservedSegment& segment) {
     std::string text = fmt::format("{}: {}, owner {}, mode {:04o}", segment.path,
                                    bytes_text(segment.file_bytes), user_text(segment.owner), segment.mode);
     if (segment.readability != shm::Readability::readable) return text + "\n";
@@ -22,10 +22,10 @@ std::string segment_text(const shm::SegmentView& segment) {
     return text + "\n";
 }
 
-std::string sides_text(const shm::SegmentView& segment) {
+std::string sides_text(const shm::ObservedSegment& segment) {
     Table table({"side", "state", ">joined", ">heartbeat", ">arena", "objects"});
     for (const Side which : {Side::first, Side::second}) {
-        const shm::SideView& side = segment.side(which);
+        const shm::ObservedSide& side = segment.side(which);
         const bool joined = side.state != shm::PeerState::absent;
         table.add({name_of(which), side_text(segment, which), joined ? age_text(side.joined_ns) : "-",
                    joined ? age_text(side.heartbeat_ns) : "-",
@@ -35,7 +35,7 @@ std::string sides_text(const shm::SegmentView& segment) {
     return table.text();
 }
 
-std::string description(const shm::RingView& ring) {
+std::string description(const shm::ObservedRing& ring) {
     if (!ring.damage.empty()) return "damaged: " + ring.damage;
     std::string policy = word_of(ring.policy);
     if (ring.policy == shm::RingPolicy::wait) policy += " " + duration_text(ring.wait_ns);
@@ -43,7 +43,7 @@ std::string description(const shm::RingView& ring) {
                        bytes_text(ring.capacity), bytes_text(ring.max_record));
 }
 
-std::string description(const shm::CallQueueView& queue) {
+std::string description(const shm::ObservedCallQueue& queue) {
     if (!queue.damage.empty()) return "damaged: " + queue.damage;
     return fmt::format("{} calls, {} slots of {}{}", name_of(queue.callers), queue.slots,
                        bytes_text(queue.max_bytes), queue.closed ? ", closed" : "");
@@ -62,7 +62,7 @@ std::string objects_text(const shm::Observation& seen) {
     return text;
 }
 
-nlohmann::json common_json(const shm::ObjectView& object, const char* kind) {
+nlohmann::json common_json(const shm::ObservedObject& object, const char* kind) {
     nlohmann::json json{
         {"name", object.name}, {"kind", kind}, {"half", name_of(object.half)}, {"bytes", object.bytes}};
     if (!object.damage.empty()) json["damage"] = object.damage;

@@ -8,7 +8,7 @@
 namespace tandem::command {
 namespace {
 
-std::string note_on(const shm::SegmentView& segment) {
+std::string note_on(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::foreign) return segment.reason;
     if (segment.readability != shm::Readability::readable)
         return fmt::format("{}: {}", word_of(segment.readability), segment.reason);

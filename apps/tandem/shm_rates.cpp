@@ -21,7 +21,7 @@ const View* earlier(const std::vector<View>& before, const View& now) {
 
 std::uint64_t failed(const shm::CallCounters& c) { return c.overloads + c.timeouts + c.cancels; }
 
-bool same_segment(const shm::SegmentView& a, const shm::SegmentView& b) {
+bool same_segment(const shm::ObservedSegment& a, const shm::ObservedSegment& b) {
     return a.readability == shm::Readability::readable && b.readability == shm::Readability::readable &&
            a.generation == b.generation && a.created_ns == b.created_ns;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using shm::Side;
 
-std::string headline(const shm::SegmentView& segment) {
+std::string headline(const shm::ObservedSegment& segment) {
     return fmt::format("{}: first {}; second {}\n", segment.path, side_text(segment, Side::first),
                        side_text(segment, Side::second));
 }
@@ -83,7 +83,7 @@ std::string text_of(const shm::Observation& seen) {
     return text;
 }
 
-nlohmann::json json_of(const shm::RingView& ring) {
+nlohmann::json json_of(const shm::ObservedRing& ring) {
     const auto& c = ring.counters;
     if (!ring.damage.empty()) return {{"name", ring.name}, {"damage", ring.damage}};
     return {{"name", ring.name},
@@ -105,7 +105,7 @@ nlohmann::json json_of(const shm::HistogramCounts& times) {
     return json;
 }
 
-nlohmann::json json_of(const shm::CallQueueView& queue) {
+nlohmann::json json_of(const shm::ObservedCallQueue& queue) {
     const auto& c = queue.counters;
     if (!queue.damage.empty()) return {{"name", queue.name}, {"damage", queue.damage}};
     return {{"name", queue.name},

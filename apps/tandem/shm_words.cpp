@@ -51,8 +51,8 @@ const char* word_of(shm::RingPolicy policy) {
     return "unknown";
 }
 
-std::string side_text(const shm::SegmentView& segment, shm::Side which) {
-    const shm::SideView& side = segment.side(which);
+std::string side_text(const shm::ObservedSegment& segment, shm::Side which) {
+    const shm::ObservedSide& side = segment.side(which);
     if (segment.readability == shm::Readability::foreign) return "-";
     if (segment.readability != shm::Readability::readable) return side.held ? "held" : "-";
     if (side.state == shm::PeerState::absent) return "absent";
@@ -67,8 +67,8 @@ nlohmann::json age_json(std::uint64_t then_ns) {
     return now - then_ns;
 }
 
-nlohmann::json side_json(const shm::SegmentView& segment, shm::Side which) {
-    const shm::SideView& side = segment.side(which);
+nlohmann::json side_json(const shm::ObservedSegment& segment, shm::Side which) {
+    const shm::ObservedSide& side = segment.side(which);
     nlohmann::json json{{"held", side.held}};
     if (segment.readability != shm::Readability::readable) return json;
     json["state"] = word_of(side.state);
@@ -83,7 +83,7 @@ nlohmann::json side_json(const shm::SegmentView& segment, shm::Side which) {
 
 } // namespace
 
-nlohmann::json to_json(const shm::SegmentView& segment) {
+nlohmann::json to_json(const shm::ObservedSegment& segment) {
     nlohmann::json json{{"link", segment.link},
                         {"generation", segment.generation},
                         {"path", segment.path},
@@ -114,7 +114,7 @@ shm::Observation observe_or_throw(const std::string& link, std::uint64_t generat
                                ": no such segment; 'tandem shm list' shows those that exist");
 }
 
-int report_readability(const shm::SegmentView& segment) {
+int report_readability(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::readable) return 0;
     const char* remedy = segment.readability == shm::Readability::foreign ? "look at it as that user"
                          : segment.readability == shm::Readability::other_layout
