@@ -172,6 +172,7 @@ void add_floor_ring_cases(Registry& registry) {
     rate.unit = Unit::megamessages;
     rate.run = stream<RateEnd>;
     registry.cases.push_back(rate);
+    add_stream<65536>(registry);
     add_stream<mebibyte>(registry);
     add_stream<6 * mebibyte>(registry);
 }

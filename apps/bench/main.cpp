@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <unistd.h>
@@ -79,7 +80,10 @@ int run(const Options& options) {
     if (!options.compare.empty()) fmt::print("\n{}", compare_text(old, report));
     if (!options.json.empty()) write_file(options.json, to_json(report));
     if (!options.html.empty()) write_file(options.html, html_page(report, verdict));
-    return interrupted() ? 130 : 0;
+    if (interrupted()) return 130;
+    const bool failed = std::any_of(verdict.begin(), verdict.end(),
+                                    [](const BarResult& one) { return one.missing.empty() && !one.pass(); });
+    return failed ? 1 : 0;
 }
 
 } // namespace

@@ -63,6 +63,7 @@ void add_our_stream_cases(Registry& registry) {
     one.unit = Unit::megamessages;
     one.run = stream<OurRingEnd<64, Wake::spin>>;
     registry.cases.push_back(one);
+    add_large<1 << 16>(registry);
     add_large<1 << 20>(registry);
     add_large<6 << 20>(registry);
 }

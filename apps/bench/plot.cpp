@@ -64,6 +64,10 @@ std::string label_of(const Row& row) {
 
 using Choice = std::function<bool(const Row&)>;
 
+constexpr const char* time_axis = "set logscale xy\nset ylabel 'time'\nset ytics ('10 ns' 10, '100 ns' 100, "
+                                  "'1 us' 1e3, '10 us' 1e4, '100 us' 1e5, "
+                                  "'1 ms' 1e6, '10 ms' 1e7, '100 ms' 1e8)\n";
+
 /// Percentile plot: each step to the right is ten times rarer.
 void add_distribution(std::vector<Plot>& plots, const Report& report, const std::string& title,
                       const Choice& chosen) {
@@ -76,11 +80,11 @@ void add_distribution(std::vector<Plot>& plots, const Report& report, const std:
         lines.push_back(std::move(line));
     }
     if (lines.empty()) return;
-    plots.push_back(draw(
-        title,
-        "set logscale xy\nset ylabel 'ns'\nset xlabel 'percentile'\nset xtics ('0' 1, '50' 2, '90' 10, '99' "
-        "100, '99.9' 1000, '99.99' 10000, '99.999' 100000)\nset xrange [1:]\n",
-        "lines", lines));
+    plots.push_back(draw(title,
+                         std::string(time_axis) +
+                             "set xlabel 'percentile'\nset xtics ('0' 1, '50' 2, '90' 10, '99' "
+                             "100, '99.9' 1000, '99.99' 10000, '99.999' 100000)\nset xrange [1:]\n",
+                         "lines", lines));
 }
 
 constexpr const char* size_axis =
@@ -89,26 +93,32 @@ constexpr const char* size_axis =
 
 /// One line per who and how, one point per size.
 void add_by_size(std::vector<Plot>& plots, const Report& report, const std::string& title,
-                 const std::string& unit, const Choice& chosen,
+                 const std::string& axis, const Choice& chosen,
                  const std::function<double(const Row&)>& value) {
     std::map<std::string, Line> by_label;
     for (const Row& row : report.rows) {
         if (!row.skipped.empty() || row.regime != "normal" || row.placement != "processes" || !chosen(row))
             continue;
-        // The 64-byte point belongs to both ways of handling large ones.
-        Line& line = by_label[row.group + " " + row.who + " " + (row.bytes <= 64 ? "" : row.detail)];
-        line.title = row.who + (row.bytes <= 64 || row.detail.empty() ? "" : " " + row.detail);
+        Line& line = by_label[row.group + " " + row.who + " " + row.detail];
+        line.title = row.who + (row.detail.empty() ? "" : " " + row.detail);
         line.group = row.group;
         line.points.emplace_back(static_cast<double>(row.bytes), value(row));
     }
     std::vector<Line> lines;
     for (auto& [label, line] : by_label) {
+        // Small messages have one way of being sent, large ones several: the lines begin in one point.
+        const std::string plain = label.substr(0, label.rfind(' ') + 1);
+        const auto small = by_label.find(plain);
+        if (label != plain && small != by_label.end())
+            line.points.insert(line.points.end(), small->second.points.begin(), small->second.points.end());
+        else if (const auto next = by_label.upper_bound(plain);
+                 next != by_label.end() && next->first.rfind(plain, 0) == 0)
+            continue; // part of the next one
         std::sort(line.points.begin(), line.points.end());
         lines.push_back(std::move(line));
     }
     if (lines.empty()) return;
-    plots.push_back(
-        draw(title, fmt::format("{}set ylabel '{}'\n", size_axis, unit), "linespoints pt 7 ps 0.6", lines));
+    plots.push_back(draw(title, size_axis + axis, "linespoints pt 7 ps 0.6", lines));
 }
 
 Choice one_way(const std::string& regime, bool asleep) {
@@ -134,11 +144,11 @@ std::vector<Plot> draw_plots(const Report& report) {
     add_distribution(plots, report, "Round trip due every millisecond, from when it was due",
                      [](const Row& row) { return row.what == "paced"; });
     add_by_size(
-        plots, report, "One way by size, polling", "ns, p50",
+        plots, report, "One way by size, polling, p50", time_axis,
         [](const Row& row) { return row.what == "one-way" && row.wake == "spin" && row.group != "peer"; },
         [](const Row& row) { return row.summary.p50; });
     add_by_size(
-        plots, report, "Throughput by size", "GB/s",
+        plots, report, "Throughput by size", "set ylabel 'GB/s'\n",
         [](const Row& row) { return row.what == "stream" && row.bytes > 0; },
         [](const Row& row) {
             return row.unit == "GB/s" ? row.summary.p50

@@ -39,6 +39,12 @@ std::string table_text(const Report& report) {
                        "cores", "samples", "p50", "p90", "p99", "p99.9", "max", "regime");
     for (const Row& row : report.rows)
         if (row.skipped.empty()) out += line_of(row, width);
+    const auto disturbed =
+        std::count_if(report.rows.begin(), report.rows.end(), [](const Row& row) { return row.disturbed(); });
+    if (disturbed > 0)
+        out += fmt::format(
+            "{} of {} rows were disturbed: other processes got more than 2 % of the machine meanwhile\n",
+            disturbed, report.rows.size());
     for (const Row& row : report.rows)
         if (!row.skipped.empty()) out += fmt::format("skipped {}: {}\n", row.id, row.skipped);
     return out;
