@@ -21,7 +21,7 @@ constexpr const char* configuration =
     "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize></General>"
     "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers><Peer "
     "address='127.0.0.1'/></Peers></Discovery>"
-    "<Tracing><Verbosity>severe</Verbosity></Tracing></Domain></CycloneDDS>";
+    "<Tracing><Verbosity>severe</Verbosity><OutputFile>stderr</OutputFile></Tracing></Domain></CycloneDDS>";
 
 template <class T>
 const dds_topic_descriptor_t& descriptor();
