@@ -65,6 +65,7 @@ Registry all_cases() {
     add_floor_ring_cases(registry);
     add_floor_memory_cases(registry);
     add_our_ring_cases(registry);
+    add_our_bridge_cases(registry);
     add_our_stream_cases(registry);
     add_our_call_cases(registry);
     add_our_port_cases(registry);

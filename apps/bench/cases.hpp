@@ -9,6 +9,7 @@ struct Registry;
 void add_floor_line_cases(Registry& registry);
 void add_floor_ring_cases(Registry& registry);
 void add_floor_memory_cases(Registry& registry);
+void add_our_bridge_cases(Registry& registry);
 void add_our_ring_cases(Registry& registry);
 void add_our_stream_cases(Registry& registry);
 void add_our_call_cases(Registry& registry);
