@@ -182,12 +182,15 @@ void CallClient::shut_down() { state_->stopped.store(true, std::memory_order_rel
 CallCounters CallClient::counters() const { return read_counters(state_->queue.view); }
 
 void CancelToken::cancel() const {
-    if (client_) client_->caller.cancel(ticket_);
+    if (const auto client = client_.lock()) client->caller.cancel(ticket_);
 }
 
 PendingCall::~PendingCall() {
     if (!client_ || refused_ != CallStatus::ok) return;
-    if (!client_->caller.withdraw(ticket_)) client_->caller.done(ticket_);
+    if (client_->give_up(ticket_, CallStatus::cancelled) == CallStatus::cancelled)
+        client_->queue.view.header->cancels.fetch_add(1, std::memory_order_relaxed);
+    else
+        client_->caller.done(ticket_);
 }
 
 bool PendingCall::ready() const {

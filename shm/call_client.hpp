@@ -54,7 +54,7 @@ class CancelToken {
 
   private:
     friend class PendingCall;
-    std::shared_ptr<CallClient::State> client_;
+    std::weak_ptr<CallClient::State> client_; // a token does not keep the client alive
     CallTicket ticket_;
 };
 

@@ -1,64 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fixture.hpp"
-
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
-
-#include <future>
-#include <map>
-#include <mutex>
+#include "call_fixture.hpp"
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 using Catch::Matchers::Contains;
-
-namespace {
-
-/// first calls, second serves.
-struct CallPair : Pair {
-    explicit CallPair(CallQueueOptions options = {.slots = 8, .max_bytes = 4096})
-        : client(first->add_call_queue("c", options)), server((first->publish(), seen_by_second())) {}
-    /// Through first's addresses: the thread sanitizer knows words by address, and would see no
-    /// connection between the two mappings that the sides have in one process.
-    CallQueueHandle seen_by_second() {
-        auto handle = *second->find_call_queue(Side::first, "c");
-        const auto same = *first->find_call_queue(Side::first, "c");
-        handle.view = same.view;
-        handle.times = same.times;
-        return handle;
-    }
-    CallClient client;
-    CallServer server;
-};
-
-/// Workers that run a function for every call until the server is interrupted.
-struct Workers {
-    Workers(CallServer& server, int count, std::function<void(IncomingCall&)> work) : server_(server) {
-        for (int i = 0; i < count; ++i)
-            threads_.emplace_back([&server, work] {
-                for (;;) {
-                    auto call = server.take(10s);
-                    if (!call) return;
-                    work(*call);
-                }
-            });
-    }
-    ~Workers() {
-        server_.interrupt();
-        for (auto& thread : threads_) thread.join();
-    }
-    CallServer& server_;
-    std::vector<std::thread> threads_;
-};
-
-/// A call from a thread of its own; Catch's assertions are for one thread only.
-std::future<CallStatus> call_aside(CallClient& client, std::chrono::nanoseconds timeout) {
-    return std::async(std::launch::async, [&client, timeout] { return client.call(0, {}, timeout).status; });
-}
-
-void echo(IncomingCall& call) { call.reply(CallStatus::ok, call.arguments()); }
-
-} // namespace
 
 TEST_CASE("a call brings its arguments there and its results back") {
     CallPair calls;
@@ -88,40 +33,6 @@ TEST_CASE("an error of the service arrives as status and text") {
     CHECK_THAT(calls.client.call(4, {}, 20s).text(), Contains("4097 bytes"));
     CHECK(calls.client.call(5, {}, 20s).status == CallStatus::exception); // destroyed unanswered
     CHECK(calls.client.call(0, std::vector<std::byte>(4097), 20s).status == CallStatus::bad_arguments);
-}
-
-TEST_CASE("of calls from eight threads to four workers none is lost or doubled") {
-    CallPair calls({.slots = 8, .max_bytes = 64});
-    std::mutex guard;
-    std::map<std::string, int> runs;
-    Workers workers(calls.server, 4, [&](IncomingCall& call) {
-        {
-            const std::lock_guard lock(guard);
-            ++runs[text_of(call.arguments())];
-        }
-        echo(call);
-    });
-    const std::size_t rounds = stress(2000);
-    std::atomic<std::size_t> wrong{0};
-    std::vector<std::thread> callers;
-    for (int caller = 0; caller < 8; ++caller)
-        callers.emplace_back([&, caller] {
-            for (std::size_t i = 0; i < rounds; ++i) {
-                const std::string text = std::to_string(caller) + "/" + std::to_string(i);
-                const Reply reply = calls.client.call(0, bytes_of(text), 60s);
-                if (reply.status != CallStatus::ok || reply.text() != text) ++wrong;
-            }
-        });
-    for (auto& caller : callers) caller.join();
-    CHECK(wrong == 0);
-    CHECK(runs.size() == 8 * rounds);
-    for (const auto& [text, count] : runs)
-        if (count != 1) FAIL_CHECK(text << " ran " << count << " times");
-    const auto counters = calls.client.counters();
-    CHECK(counters.calls == 8 * rounds);
-    CHECK(counters.taken == 8 * rounds);
-    CHECK(counters.answered == 8 * rounds);
-    CHECK(counters.in_use == 0);
 }
 
 TEST_CASE("a call that nobody takes ends at its deadline and is not run later") {
@@ -212,24 +123,91 @@ TEST_CASE("a client that shuts down gets its callers back") {
     CHECK(calls.client.counters().in_use == 0);
 }
 
-TEST_CASE("calls that call back into the caller do not deadlock") {
-    Pair pair;
-    CallClient to_second(
-        pair.first->add_call_queue("forth", {.callers = Side::first, .slots = 4, .max_bytes = 64}));
-    CallServer at_first(
-        pair.first->add_call_queue("back", {.callers = Side::second, .slots = 4, .max_bytes = 64}));
-    pair.first->publish();
-    CallServer at_second(*pair.second->find_call_queue(Side::first, "forth"));
-    CallClient to_first(*pair.second->find_call_queue(Side::first, "back"));
-    Workers workers_of_second(at_second, 2, [&](IncomingCall& call) {
-        call.reply(CallStatus::ok, to_first.call(1, call.arguments(), 20s).bytes);
-    });
-    Workers workers_of_first(at_first, 2, echo);
-    CHECK(to_second.call(1, bytes_of("there and back"), 20s).text() == "there and back");
-}
-
 TEST_CASE("each end of a call queue belongs to its side") {
     CallPair calls;
     CHECK_THROWS_AS(CallServer(*calls.first->find_call_queue(Side::first, "c")), Error);
     CHECK_THROWS_AS(CallClient(*calls.second->find_call_queue(Side::first, "c")), Error);
+}
+
+TEST_CASE("a call queue has one calling end at a time") {
+    CallPair calls;
+    const auto queue = *calls.first->find_call_queue(Side::first, "c");
+    CHECK_THROWS_WITH(CallClient(queue), Contains("has a CallClient already"));
+    Pair pair;
+    const auto other = pair.first->add_call_queue("c", {.slots = 2, .max_bytes = 64});
+    for (int i = 0; i < 3; ++i) CHECK(CallClient(other).call(0, {}, 1us).status == CallStatus::timeout);
+}
+
+TEST_CASE("a new calling end withdraws what the one before has left") {
+    Pair pair;
+    const auto queue = pair.first->add_call_queue("c", {.slots = 2, .max_bytes = 64});
+    pair.first->publish();
+    // As if a caller had been in the middle of two calls: one submitted, one taken by a worker.
+    queue.view.slots[0].request.word.store(call_word(layout::CallState::submitted, 7, 0));
+    queue.view.slots[1].request.word.store(call_word(layout::CallState::running, 9, 0));
+    CallClient client(queue);
+    CallServer server(*pair.second->find_call_queue(Side::first, "c"));
+    CHECK_FALSE(server.take(0ns));
+    CHECK(client.counters().in_use == 1); // the worker is still at it
+    Workers workers(server, 1, echo);
+    for (int i = 0; i < 3; ++i) CHECK(client.call(0, bytes_of("x"), 20s).text() == "x");
+}
+
+TEST_CASE("a late answer goes to nobody and not to the next call of its slot") {
+    CallPair calls({.slots = 1, .max_bytes = 64});
+    auto caller = call_aside(calls.client, 300s);
+    auto late = calls.server.take(20s);
+    REQUIRE(late);
+    CHECK_FALSE(late->cancelled());
+    calls.client.shut_down();
+    CHECK(caller.get() == CallStatus::shut_down);
+    CHECK(late->cancelled());
+    CHECK(calls.client.counters().in_use == 1);
+    late->reply(CallStatus::ok, std::string("late"));
+    CHECK(calls.client.counters().in_use == 0);
+
+    CallPair again({.slots = 1, .max_bytes = 64});
+    auto slow = again.client.begin(0, {}, 300s);
+    auto old = again.server.take(20s);
+    REQUIRE(old);
+    slow.cancel();
+    CHECK(slow.wait().status == CallStatus::cancelled);
+    CHECK(again.client.call(1, {}, 1s).status == CallStatus::overload); // the slot is the worker's still
+    old->reply(CallStatus::ok, std::string("late"));
+    Workers workers(again.server, 1, echo);
+    CHECK(again.client.call(1, bytes_of("next"), 20s).text() == "next");
+}
+
+TEST_CASE("arguments and results of every length arrive whole") {
+    CallPair calls;
+    Workers workers(calls.server, 1, echo);
+    for (std::size_t bytes = 0; bytes <= 4096; bytes += bytes < 300 ? 1 : 499) {
+        std::vector<std::byte> arguments(bytes);
+        for (std::size_t i = 0; i < bytes; ++i) arguments[i] = static_cast<std::byte>(i * 7 + bytes);
+        const Reply reply = calls.client.call(0, arguments, 20s);
+        REQUIRE(reply.status == CallStatus::ok);
+        REQUIRE(reply.bytes == arguments);
+    }
+}
+
+TEST_CASE("a call queue keeps counters and durations that anybody can read") {
+    CallPair calls;
+    const auto queue = *calls.second->find_call_queue(Side::first, "c");
+    {
+        Workers workers(calls.server, 2, echo);
+        for (int i = 0; i < 100; ++i) CHECK(calls.client.call(0, {}, 20s).status == CallStatus::ok);
+    }
+    const auto counters = read_counters(queue.view);
+    CHECK(counters.calls == 100);
+    CHECK(counters.taken == 100);
+    CHECK(counters.answered == 100);
+    CHECK(counters.in_use == 0);
+    const auto total = [](const layout::Histogram& times) {
+        std::uint64_t sum = 0;
+        for (const auto& count : times.counts) sum += count;
+        return sum;
+    };
+    CHECK(total(queue.times->round_trip) == 100);
+    CHECK(total(queue.times->service) <= 100); // two workers at once: one of them leaves its time out
+    CHECK(total(queue.times->service) > 0);
 }

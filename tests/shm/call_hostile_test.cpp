@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// One end of a call queue is honest, the other writes what it likes into the words of the slots.
+#include "call_fixture.hpp"
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+using layout::CallState;
+
+namespace {
+
+constexpr std::uint64_t sequences[] = {0, 1, 2, sequence_mask};
+constexpr std::uint64_t lengths[] = {0, 1, 63, 64, 65, 88, 113, 4096, 0x7fffffff, 0xffffffff};
+
+/// Everything that a word can claim, in steps.
+void for_each_word(const std::function<void(std::uint64_t)>& attempt) {
+    for (std::uint32_t tag = 0; tag < 16; ++tag)
+        for (const auto sequence : sequences)
+            for (const auto length : lengths) attempt(call_word(tag, sequence, length));
+}
+
+} // namespace
+
+TEST_CASE("a forged request is refused or run within bounds") {
+    CallPair calls({.slots = 2, .max_bytes = 64});
+    auto& request = calls.second->find_call_queue(Side::first, "c")->view.slots[0].request;
+    for_each_word([&](std::uint64_t word) {
+        request.deadline_ns.store(~std::uint64_t{0});
+        request.word.store(word);
+        if (auto call = calls.server.take(0ns)) {
+            CHECK(call->arguments().size() <= 64);
+            CHECK(has_state(word, CallState::submitted));
+            request.word.store(~word); // while it runs
+            CHECK(call->cancelled());
+            call->reply(CallStatus::ok, call->arguments());
+        }
+    });
+}
+
+TEST_CASE("the same call submitted again while it runs waits until the worker is out of the slot") {
+    CallPair calls({.slots = 2, .max_bytes = 64});
+    auto& request = calls.second->find_call_queue(Side::first, "c")->view.slots[0].request;
+    request.deadline_ns.store(~std::uint64_t{0});
+    request.word.store(call_word(CallState::submitted, 1, 8));
+    auto running = calls.server.take(0ns);
+    REQUIRE(running);
+    for (std::uint64_t sequence = 1; sequence < 4; ++sequence) {
+        request.word.store(call_word(CallState::submitted, sequence, 8));
+        CHECK_FALSE(calls.server.take(0ns)); // two workers would share one private copy
+    }
+    running->reply(CallStatus::ok);
+    CHECK(calls.server.take(0ns));
+}
+
+TEST_CASE("a forged reply becomes an error or a result within bounds") {
+    CallPair calls({.slots = 1, .max_bytes = 64});
+    auto& slot = calls.first->find_call_queue(Side::first, "c")->view.slots[0];
+    std::size_t accepted = 0, damaged = 0;
+    for_each_word([&](std::uint64_t word) {
+        auto call = calls.client.begin(1, bytes_of("abc"), 300s);
+        // Of this call or of another one; of another one the caller would wait on.
+        const std::uint64_t sequence = sequence_of(slot.request.word.load());
+        slot.reply.word.store(call_word(tag_of(word), sequence, length_of(word)));
+        const Reply reply = call.wait();
+        CHECK(reply.bytes.size() <= 64);
+        ++(reply.text() == "the other side has damaged the reply" ? damaged : accepted);
+    });
+    CHECK(accepted == 9 * std::size(sequences) * 4); // nine statuses, lengths up to 64
+    CHECK(damaged == 16 * std::size(sequences) * std::size(lengths) - accepted);
+    Workers workers(calls.server, 1, echo);
+    CHECK(calls.client.call(1, bytes_of("sound again"), 20s).text() == "sound again");
+}
+
+TEST_CASE("a request word changed under a waiting caller ends its call and not its queue") {
+    CallPair calls({.slots = 1, .max_bytes = 64});
+    auto& slot = calls.first->find_call_queue(Side::first, "c")->view.slots[0];
+    for_each_word([&](std::uint64_t word) {
+        auto call = calls.client.begin(1, bytes_of("abc"), 5ms);
+        const std::uint64_t mine = slot.request.word.load();
+        if (word == mine || word == with_state(mine, CallState::running)) return;
+        slot.request.word.store(word);
+        const CallStatus status = call.wait().status;
+        CHECK((status == CallStatus::exception || status == CallStatus::cancelled));
+    });
+    // Nothing is left over; a slot said to be with a worker would be parked until that worker's reply.
+    slot.reply.word.store(call_word(0, sequence_of(slot.request.word.load()), 0));
+    Workers workers(calls.server, 1, echo);
+    CHECK(calls.client.call(1, bytes_of("sound again"), 20s).text() == "sound again");
+}
+
+TEST_CASE("a caller gives up at its deadline whatever the queue's words say") {
+    CallPair calls({.slots = 2, .max_bytes = 64}, {.spin = 1us});
+    auto& header = *calls.first->find_call_queue(Side::first, "c")->view.header;
+    for (const std::uint32_t value : {0U, 1U, 2U, 3U, 0xffffffffU}) {
+        for (auto* word : {&header.sleepers, &header.watching, &header.rung}) {
+            const std::uint32_t before = word->exchange(value);
+            CHECK(calls.client.call(1, {}, 1ms).status == CallStatus::timeout);
+            word->store(before);
+        }
+    }
+}
