@@ -29,13 +29,21 @@ struct RealAtomics {
     static void copy_out(void* to, const Cell* from, std::size_t bytes) { copy_from_shared(to, from, bytes); }
     static void copy_in(Cell* to, const void* from, std::size_t bytes) { copy_to_shared(to, from, bytes); }
 
-    /// Plain copies of memory that, by protocol, is this side's alone at the moment.
+    /// Plain copies of memory that, by protocol, is this side's alone at the moment. Short ones go by words
+    /// of 8: memcpy would load 32 bytes at once from what the user has just stored in smaller pieces, which
+    /// waits until those stores have left the store buffer (measured: 100 ns of a 150 ns way).
     static void take_out(void* to, const Cell* from, std::size_t bytes) {
-        if (bytes != 0) std::memcpy(to, from, bytes);
+        if (bytes <= by_words) return copy_from_shared(to, from, bytes);
+        std::memcpy(to, from, bytes);
     }
     static void put_in(Cell* to, const void* from, std::size_t bytes) {
-        if (bytes != 0) std::memcpy(to, from, bytes);
+        if (bytes <= by_words) return copy_to_shared(to, from, bytes);
+        std::memcpy(to, from, bytes);
     }
+    static constexpr std::size_t by_words = 256;
+
+    /// Asks for a cell's cache line without waiting for it.
+    static void prefetch(const Cell* cell) { _mm_prefetch(cell, _MM_HINT_T0); }
 
     static void fence() { std::atomic_thread_fence(std::memory_order_seq_cst); }
     static void pause() { _mm_pause(); }

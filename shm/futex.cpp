@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/futex.hpp"
 
-#include "shm/atomics.hpp"
-
 #include <climits>
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -12,7 +10,7 @@ namespace tandem::shm {
 
 // Not the _PRIVATE operations: the word is shared between processes.
 
-void futex_wait(layout::Word32& word, std::uint32_t expected, std::uint64_t deadline) {
+void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline) {
     const std::uint64_t now = now_ns();
     if (now >= deadline) return;
     timespec left{};
@@ -21,7 +19,7 @@ void futex_wait(layout::Word32& word, std::uint32_t expected, std::uint64_t dead
     syscall(SYS_futex, &word, FUTEX_WAIT, expected, &left, nullptr, 0);
 }
 
-void futex_wake(layout::Word32& word, int sleepers) {
+void futex_wake(std::atomic<std::uint32_t>& word, int sleepers) {
     syscall(SYS_futex, &word, FUTEX_WAKE, sleepers, nullptr, nullptr, 0);
 }
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sleeping on a shared word, and the protocol that lets the waking side do without a system call.
 #pragma once
-#include "shm/clock.hpp"
-#include "shm/layout.hpp"
-
-#include <immintrin.h>
+#include "shm/atomics.hpp"
 
 namespace tandem::shm {
 
 /// Sleeps while `word` holds `expected`, until woken or now_ns() reaches `deadline`. May return early.
-void futex_wait(layout::Word32& word, std::uint32_t expected, std::uint64_t deadline);
-void futex_wake(layout::Word32& word, int sleepers);
+void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
+void futex_wake(std::atomic<std::uint32_t>& word, int sleepers);
 
 /// How to wait: spin polls only, futex sleeps at once, spin_then_futex polls for `spin` and then sleeps.
 enum class WaitMode { spin, spin_then_futex, futex };
@@ -20,12 +17,12 @@ struct WaitOptions {
 };
 
 /// Polls ready() until it holds or now_ns() reaches `deadline`. Looks at the clock every 32nd time only.
-template <class Ready>
+template <class A = RealAtomics, class Ready>
 bool spin_until(std::uint64_t deadline, Ready&& ready) {
     for (unsigned round = 1;; ++round) {
         if (ready()) return true;
-        if (round % 32 == 0 && now_ns() >= deadline) return false;
-        _mm_pause();
+        if (round % 32 == 0 && A::now() >= deadline) return false;
+        A::pause();
     }
 }
 
@@ -38,14 +35,14 @@ bool spin_until(std::uint64_t deadline, Ready&& ready) {
 /// at least one side sees the other: either ready() holds and nobody sleeps, or the waker sees the
 /// announcement. The kernel compares the word again, so a wake between ready() and the sleep is not lost
 /// either.
-template <class Ready>
-bool sleep_until(layout::Word32& word, std::uint64_t deadline, Ready&& ready) {
+template <class A = RealAtomics, class Ready>
+bool sleep_until(typename A::template Atomic<std::uint32_t>& word, std::uint64_t deadline, Ready&& ready) {
     bool done = false;
     while (!done) {
         word.store(1, std::memory_order_seq_cst);
         done = ready();
-        if (done || now_ns() >= deadline) break;
-        futex_wait(word, 1, deadline);
+        if (done || A::now() >= deadline) break;
+        A::futex_wait(word, 1, deadline);
         done = ready();
     }
     word.store(0, std::memory_order_relaxed);
@@ -53,22 +50,24 @@ bool sleep_until(layout::Word32& word, std::uint64_t deadline, Ready&& ready) {
 }
 
 /// Wakes the sleeper if there is one. True: that took a system call.
-inline bool wake(layout::Word32& word) {
+template <class A = RealAtomics>
+bool wake(typename A::template Atomic<std::uint32_t>& word) {
     if (word.load(std::memory_order_seq_cst) == 0 || word.exchange(0, std::memory_order_seq_cst) == 0)
         return false;
-    futex_wake(word, 1);
+    A::futex_wake(word, 1);
     return true;
 }
 
 /// Waits until ready() holds, in the way asked for, at most until `deadline`. ready() must load with seq_cst.
-template <class Ready>
-bool wait_until(layout::Word32& word, const WaitOptions& how, std::uint64_t deadline, Ready&& ready) {
+template <class A = RealAtomics, class Ready>
+bool wait_until(typename A::template Atomic<std::uint32_t>& word, const WaitOptions& how,
+                std::uint64_t deadline, Ready&& ready) {
     if (ready()) return true;
-    if (how.mode == WaitMode::spin) return spin_until(deadline, ready);
-    if (how.mode == WaitMode::spin_then_futex &&
-        spin_until(std::min(deadline, deadline_after(how.spin)), ready))
+    if (how.mode == WaitMode::spin) return spin_until<A>(deadline, ready);
+    const auto spin = static_cast<std::uint64_t>(how.spin.count());
+    if (how.mode == WaitMode::spin_then_futex && spin_until<A>(std::min(deadline, A::now() + spin), ready))
         return true;
-    return sleep_until(word, deadline, ready);
+    return sleep_until<A>(word, deadline, ready);
 }
 
 } // namespace tandem::shm

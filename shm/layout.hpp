@@ -49,6 +49,7 @@ static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
 constexpr std::uint32_t layout_version = 2;
 constexpr std::size_t page = 4096;
+constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
 constexpr std::size_t max_objects = 512;
 constexpr std::size_t name_bytes = 104; // with the terminating zero
@@ -110,47 +111,77 @@ static_assert(sizeof(SideHeader) == 512 + max_objects * sizeof(DirectoryEntry));
 constexpr std::size_t arenas_begin = 139264; // behind both SideHeaders, next page
 static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % page == 0);
 
-// Ring: bytes [0, capacity) follow the header; a position is a 64-bit count of bytes that never wraps, its
-// place is position % capacity. Records lie contiguous between tail and head, each RecordHeader + payload,
-// rounded up to 8. One that would cross the end is preceded by padding: a first word with length
-// padding_length, up to the end.
-struct RingHeader {
-    std::uint64_t capacity;   // power of two
-    std::uint64_t max_record; // payload bytes; two of the longest records fit
-    std::uint32_t policy;     // RingPolicy
-    std::uint32_t writer;     // Side
-    std::uint64_t wait_ns;    // bound of RingPolicy::wait
-    std::byte unused0[96];
+// Ring: RingHeader | data[capacity] | chunks, if it has any (below). A position is a 64-bit count of bytes
+// that never wraps; its place is position % capacity. A record is one or more whole lines, contiguous:
+//
+//      0        8       16                                    64
+//      +--------+-------+-------------------------------------+--------------
+//      | commit | stamp | payload: up to 48 bytes share the commit word's line, longer ones go on
+//      +--------+-------+-------------------------------------+--------------
+//
+// The commit word is stored last and 0 stands where the next record will begin, so a reader looks at that one
+// line until there is news, and the news has then come with it. A record that would cross the end is preceded
+// by padding up to there (kind = padding).
+//
+//      commit:  63 .. 40 sequence, low 24 bits | 39 .. 32 tag | 31 .. 30 kind | 29 .. 0 payload bytes
+//
+// A payload longer than max_record lies in a chunk: the record (kind = loan) then holds { chunk number, bytes }.
+enum class RecordKind : std::uint32_t { none, record, padding, loan };
+
+template <class A>
+struct BasicRingHeader {
+    using Word32 = typename A::template Atomic<std::uint32_t>;
+    using Word64 = typename A::template Atomic<std::uint64_t>;
+
+    std::uint64_t capacity;    // power of two
+    std::uint64_t max_record;  // payload bytes in the ring itself; two of the longest records fit
+    std::uint64_t chunk_bytes; // whole pages; 0 = no chunks
+    std::uint32_t chunks;
+    std::uint32_t policy;  // RingPolicy
+    std::uint32_t writer;  // Side
+    std::uint32_t unused0;
+    std::uint64_t wait_ns; // bound of RingPolicy::wait
+    std::byte unused1[80];
     alignas(line_pair) Word64 head; // end of the newest record; moved by the writer only
-    Word64 newest;                  // begin of the newest record; stored after head
-    std::byte unused1[112];
-    alignas(line_pair)
-        Word64 tail; // begin of the oldest record; moved by the reader, in lossy rings also by the writer
-    Word32 writer_sleeps; // futex word of RingPolicy::wait
-    std::byte unused2[116];
+    Word64 newest;                  // begin of the newest record; both for those who come later or skip
+    std::byte unused2[112];
+    alignas(line_pair) Word64 tail; // begin of the oldest record; moved by the reader, in lossy rings also by
+                                    // the writer
+    Word32 writer_sleeps;           // futex word of RingPolicy::wait
+    std::byte unused3[112];
     alignas(line_pair) Word64 sent; // counters of the writer, see RingCounters
     Word64 refused;
     Word64 overwritten;
     Word64 bytes_sent;
-    std::byte unused3[96];
+    Word64 published; // records; the sequence number of the newest
+    Word64 sample;    // when a record was published: 63 .. 16 time / 16 ns | 15 .. 0 sequence / 64
+    std::byte unused4[80];
     alignas(line_pair) Word64 received; // counters of the reader
     Word64 skipped;
     Word64 bytes_received;
-    std::byte unused4[104];
+    std::byte unused5[104];
+    alignas(line_pair) Histogram age; // from published to read, of every 64th record; by the reader
 };
+using RingHeader = BasicRingHeader<RealAtomics>;
 
-struct RecordHeader {
-    std::uint32_t length; // payload bytes, or padding_length
-    std::uint32_t tag;
-    std::uint64_t sequence; // 1, 2, 3 ... without a gap
-    std::uint64_t stamp_ns;
-};
-constexpr std::uint32_t padding_length = 0xffffffff;
-
+static_assert(offsetof(RingHeader, wait_ns) == 40);
 static_assert(offsetof(RingHeader, head) == 128 && offsetof(RingHeader, tail) == 256);
 static_assert(offsetof(RingHeader, sent) == 384 && offsetof(RingHeader, received) == 512);
-static_assert(sizeof(RingHeader) == 640);
-static_assert(sizeof(RecordHeader) == 24);
+static_assert(offsetof(RingHeader, age) == 640 && sizeof(RingHeader) == 640 + sizeof(Histogram));
+
+constexpr std::size_t record_header = 16;
+constexpr std::uint64_t sequence_mask = 0xffffff; // of a commit word
+
+// Chunk: behind data, ChunkWords of all chunks, then the chunks, each at a page of the file. Who may touch a
+// chunk: the writer, until it has published a loan of it; then whoever takes that record off the ring (the
+// reader to read it, a lossy writer to drop it); the reader gives it back by storing the record's sequence.
+template <class A>
+struct BasicChunkWords {
+    alignas(line_pair) typename A::template Atomic<std::uint64_t> returned; // sequence of the loan last given back
+    std::byte unused[120];
+};
+using ChunkWords = BasicChunkWords<RealAtomics>;
+static_assert(sizeof(ChunkWords) == line_pair);
 
 // Call queue: header, then CallTimes, then slot_count slots, then slot_count overflow buffers of
 // overflow_bytes each. A slot is two line pairs, one per direction, because each direction has one writer and

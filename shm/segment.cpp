@@ -36,10 +36,8 @@ bool Segment::superseded() const {
 }
 
 RingHandle Segment::add_ring(const std::string& name, const RingOptions& options) {
-    const std::uint64_t capacity = ring_capacity(name, options);
-    return create_ring(mapping_,
-                       directory_.add(name, layout::ObjectKind::ring, sizeof(layout::RingHeader) + capacity),
-                       options);
+    const std::uint64_t bytes = ring_memory(name, options);
+    return create_ring(mapping_, directory_.add(name, layout::ObjectKind::ring, bytes), options);
 }
 
 CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueueOptions& options) {

@@ -19,7 +19,7 @@ constexpr std::uint64_t contract = 0x7461'6e64'656d'0001; // "tandem", 1
 constexpr auto watch_up = 10ms; // also the beat of the heart
 constexpr auto watch_down =
     3ms; // a partner that comes is noticed by the watcher; this is for what it cannot see
-constexpr std::size_t ring_overhead = 64; // of the longest record, of which two fit
+constexpr std::size_t ring_overhead = 128; // of the longest record, of which two fit
 constexpr auto retry_side = 1ms;
 constexpr auto retry_join = 10ms;
 

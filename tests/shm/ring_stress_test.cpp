@@ -8,7 +8,7 @@ using namespace tandem::shm::test;
 
 namespace {
 
-constexpr std::uint32_t last_tag = 7;
+constexpr std::uint8_t last_tag = 7;
 
 /// Length and every word follow from the number.
 std::size_t payload_words(std::uint64_t number) { return 1 + (number * 2654435761U >> 7) % 30; }
@@ -61,7 +61,7 @@ Got receive(RingReader& reader, bool newest) {
     Got got;
     std::uint64_t sequence = 0, stamp = 0;
     const auto deadline = deadline_after(120s);
-    for (std::uint32_t tag = 0; tag != last_tag && now_ns() < deadline && !reader.corrupt();) {
+    for (std::uint8_t tag = 0; tag != last_tag && now_ns() < deadline && !reader.corrupt();) {
         const auto record = newest ? reader.read_newest() : reader.read();
         if (!record) {
             std::this_thread::yield();
@@ -103,8 +103,7 @@ TEST_CASE("between two threads nothing is torn doubled or unaccounted for") {
     // connection between the two mappings that the sides have in one process.
     auto handle = *pair.second->find_ring(Side::first, "r");
     const auto same = *pair.first->find_ring(Side::first, "r");
-    handle.shared = same.shared;
-    handle.data = same.data;
+    handle.view = same.view;
     RingReader reader(handle);
     CAPTURE(policy, newest, capacity);
     Got got;
