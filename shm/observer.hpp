@@ -59,7 +59,10 @@ struct ObservedRing : ObservedObject {
     Side writer{};
     RingPolicy policy{};
     std::uint64_t capacity = 0, max_record = 0, wait_ns = 0;
+    std::uint64_t chunk_bytes = 0; ///< of each chunk for payloads longer than max_record
+    std::uint32_t chunks = 0;
     RingCounters counters{};
+    HistogramCounts age{}; ///< from published to read, a sample of the records
 
     /// Not negative, although a record may be counted as received before it is counted as sent.
     std::uint64_t waiting() const {

@@ -23,6 +23,23 @@ bool read_part(const QuietFile& file, std::uint64_t place, Copied<Bytes>& copy, 
     return file.read(place + from, {copy.bytes + from, to - from});
 }
 
+bool copy_histogram(const QuietFile& file, std::uint64_t place, HistogramCounts& counts) {
+    Copied<sizeof(layout::Histogram)> copy;
+    if (!file.read(place, copy.bytes)) return false;
+    for (std::size_t i = 0; i < counts.counts.size(); ++i)
+        counts.counts[i] = copy.get<std::uint64_t>(offsetof(layout::Histogram, counts) + 8 * i);
+    return true;
+}
+
+/// What a ring of these sizes takes in the arena; 0 for sizes that none has.
+std::uint64_t ring_bytes(const ObservedRing& ring) {
+    constexpr std::uint64_t largest = std::uint64_t{1} << 36, most_chunks = 64;
+    if (ring.capacity > largest || ring.chunk_bytes > largest || ring.chunks > most_chunks) return 0;
+    const std::uint64_t records = sizeof(RingHeader) + ring.capacity;
+    if (ring.chunks == 0) return records;
+    return records + ring.chunks * (sizeof(layout::ChunkWords) + ring.chunk_bytes) + layout::page;
+}
+
 ObservedRing view_ring(const QuietFile& file, ObservedObject object, std::uint64_t place) {
     ObservedRing ring{std::move(object)};
     Copied<sizeof(RingHeader)> copy;
@@ -30,8 +47,9 @@ ObservedRing view_ring(const QuietFile& file, ObservedObject object, std::uint64
     // than sent.
     const bool complete =
         ring.bytes >= sizeof(RingHeader) && read_part(file, place, copy, 0, offsetof(RingHeader, head)) &&
-        read_part(file, place, copy, offsetof(RingHeader, received), sizeof(RingHeader)) &&
-        read_part(file, place, copy, offsetof(RingHeader, sent), offsetof(RingHeader, received));
+        read_part(file, place, copy, offsetof(RingHeader, received), offsetof(RingHeader, age)) &&
+        read_part(file, place, copy, offsetof(RingHeader, sent), offsetof(RingHeader, received)) &&
+        copy_histogram(file, place + offsetof(RingHeader, age), ring.age);
     if (!complete) {
         ring.damage = cut_off;
         return ring;
@@ -44,6 +62,8 @@ ObservedRing view_ring(const QuietFile& file, ObservedObject object, std::uint64
     ring.capacity = word(offsetof(RingHeader, capacity));
     ring.max_record = word(offsetof(RingHeader, max_record));
     ring.wait_ns = word(offsetof(RingHeader, wait_ns));
+    ring.chunk_bytes = word(offsetof(RingHeader, chunk_bytes));
+    ring.chunks = copy.get<std::uint32_t>(offsetof(RingHeader, chunks));
     ring.counters.sent = word(offsetof(RingHeader, sent));
     ring.counters.refused = word(offsetof(RingHeader, refused));
     ring.counters.overwritten = word(offsetof(RingHeader, overwritten));
@@ -51,7 +71,7 @@ ObservedRing view_ring(const QuietFile& file, ObservedObject object, std::uint64
     ring.counters.received = word(offsetof(RingHeader, received));
     ring.counters.skipped = word(offsetof(RingHeader, skipped));
     ring.counters.bytes_received = word(offsetof(RingHeader, bytes_received));
-    if (ring.capacity != ring.bytes - sizeof(RingHeader) || !std::has_single_bit(ring.capacity) ||
+    if (ring.bytes != ring_bytes(ring) || !std::has_single_bit(ring.capacity) ||
         ring.max_record > ring.capacity / 2 || policy > 3 || writer > 1)
         ring.damage = "its header is not that of a ring of " + std::to_string(ring.bytes) + " bytes";
     return ring;
@@ -73,14 +93,6 @@ bool count_slots(const QuietFile& file, std::uint64_t slots_begin, ObservedCallQ
                    request.get<std::uint64_t>(offsetof(CallRequest, word)),
                    request.get<std::uint64_t>(offsetof(CallRequest, calls)));
     }
-    return true;
-}
-
-bool copy_histogram(const QuietFile& file, std::uint64_t place, HistogramCounts& counts) {
-    Copied<sizeof(layout::Histogram)> copy;
-    if (!file.read(place, copy.bytes)) return false;
-    for (std::size_t i = 0; i < counts.counts.size(); ++i)
-        counts.counts[i] = copy.get<std::uint64_t>(offsetof(layout::Histogram, counts) + 8 * i);
     return true;
 }
 

@@ -44,8 +44,10 @@ constexpr Manual stats_manual{
     "  time-out     given up by the caller at the deadline\n"
     "  cancelled    given up by the caller before it\n"
     "  in use       slots of calls that are in progress now\n"
-    "The times are of samples, counted in buckets: a percentile is shown as the upper end of its bucket, at\n"
-    "most a quarter too long. Round trip is what the caller sees, service what the server does.\n"
+    "The times are of samples: age from a record's writing to its reading, round trip what a caller sees,\n"
+    "service what the server does. They are counted in buckets; a percentile is shown as the upper end of "
+    "its\n"
+    "bucket, at most a quarter too long.\n"
     "The counters are read one after the other while the system runs: the sum is exact at rest only.\n"
     "Exit code 1 if there is no such segment or it cannot be read."};
 constexpr Manual clean_manual{"Removes segments that nobody alive holds",

@@ -39,8 +39,10 @@ std::string description(const shm::ObservedRing& ring) {
     if (!ring.damage.empty()) return "damaged: " + ring.damage;
     std::string policy = word_of(ring.policy);
     if (ring.policy == shm::RingPolicy::wait) policy += " " + duration_text(ring.wait_ns);
-    return fmt::format("{} writes, {}, {} in records of up to {}", name_of(ring.writer), policy,
-                       bytes_text(ring.capacity), bytes_text(ring.max_record));
+    std::string text = fmt::format("{} writes, {}, {} in records of up to {}", name_of(ring.writer), policy,
+                                   bytes_text(ring.capacity), bytes_text(ring.max_record));
+    if (ring.chunks != 0) text += fmt::format(", {} loans of {}", ring.chunks, bytes_text(ring.chunk_bytes));
+    return text;
 }
 
 std::string description(const shm::ObservedCallQueue& queue) {
@@ -78,6 +80,8 @@ nlohmann::json objects_json(const shm::Observation& seen) {
                          {"policy", word_of(ring.policy)},
                          {"capacity", ring.capacity},
                          {"max_record", ring.max_record},
+                         {"chunks", ring.chunks},
+                         {"chunk_bytes", ring.chunk_bytes},
                          {"wait_ns", ring.wait_ns}});
         list.push_back(json);
     }

@@ -65,6 +65,8 @@ void add_times(Table& table, const std::string& of, shm::Side side, const char* 
 
 std::string times_text(const shm::Observation& seen) {
     Table table({"time", "of", "what", ">samples", ">p50 <=", ">p90 <=", ">p99 <=", ">p99.9 <=", ">max <="});
+    for (const auto& ring : seen.rings)
+        if (ring.damage.empty()) add_times(table, ring.name, ring.writer, "age when read", ring.age);
     for (const auto& queue : seen.call_queues) {
         if (!queue.damage.empty()) continue;
         add_times(table, queue.name, queue.callers, "round trip", queue.round_trip);
@@ -83,6 +85,15 @@ std::string text_of(const shm::Observation& seen) {
     return text;
 }
 
+/// Percentiles are upper bounds; of no samples null.
+nlohmann::json json_of(const shm::HistogramCounts& times) {
+    nlohmann::json json{{"samples", times.total()}};
+    for (std::size_t i = 0; i < std::size(shares); ++i)
+        json[share_names[i]] =
+            times.total() == 0 ? nlohmann::json() : nlohmann::json(times.percentile(shares[i]));
+    return json;
+}
+
 nlohmann::json json_of(const shm::ObservedRing& ring) {
     const auto& c = ring.counters;
     if (!ring.damage.empty()) return {{"name", ring.name}, {"damage", ring.damage}};
@@ -93,16 +104,8 @@ nlohmann::json json_of(const shm::ObservedRing& ring) {
             {"dropped", {{"refused", c.refused}, {"overwritten", c.overwritten}, {"skipped", c.skipped}}},
             {"waiting", ring.waiting()},
             {"bytes_sent", c.bytes_sent},
-            {"bytes_received", c.bytes_received}};
-}
-
-/// Percentiles are upper bounds; of no samples null.
-nlohmann::json json_of(const shm::HistogramCounts& times) {
-    nlohmann::json json{{"samples", times.total()}};
-    for (std::size_t i = 0; i < std::size(shares); ++i)
-        json[share_names[i]] =
-            times.total() == 0 ? nlohmann::json() : nlohmann::json(times.percentile(shares[i]));
-    return json;
+            {"bytes_received", c.bytes_received},
+            {"age", json_of(ring.age)}};
 }
 
 nlohmann::json json_of(const shm::ObservedCallQueue& queue) {
