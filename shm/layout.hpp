@@ -125,7 +125,8 @@ static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % pa
 //
 //      commit:  63 .. 40 sequence, low 24 bits | 39 .. 32 tag | 31 .. 30 kind | 29 .. 0 payload bytes
 //
-// A payload longer than max_record lies in a chunk: the record (kind = loan) then holds { chunk number, bytes }.
+// A payload longer than max_record lies in a chunk: the record (kind = loan) then holds { chunk number, bytes
+// }.
 enum class RecordKind : std::uint32_t { none, record, padding, loan };
 
 template <class A>
@@ -137,8 +138,8 @@ struct BasicRingHeader {
     std::uint64_t max_record;  // payload bytes in the ring itself; two of the longest records fit
     std::uint64_t chunk_bytes; // whole pages; 0 = no chunks
     std::uint32_t chunks;
-    std::uint32_t policy;  // RingPolicy
-    std::uint32_t writer;  // Side
+    std::uint32_t policy; // RingPolicy
+    std::uint32_t writer; // Side
     std::uint32_t unused0;
     std::uint64_t wait_ns; // bound of RingPolicy::wait
     std::byte unused1[80];
@@ -177,7 +178,8 @@ constexpr std::uint64_t sequence_mask = 0xffffff; // of a commit word
 // reader to read it, a lossy writer to drop it); the reader gives it back by storing the record's sequence.
 template <class A>
 struct BasicChunkWords {
-    alignas(line_pair) typename A::template Atomic<std::uint64_t> returned; // sequence of the loan last given back
+    alignas(line_pair)
+        typename A::template Atomic<std::uint64_t> returned; // sequence of the loan last given back
     std::byte unused[120];
 };
 using ChunkWords = BasicChunkWords<RealAtomics>;

@@ -19,8 +19,8 @@ constexpr std::uint64_t largest_chunk = std::uint64_t{1} << 30;
 constexpr std::uint32_t most_chunks = 64;
 constexpr std::uint64_t longest_writer_wait = 10'000'000'000;
 
-/// Two of the longest records fit, and the line that is always free: so one of them finds its place, contiguous,
-/// wherever an empty ring happens to begin.
+/// Two of the longest records fit, and the line that is always free: so one of them finds its place,
+/// contiguous, wherever an empty ring happens to begin.
 std::uint64_t ring_of_two(std::uint64_t max_record) { return 2 * record_bytes(max_record) + layout::line; }
 
 /// The sizes of a ring, as its maker wants them or as they stand in the segment.
@@ -55,16 +55,18 @@ Sizes sizes_of(const std::string& name, const RingOptions& options) {
                 0,
                 wait};
     if (options.max_record <= longest_record && options.capacity <= largest_ring)
-        sizes.capacity = std::bit_ceil(
-            std::max<std::uint64_t>(options.capacity, ring_of_two(options.max_record)));
+        sizes.capacity =
+            std::bit_ceil(std::max<std::uint64_t>(options.capacity, ring_of_two(options.max_record)));
     if (!sizes.sound())
         throw Error("ring '" + name +
-                    "': max_record and capacity with room for two of it up to 512 MiB, wait of 0 to 10 s, and 0 or 2 to 64 chunks "
+                    "': max_record and capacity with room for two of it up to 512 MiB, wait of 0 to 10 s, "
+                    "and 0 or 2 to 64 chunks "
                     "longer than max_record, up to 1 GiB, expected");
     return sizes;
 }
 
-RingHandle handle_of(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory, const Sizes& sizes) {
+RingHandle handle_of(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
+                     const Sizes& sizes) {
     RingView<RealAtomics> view;
     view.shared = reinterpret_cast<layout::RingHeader*>(memory.data());
     view.cells = reinterpret_cast<std::uint64_t*>(memory.data() + sizeof(layout::RingHeader));
@@ -139,10 +141,14 @@ RingWriter::RingWriter(RingHandle ring)
 std::span<std::byte> RingWriter::reserve(std::size_t bytes) {
     using Place = RingProducer<RealAtomics>::Place;
     switch (producer_.reserve(bytes)) {
-    case Place::ring: return {reinterpret_cast<std::byte*>(producer_.cells()), bytes};
-    case Place::chunk: return {producer_.chunk(), bytes};
-    case Place::elsewhere: return {reinterpret_cast<std::byte*>(scratch_.data()), bytes};
-    case Place::refused: break;
+    case Place::ring:
+        return {reinterpret_cast<std::byte*>(producer_.cells()), bytes};
+    case Place::chunk:
+        return {producer_.chunk(), bytes};
+    case Place::elsewhere:
+        return {reinterpret_cast<std::byte*>(scratch_.data()), bytes};
+    case Place::refused:
+        break;
     }
     return {};
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reading end of a ring, over whatever atomics. Inside of the ring: users include ring.hpp.
 //
-// The commit word of the next record is all that a waiting reader looks at; the order of the stores, and why a
-// lossy ring's copy is whole when the tail could still be moved, stand in ring_producer.hpp.
+// The commit word of the next record is all that a waiting reader looks at; the order of the stores, and why
+// a lossy ring's copy is whole when the tail could still be moved, stand in ring_producer.hpp.
 //
 // Nothing that stands in the ring is believed before it was checked against this process's own copy of the
-// sizes, and nothing is used before it was copied (but by peek() and consume(), which say so). In a lossy ring
-// a look may find the bytes of a record that is being overwritten. Such a look is not evidence of damage: only
-// if the words that would have had to move have not moved, the bytes are impossible and the ring is given up.
+// sizes, and nothing is used before it was copied (but by peek() and consume(), which say so). In a lossy
+// ring a look may find the bytes of a record that is being overwritten. Such a look is not evidence of
+// damage: only if the words that would have had to move have not moved, the bytes are impossible and the ring
+// is given up.
 #pragma once
 #include "shm/futex.hpp"
 #include "shm/ring_view.hpp"
@@ -66,9 +67,9 @@ class alignas(layout::line_pair) RingConsumer {
         }
     };
 
-    /// A reader on the writer's heels takes each line away while the writer still writes to it, and both crawl.
-    /// So a look that finds nothing right after a row of records that came without waiting costs half a
-    /// microsecond, in which the writer gets ahead. Records that come one by one are not affected.
+    /// A reader on the writer's heels takes each line away while the writer still writes to it, and both
+    /// crawl. So a look that finds nothing right after a row of records that came without waiting costs half
+    /// a microsecond, in which the writer gets ahead. Records that come one by one are not affected.
     class Pace {
       public:
         void something() {
@@ -138,8 +139,8 @@ RingConsumer<A>::RingConsumer(const RingView<A>& ring)
     corrupt_ = position_ % layout::line != 0;
 }
 
-/// The usual case, all in a few instructions behind one load: the next record in sequence, in the ring itself.
-/// Everything else goes the long way: receive().
+/// The usual case, all in a few instructions behind one load: the next record in sequence, in the ring
+/// itself. Everything else goes the long way: receive().
 template <class A>
 inline std::optional<Record> RingConsumer<A>::read_as(bool newest) {
     const auto* at = ring_.cell(position_);
@@ -245,9 +246,9 @@ bool RingConsumer<A>::copy(const Found& found) {
     return !loan || (loan_.chunk < ring_.chunk_count && loan_.bytes <= ring_.chunk_bytes);
 }
 
-/// The 24 bits of the commit word made 64 again: counted on from the last one, or, when the writer has dropped
-/// records meanwhile, by its own count. That one is read before the tail is moved, and the record was in the
-/// ring until then: so it cannot be further off than there are lines in the ring.
+/// The 24 bits of the commit word made 64 again: counted on from the last one, or, when the writer has
+/// dropped records meanwhile, by its own count. That one is read before the tail is moved, and the record was
+/// in the ring until then: so it cannot be further off than there are lines in the ring.
 template <class A>
 std::uint64_t RingConsumer<A>::sequence_of(const Found& found, std::uint64_t tail) const {
     if (in_step_ && tail == position_)
@@ -279,9 +280,9 @@ inline bool RingConsumer<A>::move_tail(std::uint64_t& from, std::uint64_t to) {
     return true;
 }
 
-/// Moves the tail from wherever it is to behind `found`. The copy made before is whole as long as the tail has
-/// not passed the record's begin; the word that stands at the tail until then says which sequence number is
-/// the oldest (padding has that of the record behind it).
+/// Moves the tail from wherever it is to behind `found`. The copy made before is whole as long as the tail
+/// has not passed the record's begin; the word that stands at the tail until then says which sequence number
+/// is the oldest (padding has that of the record behind it).
 template <class A>
 bool RingConsumer<A>::take(const Found& found, std::uint64_t tail, std::uint64_t& skipped) {
     for (int i = 0; i < overtakings && tail <= found.start; ++i) {

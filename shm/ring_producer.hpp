@@ -6,8 +6,8 @@
 //
 //     0 where the next record will begin | payload, stamp | commit word (| padding before it) | head | newest
 //
-// Killed anywhere before the commit word (of the padding, if there is one: it is what the reader looks at), it
-// has published nothing. Two ways to the bytes:
+// Killed anywhere before the commit word (of the padding, if there is one: it is what the reader looks at),
+// it has published nothing. Two ways to the bytes:
 //
 // Lossless (reject, wait): the payload is written in place. Only the reader moves the tail, so what lies
 // between head and tail + capacity is this end's alone:
@@ -44,8 +44,8 @@ class alignas(layout::line_pair) RingProducer {
     /// Where reserve() has found room. refused: nowhere, which counts as one sent and dropped.
     enum class Place { refused, ring, elsewhere, chunk };
 
-    /// ring: write to cells(). elsewhere (lossy rings, short payloads): anywhere, and give it to commit(). chunk: write to
-    /// chunk().
+    /// ring: write to cells(). elsewhere (lossy rings, short payloads): anywhere, and give it to commit().
+    /// chunk: write to chunk().
     Place reserve(std::size_t bytes);
     typename A::Cell* cells() const { return ring_.cell(start_of_reserved() + layout::record_header); }
     std::byte* chunk() const { return ring_.chunk(chunk_); }
@@ -85,8 +85,8 @@ class alignas(layout::line_pair) RingProducer {
     void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
                  std::uint64_t stamp, std::uint8_t tag);
 
-    // A shorter payload is made elsewhere and copied in at one go: written piece by piece to the line that the
-    // reader looks at, it would cost a transfer of that line for every look.
+    // A shorter payload is made elsewhere and copied in at one go: written piece by piece to the line that
+    // the reader looks at, it would cost a transfer of that line for every look.
     static constexpr std::size_t longest_burst = 4096;
     static constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
@@ -174,8 +174,8 @@ bool RingProducer<A>::drop_oldest() {
     return true;
 }
 
-// Every step frees at least a line, so as many as there are lines suffice; a reader taking records at the same
-// time only shortens the way. More steps than that: somebody moves the tail who must not.
+// Every step frees at least a line, so as many as there are lines suffice; a reader taking records at the
+// same time only shortens the way. More steps than that: somebody moves the tail who must not.
 template <class A>
 bool RingProducer<A>::drop_until_fits(std::uint64_t need) {
     for (std::uint64_t budget = ring_.capacity / layout::line + 1; budget > 0; --budget) {
@@ -191,8 +191,8 @@ bool RingProducer<A>::chunk_is_free(std::uint32_t index) const {
            ring_.chunk_words[index].returned.load(std::memory_order_seq_cst) == loans_[index];
 }
 
-/// Round robin from the one used last, so that a chunk comes back late and its lines are cold for the reader's
-/// core only when all others are in use.
+/// Round robin from the one used last, so that a chunk comes back late and its lines are cold for the
+/// reader's core only when all others are in use.
 template <class A>
 bool RingProducer<A>::find_chunk() {
     for (std::uint32_t i = 1; i <= ring_.chunk_count; ++i) {
@@ -305,7 +305,8 @@ inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payloa
     expect_another(record_bytes(used));
 }
 
-/// The usual case, a record that fits where the last one ended, without the detours of reserve() and commit().
+/// The usual case, a record that fits where the last one ended, without the detours of reserve() and
+/// commit().
 template <class A>
 inline bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp,
                                    std::uint8_t tag) {
@@ -323,10 +324,16 @@ template <class A>
 [[gnu::noinline]] bool RingProducer<A>::write_slowly(const void* bytes, std::size_t count,
                                                      std::uint64_t stamp, std::uint8_t tag) {
     switch (reserve(count)) {
-    case Place::refused: return false;
-    case Place::ring: A::put_in(cells(), bytes, count); break;
-    case Place::chunk: std::memcpy(chunk(), bytes, count); break;
-    case Place::elsewhere: break;
+    case Place::refused:
+        return false;
+    case Place::ring:
+        A::put_in(cells(), bytes, count);
+        break;
+    case Place::chunk:
+        std::memcpy(chunk(), bytes, count);
+        break;
+    case Place::elsewhere:
+        break;
     }
     return commit(bytes, count, stamp, tag);
 }

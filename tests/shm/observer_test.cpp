@@ -287,7 +287,7 @@ TEST_CASE("whatever a byte of the headers becomes the observer answers") {
     const Furnished pair;
     const std::string path = pair.first->path(), sound = content_of(path);
     const std::size_t objects_end =
-        layout::arenas_begin + sizeof(layout::RingHeader) + pair.ring.capacity + 1024;
+        layout::arenas_begin + sizeof(layout::RingHeader) + pair.ring.view.capacity + 1024;
     std::size_t looks = 0;
     const auto check = [&](std::size_t from, std::size_t to) {
         for (std::size_t at = from; at < to; ++at)
@@ -353,7 +353,7 @@ TEST_CASE("the counters that are seen while both ends run are never impossible")
         const auto seen = observed(pair.link);
         const auto& c = seen.rings.at(0).counters;
         sound = sound && seen.rings[0].damage.empty() && c.sent >= sent && c.received >= received &&
-                seen.rings[0].waiting() <= ring.capacity;
+                seen.rings[0].waiting() <= ring.view.capacity;
         sent = c.sent;
         received = c.received;
     }
