@@ -166,8 +166,8 @@ class CallWorker {
     std::uint32_t oldest(std::uint64_t& word) const {
         std::uint32_t found = no_slot;
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot) {
-            // acquire: the call's arguments are there
-            const std::uint64_t seen = view_.slots[slot].request.word.load(std::memory_order_acquire);
+            // seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin().
+            const std::uint64_t seen = view_.slots[slot].request.word.load(std::memory_order_seq_cst);
             if (!has_state(seen, layout::CallState::submitted) ||
                 busy_[slot].load(std::memory_order_relaxed) != 0)
                 continue;
