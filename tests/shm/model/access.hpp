@@ -34,9 +34,16 @@ inline std::uint64_t Execution::look(std::uint32_t word, Order order, Index& rea
         const Index floor = choices_.node(node_).sleep[turn_];
         if (floor != asleep) oldest = std::max<std::size_t>(oldest, floor);
     }
-    if (newest >= settings_.history) oldest = std::max<std::size_t>(oldest, newest + 1U - settings_.history);
-    if (me().pauses >= 2) oldest = newest;
+    // Stores come to be seen some day: nobody reads the same old one again and again.
+    Repeat& repeat = me().repeats[word];
+    const std::size_t allowed = oldest;
+    if (me().pauses >= settings_.patience) oldest = newest;
+    if (repeat.index >= oldest && repeat.index < newest && repeat.count >= settings_.patience)
+        oldest = repeat.index + 1U;
+    if (oldest != allowed && explores())
+        reduction_.turn_round(choices_, turn_, {Kind::load, order, word}, true);
     read = static_cast<Index>(newest - choices_.value(static_cast<std::uint32_t>(newest - oldest + 1)));
+    repeat = {read, read == repeat.index ? repeat.count + 1 : 1};
     me().looks.push_back({word, read});
     return memory_.read(who, word, read, order);
 }
@@ -198,15 +205,15 @@ inline std::uint64_t Execution::now() {
     return thread.observer.time;
 }
 
-/// As the kernel does it: a full barrier, then the comparison and the enqueueing in one step.
-inline void Execution::sleep(std::uint32_t word, std::uint32_t queue, std::uint64_t expected,
-                             std::uint64_t deadline, const Site& at) {
+/// As the kernel does it: a barrier, then the comparison and the enqueueing in one step. The barrier is
+/// believed as far as the word goes only; code that needs more of it is wrong here.
+inline void Execution::sleep(std::uint32_t word, std::uint64_t expected, std::uint64_t deadline,
+                             const Site& at) {
     if (!in_thread() || over()) return;
     Thread& thread = me();
     if (thread.observer.time >= deadline) return;
-    const Operation operation{Kind::sleep, Order::seq_cst, word, queue};
-    await_turn(operation, false);
-    memory_.fence(thread.observer);
+    const Operation operation{Kind::sleep, Order::seq_cst, word, queue_of(word)};
+    await_turn(operation, true);
     Index read = 0;
     bool open = false;
     const std::uint64_t value = look(word, Order::seq_cst, read, open);
@@ -216,15 +223,15 @@ inline void Execution::sleep(std::uint32_t word, std::uint32_t queue, std::uint6
     thread.state = State::sleeps;
     thread.woken = false;
     thread.deadline = deadline;
-    thread.queue = queue;
+    thread.queue = queue_of(word);
     thread.pauses = 0;
-    thread.next = {Kind::expire, Order::relaxed, no_location, queue};
+    thread.next = {Kind::expire, Order::relaxed, no_location, thread.queue};
     hand_on();
     thread.state = State::runs;
     if (thread.woken) {
-        reduction_.after_word(turn_, queue);
+        reduction_.after_word(turn_, thread.queue);
     } else {
-        if (!choices_.random() && node_ >= fresh_from_) reduction_.turn_round(choices_, turn_, thread.next);
+        if (explores()) reduction_.turn_round(choices_, turn_, thread.next);
         if (thread.lapses != 0) --thread.lapses;
         thread.observer.time = std::max(thread.observer.time, deadline);
         trace(at, "has slept to the deadline", "");
@@ -232,19 +239,20 @@ inline void Execution::sleep(std::uint32_t word, std::uint32_t queue, std::uint6
     done(thread.next, 0, 0, false);
 }
 
-inline void Execution::wake(std::uint32_t queue, int sleepers, const Site& at) {
+inline void Execution::wake(std::uint32_t word, int sleepers, const Site& at) {
     if (log_ != nullptr) log_->note(at, Access::wake, Order::seq_cst);
     if (damaged(at, Damage::no_wake)) return;
     if (!in_thread() || over()) return;
-    const Operation operation{Kind::wake, Order::seq_cst, no_location, queue};
+    const Operation operation{Kind::wake, Order::seq_cst, word, queue_of(word)};
     await_turn(operation, true);
-    memory_.fence(me().observer);
+    const bool open = memory_.at(word).sequential < memory_.newest(word);
+    memory_.pass_on(me().observer, word);
     trace(at, "wakes", "");
-    done(operation, 0, 0, false);
+    done(operation, 0, 0, open);
     for (std::size_t i = 1; i <= count_ && sleepers > 0; ++i) {
         Thread& thread = threads_[i];
-        if (thread.state != State::sleeps || thread.woken || thread.queue != queue) continue;
-        if (thread.lapses != 0 && settings_.reduced && !choices_.random() && node_ >= fresh_from_)
+        if (thread.state != State::sleeps || thread.woken || thread.queue != operation.queue) continue;
+        if (thread.lapses != 0 && explores())
             reduction_.turn_round(choices_, i, thread.next); // its deadline may have come first
         thread.woken = true;
         thread.next = {};

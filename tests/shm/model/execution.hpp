@@ -13,8 +13,8 @@ struct Ended {};
 
 /// What an execution may do besides running every step of every thread.
 struct Settings {
-    unsigned lapses = 0;      ///< how often each thread's deadlines may pass although others could still run
-    std::size_t history = 64; ///< stores of a word that a load may choose from, the newest included
+    unsigned lapses = 0;   ///< how often each thread's deadlines may pass although others could still run
+    unsigned patience = 2; ///< how often in a row a thread reads one store although there is a newer one
     std::size_t step_limit = 20000;
     bool ends_in_sleep = false; ///< all threads asleep for ever is not a failure
     bool reduced = true;        ///< false: every order of every step, to check the reduction itself
@@ -24,6 +24,8 @@ class Execution {
   public:
     /// The time that a lapse takes: longer than any time-out of a scenario.
     static constexpr std::uint64_t lapse = 20'000'000'000;
+    /// What pause() takes when nobody can run: a polling thread soon finds that its time to poll is over.
+    static constexpr std::uint64_t idle_round = 100'000;
 
     /// A thread of `process`; threads of one process die together, if it is mortal. Called before run().
     void thread(std::string name, std::function<void()> body, unsigned process = 0, bool mortal = false) {
@@ -62,7 +64,7 @@ class Execution {
 
     /// Claims of the scenario.
     void require(bool holds, const std::string& claim) {
-        if (holds || ending_) return;
+        if (holds || (ending_ && in_thread())) return;
         fail(claim);
         throw Ended{};
     }
@@ -112,13 +114,16 @@ class Execution {
     void fence(const Site& at);
     void pause(const Site& at);
     std::uint64_t now();
-    void sleep(std::uint32_t word, std::uint32_t queue, std::uint64_t expected, std::uint64_t deadline,
-               const Site& at);
-    void wake(std::uint32_t queue, int sleepers, const Site& at);
+    void sleep(std::uint32_t word, std::uint64_t expected, std::uint64_t deadline, const Site& at);
+    void wake(std::uint32_t word, int sleepers, const Site& at);
 
   private:
     enum class State { runs, paused, sleeps, ended };
 
+    struct Repeat {
+        Index index = 0;
+        unsigned count = 0;
+    };
     struct Look {
         std::uint32_t word;
         Index index;
@@ -136,6 +141,7 @@ class Execution {
         std::uint32_t queue = no_location, steps = 0;
         std::uint64_t deadline = 0;
         std::vector<Look> looks; ///< since the last pause
+        std::array<Repeat, max_locations> repeats{};
     };
 
     static Execution*& active() {
@@ -146,6 +152,8 @@ class Execution {
     Thread& me() { return threads_[turn_]; }
     bool in_thread() const { return turn_ != 0; }
     bool over();
+    /// The present step is new to the search.
+    bool explores() const { return settings_.reduced && !choices_.random() && node_ >= fresh_from_; }
     void fail(const std::string& what) {
         if (failure_.empty()) failure_ = what;
     }

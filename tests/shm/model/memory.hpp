@@ -133,6 +133,13 @@ class Memory {
         who.fenced = true;
     }
 
+    /// What the kernel's barrier in a wake-up does to the futex word: who goes to sleep after it sees what
+    /// the waker knows.
+    void pass_on(const Observer& who, std::uint32_t location) {
+        Index& all = locations_[location].sequential;
+        all = std::max(all, who.now.seen.index[location]);
+    }
+
     /// Notes an access for the detection of data races. False: it races with an earlier one.
     bool note(const Observer& who, std::size_t thread, std::uint32_t location, bool writes, bool plain) {
         Location& place = locations_[location];

@@ -14,15 +14,15 @@ struct ModelAtomics {
         static_assert(sizeof(T) <= 8 && std::is_trivially_copyable_v<T>);
 
       public:
-        Atomic(T value = T{}) : word_(Execution::current().add_word(word_of(value))) {}
+        Atomic(T value = T{}) : initial_(value) {}
         Atomic(const Atomic&) = delete;
         Atomic& operator=(const Atomic&) = delete;
 
         T load(Order order, const Site& at = Site::current()) const {
-            return value_of(Execution::current().load(word_, order, at));
+            return value_of(Execution::current().load(word(), order, at));
         }
         void store(T value, Order order, const Site& at = Site::current()) {
-            Execution::current().store(word_, word_of(value), order, at);
+            Execution::current().store(word(), word_of(value), order, at);
         }
         T exchange(T value, Order order, const Site& at = Site::current()) {
             return change(order, at, [value](T) { return value; });
@@ -41,9 +41,9 @@ struct ModelAtomics {
         }
         bool compare_exchange_strong(T& expected, T value, Order order, Order failure,
                                      const Site& at = Site::current()) {
-            std::uint64_t word = word_of(expected);
-            const bool done = Execution::current().compare(word_, word, word_of(value), order, failure, at);
-            expected = value_of(word);
+            std::uint64_t found = word_of(expected);
+            const bool done = Execution::current().compare(word(), found, word_of(value), order, failure, at);
+            expected = value_of(found);
             return done;
         }
         bool compare_exchange_strong(T& expected, T value, Order order, const Site& at = Site::current()) {
@@ -59,7 +59,7 @@ struct ModelAtomics {
         template <class Function>
         T change(Order order, const Site& at, Function&& function) {
             return value_of(Execution::current().change(
-                word_, order, at, [&](std::uint64_t old) { return word_of(function(value_of(old))); }));
+                word(), order, at, [&](std::uint64_t old) { return word_of(function(value_of(old))); }));
         }
         static std::uint64_t word_of(T value) {
             std::uint64_t word = 0;
@@ -71,31 +71,38 @@ struct ModelAtomics {
             std::memcpy(&value, &word, sizeof value);
             return value;
         }
-        /// The sleepers are a word of their own; made at first use.
-        std::uint32_t queue() {
-            if (queue_ == no_location) queue_ = Execution::current().add_word(0);
-            return queue_;
+
+        /// Words that nobody touches are not known to the model.
+        std::uint32_t word() const {
+            if (word_ == no_location) word_ = Execution::current().add_word(word_of(initial_));
+            return word_;
         }
 
-        std::uint32_t word_, queue_ = no_location;
+        T initial_;
+        mutable std::uint32_t word_ = no_location;
     };
 
-    class Cell {
+    /// Of 8 bytes, so that places counted in bytes are the same ones.
+    class alignas(8) Cell {
       public:
-        Cell() : word_(Execution::current().add_word(0)) {}
+        Cell() = default;
         Cell(const Cell&) = delete;
         Cell& operator=(const Cell&) = delete;
 
       private:
         friend struct ModelAtomics;
-        std::uint32_t word_;
+        std::uint32_t word() const {
+            if (word_ == no_location) word_ = Execution::current().add_word(0);
+            return word_;
+        }
+        mutable std::uint32_t word_ = no_location;
     };
 
     static std::uint64_t load(const Cell& cell, Order order, const Site& at = Site::current()) {
-        return Execution::current().load(cell.word_, order, at);
+        return Execution::current().load(cell.word(), order, at);
     }
     static void store(Cell& cell, std::uint64_t value, Order order, const Site& at = Site::current()) {
-        Execution::current().store(cell.word_, value, order, at);
+        Execution::current().store(cell.word(), value, order, at);
     }
 
     static void copy_out(void* to, const Cell* from, std::size_t bytes, const Site& at = Site::current()) {
@@ -105,12 +112,14 @@ struct ModelAtomics {
         in(to, from, bytes, [&](Cell& cell, std::uint64_t value) { store(cell, value, Order::release, at); });
     }
     static void take_out(void* to, const Cell* from, std::size_t bytes, const Site& at = Site::current()) {
-        out(to, from, bytes, [&](const Cell& cell) { return Execution::current().take(cell.word_, at); });
+        out(to, from, bytes, [&](const Cell& cell) { return Execution::current().take(cell.word(), at); });
     }
     static void put_in(Cell* to, const void* from, std::size_t bytes, const Site& at = Site::current()) {
         in(to, from, bytes,
-           [&](Cell& cell, std::uint64_t value) { Execution::current().put(cell.word_, value, at); });
+           [&](Cell& cell, std::uint64_t value) { Execution::current().put(cell.word(), value, at); });
     }
+
+    static void prefetch(const Cell*) {}
 
     static void fence(const Site& at = Site::current()) { Execution::current().fence(at); }
     static void pause(const Site& at = Site::current()) { Execution::current().pause(at); }
@@ -118,10 +127,10 @@ struct ModelAtomics {
 
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline,
                            const Site& at = Site::current()) {
-        Execution::current().sleep(word.word_, word.queue(), expected, deadline, at);
+        Execution::current().sleep(word.word(), expected, deadline, at);
     }
     static void futex_wake(Atomic<std::uint32_t>& word, int sleepers, const Site& at = Site::current()) {
-        Execution::current().wake(word.queue(), sleepers, at);
+        Execution::current().wake(word.word(), sleepers, at);
     }
 
   private:

@@ -21,6 +21,9 @@ inline const char* name_of(Kind kind) {
 }
 
 constexpr std::uint32_t no_location = ~std::uint32_t{0};
+/// Locations that are not words: the sleepers on a word, the life of a process.
+constexpr std::uint32_t queue_of(std::uint32_t word) { return 2 * max_locations + word; }
+constexpr std::uint32_t life_of(std::uint32_t group) { return max_locations + group; }
 
 struct Operation {
     Kind kind = Kind::resume;
@@ -30,7 +33,7 @@ struct Operation {
     std::uint8_t group = 0;               ///< of end: the process that dies
 
     bool writes_word() const { return kind == Kind::store || kind == Kind::change || kind == Kind::end; }
-    bool is_fence() const { return kind == Kind::fence || kind == Kind::sleep || kind == Kind::wake; }
+    bool is_fence() const { return kind == Kind::fence; }
     bool in_total_order() const { return is_fence() || sequential(order); }
     /// Changes nothing but its own thread, and after a later store may still read what it could read before.
     bool is_plain_look() const { return kind == Kind::load && !sequential(order); }

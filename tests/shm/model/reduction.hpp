@@ -40,8 +40,10 @@ class Reduction {
     }
 
     /// Asks the search to turn round the steps that the next operation of `thread` competes with.
-    void turn_round(Choices& choices, std::size_t thread, const Operation& operation) {
-        if (operation.is_plain_look()) return;
+    /// `impatient`: a load that may not read all that the memory model allows.
+    void turn_round(Choices& choices, std::size_t thread, const Operation& operation,
+                    bool impatient = false) {
+        if (operation.is_plain_look() && !impatient) return;
         found_.clear();
         const auto look_at = [&](const std::vector<std::uint32_t>& indices) {
             for (const std::uint32_t index : indices)
@@ -151,7 +153,7 @@ class Reduction {
         return words_[location];
     }
     /// Where deaths of a process are noted: behind the real words.
-    std::uint32_t end_word(std::size_t thread) const { return max_locations + groups_[thread]; }
+    std::uint32_t end_word(std::size_t thread) const { return life_of(groups_[thread]); }
 
     bool competes_with(const Step& step, std::size_t thread, const Operation& operation) const {
         if (step.operation.kind == Kind::end && groups_[thread] == step.operation.group) return true;

@@ -105,7 +105,7 @@ inline std::size_t Execution::pass_time() {
     if (thread.state == State::paused) {
         for (const auto& other : threads_)
             thread.observer.time = std::max(thread.observer.time, other.observer.time);
-        thread.observer.time += lapse;
+        thread.observer.time += idle_round;
     }
     reduction_.after_all(first);
     choices_.thread(1U << first, 0, first, Sleep{});
@@ -131,13 +131,13 @@ inline void Execution::await_turn(Operation operation, bool leaves_a_trace) {
     if (dies) {
         operation = {};
         operation.kind = Kind::end;
-        operation.location = max_locations + thread.group;
+        operation.location = life_of(thread.group);
         operation.group = thread.group;
     }
     thread.next = operation;
     hand_on();
     ++thread.observer.now.clock[turn_];
-    if (!choices_.random() && node_ >= fresh_from_) reduction_.turn_round(choices_, turn_, operation);
+    if (explores()) reduction_.turn_round(choices_, turn_, operation);
     if (dies) die();
 }
 
@@ -160,7 +160,7 @@ inline bool Execution::lives(std::size_t thread) {
     Operation operation;
     operation.kind = Kind::load;
     operation.order = Order::seq_cst;
-    operation.location = max_locations + other.group;
+    operation.location = life_of(other.group);
     await_turn(operation, false);
     done(operation, 0, 0, false);
     if (other.dead) me().observer.now.join(other.observer.now, memory_.used());

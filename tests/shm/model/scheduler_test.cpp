@@ -53,6 +53,18 @@ TEST_CASE("Random executions find a lost wake-up and repeat it from their seed")
     CHECK(sleeper_and_waker(seq_cst, seq_cst, true, 1).passed());
 }
 
+TEST_CASE("A claim about the end is checked") {
+    const auto all = explore(
+        [&](Execution& execution) {
+            Word word;
+            execution.thread("writer", [&] { word.store(1, relaxed); });
+            execution.run();
+            execution.require(word.load(relaxed) == 2, "the word is two");
+        },
+        {});
+    CHECK_THAT(all.failure, Catch::Contains("the word is two"));
+}
+
 TEST_CASE("A sleeper with a deadline comes back") {
     const auto all = explore(
         [](Execution& execution) {
