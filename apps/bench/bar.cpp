@@ -78,7 +78,7 @@ void add_rest(std::vector<BarLine>& lines) {
 std::string why_missing(const Report& report, const std::string& id) {
     for (const Row& row : report.rows) // "peer/iceoryx" stands for all of its cases
         if (!row.skipped.empty() && (row.id == id || id.rfind(row.id + "/", 0) == 0)) return row.skipped;
-    return "no such case: " + id;
+    return "not measured: " + id;
 }
 
 } // namespace

@@ -65,10 +65,12 @@ Registry all_cases() {
     add_floor_ring_cases(registry);
     add_floor_memory_cases(registry);
     add_our_ring_cases(registry);
+    add_our_bridge_cases(registry);
     add_our_stream_cases(registry);
     add_our_call_cases(registry);
     add_our_port_cases(registry);
     add_our_publish_count_cases(registry);
+    add_our_wheelchair_cases(registry);
     add_peer_cases(registry);
     std::map<std::string, std::size_t> order;
     for (const Case& one : registry.cases) order.emplace(one.topic(), order.size());

@@ -69,7 +69,8 @@ std::string row_html(const Row& row) {
     const std::string note = row.disturbed() ? fmt::format("disturbed, {:.0f} %", row.foreign * 100) : "";
     return fmt::format("<tr class=\"{}\">", row.group) +
            cells({row.id, row.unit, row.wake, row.regime, row.cores, std::to_string(s.samples),
-                  figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max)}) +
+                  figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
+                  row.timed_from()}) +
            fmt::format("<td class=\"disturbed\">{}</td></tr>\n", note);
 }
 
@@ -77,7 +78,8 @@ std::string rows_section(const Report& report) {
     std::string out =
         "<h2>Every row</h2>\n<p>Streams: median and best of their windows stand in p50 and max.</p>\n"
         "<div class=\"wide\"><table><thead><tr>" +
-        cells({"case", "unit", "wake", "regime", "cores", "samples", "p50", "p90", "p99", "p99.9", "max", ""},
+        cells({"case", "unit", "wake", "regime", "cores", "samples", "p50", "p90", "p99", "p99.9", "max",
+               "from", ""},
               "th") +
         "</tr></thead><tbody>\n";
     std::string skipped;

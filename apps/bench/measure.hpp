@@ -9,12 +9,10 @@
 #include "apps/bench/payload.hpp"
 #include "apps/bench/session.hpp"
 
-#include <fmt/format.h>
-
 namespace tandem::bench {
 
 inline void expect_sequence(std::uint64_t got, std::uint64_t wanted) {
-    if (got != wanted) throw std::runtime_error(fmt::format("message {} came where {} was due", got, wanted));
+    if (got != wanted) detail::out_of_order(got, wanted);
 }
 
 /// Answers until the stop message.

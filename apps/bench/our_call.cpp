@@ -2,8 +2,10 @@
 // Our call queue: one client, one server, 64 bytes there and 64 back.
 #include "apps/bench/cases.hpp"
 #include "apps/bench/our_link.hpp"
+
 #include "shm/call_client.hpp"
 #include "shm/call_server.hpp"
+#include <fmt/format.h>
 
 namespace tandem::bench {
 

@@ -98,7 +98,7 @@ void remove_left_overs(const std::string& name) {
     for (const auto& folder : {std::filesystem::path("/dev/shm"), std::filesystem::temp_directory_path()})
         for (const auto& file : std::filesystem::directory_iterator(folder, ignored))
             if (file.path().filename().string().find(name) != std::string::npos)
-                std::filesystem::remove(file.path(), ignored);
+                std::filesystem::remove_all(file.path(), ignored);
     for (const char* end : {"-0", "-1"}) mq_unlink(("/" + name + end).c_str());
 }
 

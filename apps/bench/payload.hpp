@@ -16,6 +16,7 @@ constexpr std::uint64_t stop_sequence = ~std::uint64_t{0};
 namespace detail {
 void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value);
 std::uint64_t sum_large(const std::uint64_t* words, std::size_t count);
+[[noreturn]] void out_of_order(std::uint64_t got, std::uint64_t wanted);
 [[noreturn]] void damaged(std::uint64_t first, std::uint64_t sum, std::size_t count);
 constexpr std::size_t large_words = 64;
 

@@ -28,6 +28,13 @@ class PeerCases {
         one.run = calls<Client, Server>;
         registry_.add_regimes(one);
     }
+    /// Round trips that are due every millisecond.
+    template <class End>
+    void due(Wake wake) {
+        Case one = base("paced", 64, wake, {});
+        one.run = paced<End>;
+        registry_.cases.push_back(one);
+    }
     template <class End>
     void rate(Wake wake, const std::string& detail = {}) {
         Case one = base("stream", 64, wake, detail);

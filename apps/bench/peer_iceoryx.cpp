@@ -178,6 +178,8 @@ void add_iceoryx_cases(Registry& registry) {
     PeerCases cases(registry, "iceoryx", "iox-roudi");
     cases.one_way<IceoryxEnd<64, Wake::spin>>(Wake::spin);
     cases.one_way<IceoryxEnd<64, Wake::blocking>>(Wake::blocking);
+    cases.due<IceoryxEnd<64, Wake::spin>>(Wake::spin);
+    cases.due<IceoryxEnd<64, Wake::blocking>>(Wake::blocking);
     cases.call<IceoryxClient<Wake::spin>, IceoryxServer<Wake::spin>>(Wake::spin);
     cases.call<IceoryxClient<Wake::blocking>, IceoryxServer<Wake::blocking>>(Wake::blocking);
     cases.rate<IceoryxEnd<64, Wake::spin>>(Wake::spin);

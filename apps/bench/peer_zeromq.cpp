@@ -3,6 +3,8 @@
 #include "apps/bench/cases.hpp"
 #include "apps/bench/peer.hpp"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <zmq.h>
 

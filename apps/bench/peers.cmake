@@ -27,3 +27,26 @@ tandem_bench_peer(iceoryx "${iceoryx_posh_FOUND}" libiceoryx-posh-dev
 
 pkg_check_modules(ZEROMQ QUIET IMPORTED_TARGET libzmq)
 tandem_bench_peer(zeromq "${ZEROMQ_FOUND}" libzmq3-dev SOURCES peer_zeromq.cpp LIBRARIES PkgConfig::ZEROMQ)
+
+find_package(CycloneDDS QUIET)
+find_program(CYCLONE_IDLC idlc)
+if(CycloneDDS_FOUND AND CYCLONE_IDLC)
+  idlc_generate(TARGET tandem_bench_dds FILES peer_cyclone.idl)
+  tandem_bench_peer(cyclone TRUE cyclonedds-dev SOURCES peer_cyclone.cpp LIBRARIES tandem_bench_dds CycloneDDS::ddsc)
+else()
+  tandem_bench_peer(cyclone FALSE "cyclonedds-dev cyclonedds-tools")
+endif()
+
+# omniORB is one of Tandem's own dependencies.
+pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4)
+find_program(OMNIIDL omniidl REQUIRED)
+set(stubs ${CMAKE_CURRENT_BINARY_DIR}/omniorb)
+file(MAKE_DIRECTORY ${stubs})
+add_custom_command(
+  OUTPUT ${stubs}/peer_omniorb.hh ${stubs}/peer_omniorbSK.cc
+  COMMAND ${OMNIIDL} -bcxx -Wbuse_quotes -C${stubs} ${CMAKE_CURRENT_SOURCE_DIR}/peer_omniorb.idl
+  DEPENDS peer_omniorb.idl COMMENT "omniidl peer_omniorb.idl" VERBATIM)
+set_source_files_properties(${stubs}/peer_omniorbSK.cc PROPERTIES COMPILE_OPTIONS -w SKIP_LINTING ON)
+tandem_bench_peer(omniorb TRUE libomniorb4-dev
+  SOURCES peer_omniorb.cpp ${stubs}/peer_omniorb.hh ${stubs}/peer_omniorbSK.cc LIBRARIES PkgConfig::OMNIORB)
+target_include_directories(tandem_bench_suite SYSTEM PRIVATE ${stubs})

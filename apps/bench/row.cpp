@@ -19,11 +19,20 @@ Json curve_json(const std::vector<CurvePoint>& curve) {
     return out;
 }
 
-Json row_json(const Row& row) {
-    Json out{{"case", row.id},       {"group", row.group},         {"who", row.who},
-             {"what", row.what},     {"bytes", row.bytes},         {"wake", row.wake},
-             {"regime", row.regime}, {"placement", row.placement}, {"detail", row.detail},
-             {"unit", row.unit},     {"cores", row.cores}};
+Json row_json(const Row& row, const Machine& machine) {
+    Json out{{"case", row.id},
+             {"group", row.group},
+             {"who", row.who},
+             {"what", row.what},
+             {"bytes", row.bytes},
+             {"wake", row.wake},
+             {"regime", row.regime},
+             {"placement", row.placement},
+             {"detail", row.detail},
+             {"unit", row.unit},
+             {"cores", row.cores},
+             {"kernel", machine.kernel},
+             {"timed_from", row.timed_from()}};
     if (!row.skipped.empty()) {
         out["skipped"] = row.skipped;
         return out;
@@ -90,7 +99,7 @@ std::string to_json(const Report& report) {
                {"clock", m.clock},
                {"date", m.date}}},
              {"rows", Json::array()}};
-    for (const Row& row : report.rows) out["rows"].push_back(row_json(row));
+    for (const Row& row : report.rows) out["rows"].push_back(row_json(row, m));
     // One row a line: readable, and a difference between two files shows the row.
     std::string text = "{\"tandem_bench\":" + std::to_string(format_version) +
                        ",\n\"machine\":" + out["machine"].dump() + ",\n\"rows\":[";

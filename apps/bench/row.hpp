@@ -16,6 +16,8 @@ struct Row {
     double foreign = 0;       ///< largest share of the machine that others got during a run
     std::string skipped;      ///< why there are no figures; empty if there are
     bool higher_is_better() const { return unit != "ns" && unit != "count"; }
+    /// A paced message counts from when it was due, so that a stall is not hidden.
+    const char* timed_from() const { return what == "paced" ? "intended start" : "start"; }
     bool disturbed() const { return foreign > 0.02; }
     bool latency() const { return unit == "ns"; }
 };

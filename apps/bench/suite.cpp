@@ -3,11 +3,11 @@
 
 #include "apps/bench/service.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -98,7 +98,10 @@ Machine this_machine() {
         if (line.rfind("model name", 0) == 0) machine.processor = line.substr(line.find(':') + 2);
     machine.cores = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
     machine.clock = Clock::name();
-    machine.date = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+    const std::time_t now = std::time(nullptr);
+    char date[32] = "";
+    std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S", std::localtime(&now));
+    machine.date = date;
     return machine;
 }
 
