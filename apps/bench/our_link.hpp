@@ -20,6 +20,8 @@ inline shm::WaitOptions wait_options(Wake wake, std::chrono::nanoseconds spin = 
 
 class OurLink {
   public:
+    static constexpr std::size_t small_capacity = std::size_t{64} * 1024;
+
     OurLink(Session& session, std::size_t arena_bytes)
         : mine_(session.is_a() ? shm::Side::first : shm::Side::second) {
         shm::JoinOptions options;
@@ -30,17 +32,25 @@ class OurLink {
     shm::Segment& segment() { return *segment_; }
     shm::Side mine() const { return mine_; }
 
-    /// A ring of ours that we write.
-    shm::RingHandle add_ring(const std::string& name, std::size_t bytes) {
+    /// A ring of ours that we write; long messages in chunks of their own.
+    shm::RingHandle add_ring(const std::string& name, std::size_t bytes,
+                             std::size_t capacity = small_capacity) {
         shm::RingOptions options;
         options.writer = mine_;
         options.policy = shm::RingPolicy::reject;
-        options.max_record = bytes;
-        options.capacity = std::max<std::size_t>(64 * 1024, 4 * (bytes + 64));
+        options.capacity = capacity;
+        if (bytes > longest_in_ring) {
+            options.max_record = 64;
+            options.chunk_bytes = bytes;
+            options.chunks = chunks;
+        } else {
+            options.max_record = bytes;
+        }
         return segment_->add_ring(name, options);
     }
-    static std::size_t ring_bytes(std::size_t bytes) { // a generous bound of what add_ring() takes
-        return std::size_t{256} * 1024 + 10 * bytes;
+    /// A generous bound of what such a ring takes.
+    static std::size_t ring_bytes(std::size_t bytes, std::size_t capacity = small_capacity) {
+        return std::size_t{256} * 1024 + 2 * capacity + (bytes > longest_in_ring ? chunks + 1 : 4) * bytes;
     }
 
     /// After all objects of this side are there: shows them, waits for the peer's.
@@ -55,6 +65,9 @@ class OurLink {
     }
 
   private:
+    static constexpr std::size_t longest_in_ring = 4096;
+    static constexpr std::uint32_t chunks = 4;
+
     shm::Side mine_;
     std::unique_ptr<shm::Segment> segment_;
 };

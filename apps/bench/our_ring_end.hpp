@@ -23,7 +23,11 @@ class OurRingEnd {
 
     std::uint64_t receive() {
         for (;;) {
-            if (const auto record = in_.read()) return sequence_of(record->bytes.data(), bytes);
+            if (const auto record = in_.peek()) {
+                const std::uint64_t sequence = sequence_of(record->bytes.data(), bytes);
+                in_.release();
+                return sequence;
+            }
             if (wake != Wake::spin) link_.segment().doorbell().wait(std::chrono::seconds(1), how_);
         }
     }
