@@ -80,7 +80,7 @@ TEST_CASE("a server killed at any moment gives every caller an error or its resu
                 }
             });
         const std::uint64_t replies = round * 17 % 500;
-        CHECK(eventually([&] { return client.counters().answered >= replies; }));
+        CHECK(eventually([&] { return client.counters().answered > replies; }));
         serving.kill_now();
         const auto killed = now_ns();
         for (auto& caller : callers) caller.join();
@@ -113,7 +113,7 @@ TEST_CASE("callers killed at any moment leave a server that serves on with the n
             ++runs;
             echo(call);
         });
-        CHECK(eventually([&] { return runs >= round * 17 % 500; }));
+        CHECK(eventually([&] { return runs > round * 17 % 500; }));
         calling.kill_now();
         // What was submitted completely may still run; then the queue is empty and stays so.
         CHECK(eventually([&] { return server.counters().in_use == 0; }));
