@@ -175,11 +175,12 @@ constexpr std::uint64_t sequence_mask = 0xffffff; // of a commit word
 
 // Chunk: behind data, ChunkWords of all chunks, then the chunks, each at a page of the file. Who may touch a
 // chunk: the writer, until it has published a loan of it; then whoever takes that record off the ring (the
-// reader to read it, a lossy writer to drop it); the reader gives it back by storing the record's sequence.
+// reader to read it, a lossy writer to drop it); the reader gives it back by storing the record's sequence, or,
+// having skipped that record, any later one up to the one before the record it took.
 template <class A>
 struct BasicChunkWords {
     alignas(line_pair)
-        typename A::template Atomic<std::uint64_t> returned; // sequence of the loan last given back
+        typename A::template Atomic<std::uint64_t> returned; // loans up to this sequence are given back
     std::byte unused[120];
 };
 using ChunkWords = BasicChunkWords<RealAtomics>;

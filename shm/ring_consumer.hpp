@@ -101,6 +101,7 @@ class alignas(layout::line_pair) RingConsumer {
     bool show(std::uint64_t at, std::uint64_t sequence, Found& found, Record& record);
     void hold_chunk(std::uint64_t sequence);
     void give_back();
+    void give_back_before(std::uint64_t sequence);
     std::uint64_t sequence_of(const Found& found, std::uint64_t tail) const;
     bool take(const Found& found, std::uint64_t tail, std::uint64_t& skipped);
     Record deliver(const Found& found, std::uint64_t sequence, std::uint64_t skipped);
@@ -324,6 +325,15 @@ void RingConsumer<A>::give_back() {
     if (hold_.give_back()) wake_writer();
 }
 
+/// Which chunks the skipped records lay in is not looked up: whatever was lent before this record is given back.
+template <class A>
+void RingConsumer<A>::give_back_before(std::uint64_t sequence) {
+    if (ring_.chunk_count == 0) return;
+    for (std::uint32_t i = 0; i < ring_.chunk_count; ++i)
+        ring_.chunk_words[i].returned.store(sequence - 1, std::memory_order_seq_cst);
+    wake_writer();
+}
+
 template <class A>
 [[gnu::noinline]] std::optional<Record> RingConsumer<A>::receive(bool newest) {
     give_back();
@@ -350,6 +360,7 @@ template <class A>
 template <class A>
 Record RingConsumer<A>::deliver(const Found& found, std::uint64_t sequence, std::uint64_t skipped) {
     const bool loan = found.commit.kind == layout::RecordKind::loan;
+    if (skipped != 0) give_back_before(sequence);
     if (loan) hold_chunk(sequence);
     const std::byte* bytes = loan ? ring_.chunk(static_cast<std::uint32_t>(loan_.chunk))
                                   : reinterpret_cast<const std::byte*>(scratch_.data());

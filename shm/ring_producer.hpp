@@ -188,7 +188,7 @@ bool RingProducer<A>::drop_until_fits(std::uint64_t need) {
 template <class A>
 bool RingProducer<A>::chunk_is_free(std::uint32_t index) const {
     return loans_[index] == 0 ||
-           ring_.chunk_words[index].returned.load(std::memory_order_seq_cst) == loans_[index];
+           ring_.chunk_words[index].returned.load(std::memory_order_seq_cst) >= loans_[index];
 }
 
 /// Round robin from the one used last, so that a chunk comes back late and its lines are cold for the

@@ -103,6 +103,21 @@ TEST_CASE("when all chunks are in use a lossy ring drops the oldest and a lossle
     }
 }
 
+TEST_CASE("loans that a reader skips for a newer record come back to the writer") {
+    for (const auto policy : all_policies) {
+        LoanPair ring(policy, 4);
+        for (std::uint64_t round = 1; round <= 20; ++round) {
+            for (std::uint64_t i = 0; i < 3; ++i)
+                REQUIRE(ring.writer.write(bytes_of(image('s')), 10 * round + i, 0));
+            const auto record = ring.reader.read_newest();
+            REQUIRE(record);
+            CHECK(record->stamp_ns == 10 * round + 2);
+            CHECK(text_of(record->bytes) == image('s'));
+        }
+        check_books(ring.writer.counters(), 0);
+    }
+}
+
 TEST_CASE("a reader that goes away gives its chunk back") {
     LoanPair ring(RingPolicy::reject, 2);
     for (int round = 0; round < 10; ++round) {
