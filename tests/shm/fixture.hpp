@@ -4,6 +4,7 @@
 #include "shm/segment.hpp"
 
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -56,6 +57,7 @@ struct Pair {
 /// need be.
 class Child {
   public:
+    static constexpr int killed = -1, crashed = -2; ///< ends that are no exit
     explicit Child(const std::function<int()>& work) : pid_(fork()) {
         if (pid_ != 0) return;
         int code = 99;
@@ -79,10 +81,21 @@ class Child {
         int status = 0;
         waitpid(pid_, &status, 0);
         pid_ = 0;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return result_of(status);
+    }
+    /// What wait() would return, if it has ended.
+    std::optional<int> ended() {
+        int status = 0;
+        if (pid_ != 0 && waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
+        pid_ = 0;
+        return result_of(status);
     }
 
   private:
+    static int result_of(int status) {
+        if (WIFEXITED(status)) return WEXITSTATUS(status);
+        return WTERMSIG(status) == SIGKILL ? killed : crashed;
+    }
     pid_t pid_;
 };
 
@@ -99,6 +112,11 @@ inline bool eventually(const std::function<bool()>& holds, std::chrono::nanoseco
 inline std::size_t stress(std::size_t rounds) {
     const char* factor = std::getenv("TANDEM_STRESS");
     return rounds * static_cast<std::size_t>(factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
+}
+
+/// The same, up to the size of the long run: TANDEM_STRESS=1000 reaches it everywhere.
+inline std::size_t stress(std::size_t rounds, std::size_t long_run) {
+    return std::min(stress(rounds), long_run);
 }
 
 inline std::span<const std::byte> bytes_of(const std::string& text) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// A process that is killed between two of its system calls. Code that works by system calls, like joining and
+// leaving a segment, changes what others see there and nowhere else (but for the few words it stores
+// between two of them), so these are its points. It costs the code under test nothing: the kernel stops it.
+#pragma once
+#include "../shm/fixture.hpp"
+
+#include <csignal>
+#include <sys/ptrace.h>
+#include <sys/user.h>
+
+namespace tandem::shm::test {
+
+/// Runs `work` in a child after `before`, and kills it at its k-th stop from there: before a system call is
+/// entered, or when it is done.
+class Stepped {
+  public:
+    /// May this process trace its children? (A container may forbid it.)
+    static bool possible() {
+        Child probe([] { return ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) == 0 ? 0 : 1; });
+        return probe.wait() == 0;
+    }
+
+    Stepped(unsigned k, const std::function<void()>& before, const std::function<void()>& work) {
+        pid_ = fork();
+        if (pid_ == 0) {
+            try {
+                before();
+                ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+                raise(SIGSTOP);
+                work();
+                _exit(0);
+            } catch (const std::exception& failure) {
+                fprintf(stderr, "child: %s\n", failure.what());
+                _exit(99);
+            }
+        }
+        step(k);
+    }
+
+    bool died() const { return WIFSIGNALED(status_); }
+    /// 0 if it died, or came to its end.
+    int result() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : 0; }
+    std::string point() const {
+        return std::string(entered_ ? "before" : "after") + " system call " + std::to_string(last_call_);
+    }
+
+  private:
+    void step(unsigned k) {
+        waitpid(pid_, &status_, 0); // its SIGSTOP
+        for (unsigned stop = 0; WIFSTOPPED(status_); ++stop) {
+            if (stop != 0) {
+                user_regs_struct registers{};
+                ptrace(PTRACE_GETREGS, pid_, nullptr, &registers);
+                last_call_ = registers.orig_rax;
+                entered_ = stop % 2 == 1;
+            }
+            if (stop == k) kill(pid_, SIGKILL);
+            ptrace(PTRACE_SYSCALL, pid_, nullptr, nullptr);
+            waitpid(pid_, &status_, 0);
+        }
+    }
+
+    pid_t pid_ = 0;
+    int status_ = 0;
+    unsigned long long last_call_ = 0;
+    bool entered_ = false;
+};
+
+} // namespace tandem::shm::test
