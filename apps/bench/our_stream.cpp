@@ -5,6 +5,7 @@
 #include "apps/bench/cases.hpp"
 
 #include <cstring>
+#include <immintrin.h>
 
 namespace tandem::bench {
 
@@ -27,11 +28,10 @@ class OurRateEnd {
     std::uint64_t receive() {
         while (next_ == taken_) {
             next_ = taken_ = 0;
-            in_.consume(
-                [this](const shm::Record& record) {
-                    batch_[taken_++] = sequence_of(record.bytes.data(), bytes);
-                },
-                std::size(batch_));
+            const auto keep = [this](const shm::Record& record) {
+                batch_[taken_++] = sequence_of(record.bytes.data(), bytes);
+            };
+            if (in_.consume(keep, std::size(batch_)) == 0) _mm_pause(); // as the floor's reader
         }
         return batch_[next_++];
     }

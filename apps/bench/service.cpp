@@ -25,6 +25,13 @@ constexpr const char* roudi_pools = "[general]\nversion = 1\n[[segment]]\n"
 } // namespace
 
 struct Service::Running {
+    Running(fs::path where, const std::vector<std::string>& command, int log)
+        : folder(std::move(where)), process(command, {-1, log, log, ""}) {}
+    ~Running() {
+        process.stop(std::chrono::seconds(5));
+        std::error_code ignored; // a folder in /tmp; nothing depends on its end
+        fs::remove_all(folder, ignored);
+    }
     fs::path folder;
     wheelchair::ChildProcess process;
 };
@@ -37,8 +44,7 @@ Service::Service(const std::string& program) {
     const fs::path log = folder / "log";
     const wheelchair::Fd out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
     running_ = std::make_unique<Running>(
-        Running{folder, wheelchair::ChildProcess({program, "-c", (folder / "roudi.toml").string()},
-                                                 {-1, out.get(), out.get(), ""})});
+        folder, std::vector<std::string>{program, "-c", (folder / "roudi.toml").string()}, out.get());
     const auto says_ready = [&] {
         std::ifstream text(log);
         return std::string{std::istreambuf_iterator<char>(text), {}}.find("ready for clients") !=
@@ -46,17 +52,13 @@ Service::Service(const std::string& program) {
     };
     for (int i = 0; i < 1000 && !says_ready(); ++i) {
         if (running_->process.poll())
-            throw std::runtime_error(program + " ended at once; is another one running?");
+            throw std::runtime_error(program +
+                                     " ended at once; is another one running (another tandem-bench)?");
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     if (!says_ready()) throw std::runtime_error(program + " was not ready after 10 s");
 }
 
-Service::~Service() {
-    if (!running_) return;
-    running_->process.stop(std::chrono::seconds(5));
-    std::error_code ignored; // a folder in /tmp; nothing depends on its end
-    fs::remove_all(running_->folder, ignored);
-}
+Service::~Service() = default;
 
 } // namespace tandem::bench
