@@ -30,7 +30,8 @@ std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds boun
         auto call = take_waiting(watches);
         if (call || worker.interrupted() || now >= deadline) {
             if (watches) worker.stop_watching();
-            if (polled) spin.learn(spin_ns, now - began);
+            // A short bound that passed without a call says nothing.
+            if (polled && (call || now - began > spin_ns)) spin.learn(spin_ns, now - began);
             return call;
         }
         if (how.mode == WaitMode::spin) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "call_fixture.hpp"
 
+#include <set>
+
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 using Catch::Matchers::Contains;
@@ -210,4 +212,13 @@ TEST_CASE("a call queue keeps counters and durations that anybody can read") {
     CHECK(total(queue.times->round_trip) == 100);
     CHECK(total(queue.times->service) <= 100); // two workers at once: one of them leaves its time out
     CHECK(total(queue.times->service) > 0);
+}
+
+TEST_CASE("every status of a call has a name of its own") {
+    std::set<std::string> names;
+    for (std::uint32_t status = 0; status <= static_cast<std::uint32_t>(CallStatus::cancelled); ++status)
+        names.insert(name_of(static_cast<CallStatus>(status)));
+    CHECK(names.size() == 9);
+    CHECK(names.count("unknown status") == 0);
+    CHECK(name_of(static_cast<CallStatus>(99)) == std::string("unknown status"));
 }
