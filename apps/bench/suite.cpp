@@ -128,7 +128,8 @@ Report measure(const Plan& plan) {
         }
     }
     if (plan.progress) fmt::print(stderr, "\r\033[K");
-    for (std::size_t i = 0; i < plan.cases.size(); ++i) finish_row(report.rows[i], summaries[i], failures[i]);
+    for (std::size_t i = 0; i < plan.cases.size(); ++i)
+        finish_row(report.rows[i], summaries[i], interrupted() ? "interrupted" : failures[i]);
     for (const Skipped& skipped : plan.skipped) {
         Row row;
         row.id = "peer/" + skipped.who;
