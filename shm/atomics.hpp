@@ -7,6 +7,7 @@
 #include "shm/shared_copy.hpp"
 
 #include <immintrin.h>
+#include <sched.h>
 
 namespace tandem::shm {
 
@@ -47,6 +48,7 @@ struct RealAtomics {
 
     static void fence() { std::atomic_thread_fence(std::memory_order_seq_cst); }
     static void pause() { _mm_pause(); }
+    static void yield() { sched_yield(); }
     static std::uint64_t now() { return now_ns(); }
 
     /// Sleeps while `word` holds `expected`, until woken or now() reaches `deadline`; may return early.

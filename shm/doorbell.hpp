@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "shm/adaptive_spin.hpp"
 #include "shm/futex.hpp"
 #include "shm/mapping.hpp"
 
@@ -8,13 +9,14 @@
 namespace tandem::shm {
 
 /// One bell per side, however many ports: 64 ready bits and one futex word. Whoever has published data rings
-/// a bit at the other side's bell, after the data; that makes a system call only if the owner has said that
-/// it sleeps.
+/// a bit at the other side's bell, after the data, once per batch. That makes a system call only if the owner
+/// sleeps, and does not even write while the owner looks at its rings itself (wait_for).
 class Doorbell {
   public:
     static constexpr unsigned user_bits = 62;     ///< 0..61 are the user's
     static constexpr unsigned attention_bit = 62; ///< peer joined, published or left: look at Segment
     static constexpr unsigned interrupt_bit = 63; ///< interrupt() was called
+    static constexpr std::uint64_t all_user_bits = (std::uint64_t{1} << user_bits) - 1;
 
     Doorbell(std::shared_ptr<const Mapping> mapping, Side owner);
 
@@ -22,9 +24,16 @@ class Doorbell {
     void ring(unsigned bit) { ring_all(std::uint64_t{1} << (bit & 63U)); }
     void ring_all(std::uint64_t bits);
 
-    /// [one thread] Takes the bits rung so far; waits for the first at most `bound`. 0: none came.
+    /// [one thread] For many ports: takes the bits rung so far; waits for the first at most `bound`. 0: none
+    /// came. A set bit says "look there", after wait_for() all of them once.
     std::uint64_t wait(std::chrono::nanoseconds bound, const WaitOptions& how = {});
     std::uint64_t poll();
+
+    /// [one thread] For few ports: waits until ready() holds, at most `bound`, or attention or interrupt was
+    /// rung: these two bits come back. ready() looks at the rings (RingReader::empty()) and is called often;
+    /// from here until the next wait() or poll() the other side rings no user bit but to wake.
+    template <class Ready>
+    std::uint64_t wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how = {});
 
     /// [any-thread] Ends the owner's wait, now or the next, with interrupt_bit.
     void interrupt() { ring(interrupt_bit); }
@@ -33,9 +42,66 @@ class Doorbell {
     std::uint64_t wakes() const { return wakes_.load(std::memory_order_relaxed); }
 
   private:
+    using Owner = layout::DoorbellOwner;
+
+    void become(Owner state);
+    std::uint64_t take() { return words_.ready.exchange(0, std::memory_order_seq_cst); }
+    bool rung() const { return words_.ready.load(std::memory_order_relaxed) != 0; }
+    template <class Done>
+    bool wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how, Owner awake);
+
     std::shared_ptr<const Mapping> mapping_;
     layout::DoorbellWords& words_;
+    AdaptiveSpin spin_;
+    Owner owner_ = Owner::listens;       // my own copy, if this side is the owner
+    std::atomic<std::uint32_t> seen_{0}; // the owner's word as a ringer saw it last
     std::atomic<std::uint64_t> wakes_{0};
 };
+
+// The owner's word and the data are two sides' words crossing (as in futex.hpp):
+//
+//     owner: word = sleeps or listens | fence | done()?        ringer: data | fence | word == looks?
+//
+// At least one of the two sees the other: either done() holds at once, or the ringer sets the bit and, if the
+// owner sleeps, wakes it.
+template <class Done>
+bool Doorbell::wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how,
+                               Owner awake) {
+    const auto longest = static_cast<std::uint64_t>(how.spin.count());
+    if (how.mode != WaitMode::futex) {
+        const std::uint64_t start = now_ns();
+        const std::uint64_t deadline =
+            start + static_cast<std::uint64_t>(std::clamp(bound, {}, longest_wait).count());
+        if (how.mode == WaitMode::spin) return spin_until(deadline, done);
+        const std::uint64_t enough = std::min(deadline, start + spin_.limit_ns(longest));
+        if (how.mode == WaitMode::same_core ? yield_until(enough, done) : spin_until(enough, done)) {
+            spin_.learn(longest, now_ns() - start);
+            return true;
+        }
+        bound = std::chrono::nanoseconds(deadline - std::min(deadline, now_ns()));
+        const bool found = wait_until_done(done, bound, {WaitMode::futex}, awake);
+        spin_.learn(longest, now_ns() - start);
+        return found;
+    }
+    BoundedSleep sleep(bound);
+    bool found = false;
+    do {
+        become(Owner::sleeps);
+        found = done();
+        if (found || !sleep.on(words_.owner, static_cast<std::uint32_t>(Owner::sleeps))) break;
+        found = done();
+    } while (!found);
+    owner_ = awake;
+    words_.owner.store(static_cast<std::uint32_t>(awake), std::memory_order_relaxed);
+    return found || done();
+}
+
+template <class Ready>
+std::uint64_t Doorbell::wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how) {
+    if (!rung() && ready()) return 0;
+    if (owner_ != Owner::looks) become(Owner::looks);
+    wait_until_done([&] { return rung() || ready(); }, bound, how, Owner::looks);
+    return rung() ? take() & ~all_user_bits : 0;
+}
 
 } // namespace tandem::shm

@@ -10,19 +10,47 @@ void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::u
 void futex_wake(std::atomic<std::uint32_t>& word, int sleepers);
 
 /// How to wait: spin polls only, futex sleeps at once, spin_then_futex polls for `spin` and then sleeps.
-enum class WaitMode { spin, spin_then_futex, futex };
+/// same_core, for two processes pinned to one core: yields the core to the other for `spin`, and then sleeps;
+/// neither side has to be woken as long as they answer each other.
+enum class WaitMode { spin, spin_then_futex, futex, same_core };
 struct WaitOptions {
     WaitMode mode = WaitMode::spin_then_futex;
     std::chrono::nanoseconds spin = std::chrono::microseconds(50);
 };
 
-/// Polls ready() until it holds or now_ns() reaches `deadline`. Looks at the clock every 32nd time only.
+/// Sleeps of one wait, which take no longer than `bound` together (give or take a tick of the coarse clock).
+/// The clock is read for a second sleep only: the first one ends by the kernel's.
+class BoundedSleep {
+  public:
+    explicit BoundedSleep(std::chrono::nanoseconds bound);
+
+    /// Sleeps while `word` holds `expected`; may return early. False: the bound has passed.
+    bool on(std::atomic<std::uint32_t>& word, std::uint32_t expected);
+
+  private:
+    std::uint64_t bound_ns_, started_ns_;
+    bool first_ = true;
+};
+
+/// Polls ready() until it holds or now_ns() reaches `deadline`. Looks at the clock every 128th time only, and
+/// pauses only when it has polled for long: a pause takes 50 ns here, by which the news would be late.
 template <class A = RealAtomics, class Ready>
 bool spin_until(std::uint64_t deadline, Ready&& ready) {
+    constexpr unsigned eager_rounds = 1U << 15;
     for (unsigned round = 1;; ++round) {
         if (ready()) return true;
-        if (round % 32 == 0 && A::now() >= deadline) return false;
-        A::pause();
+        if (round % 128 == 0 && A::now() >= deadline) return false;
+        if (round > eager_rounds) A::pause();
+    }
+}
+
+/// The same with the core given to whoever else wants it between two looks.
+template <class A = RealAtomics, class Ready>
+bool yield_until(std::uint64_t deadline, Ready&& ready) {
+    for (unsigned round = 1;; ++round) {
+        if (ready()) return true;
+        A::yield();
+        if (round % 16 == 0 && A::now() >= deadline) return ready();
     }
 }
 
@@ -66,6 +94,8 @@ bool wait_until(typename A::template Atomic<std::uint32_t>& word, const WaitOpti
     if (how.mode == WaitMode::spin) return spin_until<A>(deadline, ready);
     const auto spin = static_cast<std::uint64_t>(how.spin.count());
     if (how.mode == WaitMode::spin_then_futex && spin_until<A>(std::min(deadline, A::now() + spin), ready))
+        return true;
+    if (how.mode == WaitMode::same_core && yield_until<A>(std::min(deadline, A::now() + spin), ready))
         return true;
     return sleep_until<A>(word, deadline, ready);
 }

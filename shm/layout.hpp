@@ -69,9 +69,13 @@ struct SegmentHeader {
     std::byte unused[4096 - 88];
 };
 
+/// What the owner of a doorbell does, and so what a ringer has to do. listens: set bits. sleeps: set bits and
+/// wake. looks: at its rings by itself; user bits need not be set.
+enum class DoorbellOwner : std::uint32_t { listens, sleeps, looks };
+
 struct alignas(line_pair) DoorbellWords {
-    Word64 ready;    // bit i: something is ready at the user's port i
-    Word32 sleeping; // futex word: 1 = the owner sleeps or is about to
+    Word64 ready; // bit i: something is ready at the user's port i
+    Word32 owner; // futex word: DoorbellOwner
     std::byte unused[116];
 };
 

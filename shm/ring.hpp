@@ -88,12 +88,12 @@ class RingReader {
     bool empty() const { return consumer_.empty(); }
 
     /// The oldest record (of a latest_only ring: the newest), copied out; or, of a payload in a chunk, lent:
-    /// the chunk goes back with the next read. Empty: nothing there, corrupt(), or a lossy writer overtook
-    /// every one of many tries; then the next read gets what it wrote.
-    std::optional<Record> read() { return consumer_.read(); }
-    std::optional<Record> read_newest() {
-        return consumer_.read_newest();
-    } ///< The newest; the older ones count as skipped.
+    /// the chunk goes back with the next one read. Empty: nothing there, corrupt(), or a lossy writer
+    /// overtook every one of many tries; then the next read gets what it wrote.
+    std::optional<Record> read() { return empty() ? std::nullopt : consumer_.read(); }
+    std::optional<Record> read_newest() { ///< The newest; the older ones count as skipped.
+        return empty() ? std::nullopt : consumer_.read_newest();
+    }
 
     /// Without a copy, in rings that do not overwrite (reject, wait): the oldest record as it lies in shared
     /// memory, until release() takes it off the ring. Its bytes change if the other side is broken: check

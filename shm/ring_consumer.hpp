@@ -145,10 +145,7 @@ RingConsumer<A>::RingConsumer(const RingView<A>& ring)
 template <class A>
 inline std::optional<Record> RingConsumer<A>::read_as(bool newest) {
     const auto* at = ring_.cell(position_);
-    A::prefetch(ring_.cell(position_ + layout::line));
     const std::uint64_t word = A::load(*at, std::memory_order_acquire);
-    if (word == 0) pace_.nothing();
-    if (word == 0 && !ring_.lossy()) return std::nullopt;
     const std::uint64_t wanted = Commit::word(layout::RecordKind::record, 0, 0, sequence_ + 1);
     const std::uint64_t length = Commit::of(word).length;
     if (((word ^ wanted) & Commit::kind_and_sequence) != 0 || length > ring_.max_record ||

@@ -15,6 +15,18 @@ using Sense = BarLine::Sense;
 constexpr const char* cache_line = "floor/cache-line/one-way/8/spin";
 constexpr const char* minimal_ring = "floor/index-ring/one-way/64/spin";
 
+const std::vector<std::string>& asleep_regimes() {
+    static const std::vector<std::string> regimes{"", "/low-latency-idle", "/same-core"};
+    return regimes;
+}
+
+/// On one core our mode for it, which yields before it sleeps.
+std::string ours_asleep(const std::string& regime) {
+    return (regime == "/same-core" ? "ours/ring/one-way/64/spin-then-futex"
+                                   : "ours/ring/one-way/64/blocking") +
+           regime;
+}
+
 void add_one_way(std::vector<BarLine>& lines) {
     lines.push_back({"one-way 48 B, polling / cache line", Sense::at_most, 1.15, "ours/ring/one-way/48/spin",
                      cache_line});
@@ -24,11 +36,11 @@ void add_one_way(std::vector<BarLine>& lines) {
                      "peer/iceoryx/one-way/64/spin", "ours/ring/one-way/64/spin"});
     lines.push_back({"one-way 64 B, spin-then-futex, awake / minimal ring", Sense::at_most, 1.4,
                      "ours/ring/one-way/64/spin-then-futex", minimal_ring});
-    for (const char* regime : {"", "/low-latency-idle", "/same-core"})
+    for (const std::string& regime : asleep_regimes())
         lines.push_back({fmt::format("one-way 64 B, asleep, {} / bare futex ring",
-                                     *regime == '\0' ? "halted" : regime + 1),
-                         Sense::at_most, 1.05, std::string("ours/ring/one-way/64/blocking") + regime,
-                         std::string("floor/index-ring/one-way/64/blocking") + regime});
+                                     regime.empty() ? "halted" : regime.substr(1)),
+                         Sense::at_most, 1.05, ours_asleep(regime),
+                         "floor/index-ring/one-way/64/blocking" + regime});
 }
 
 /// Every peer that can sleep, in the two regimes in which the software shows.
@@ -40,7 +52,7 @@ void add_asleep_peers(std::vector<BarLine>& lines, const std::vector<std::string
                 continue;
             const std::string who = id.substr(5, id.find('/', 5) - 5);
             lines.push_back({fmt::format("{} asleep, {} / ours", who, regime), Sense::at_least, 1, id,
-                             "ours/ring/one-way/64/blocking/" + regime});
+                             ours_asleep("/" + regime)});
         }
 }
 

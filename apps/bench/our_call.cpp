@@ -34,7 +34,8 @@ class OurClient {
   public:
     explicit OurClient(Session& session)
         : link_(session, arena_bytes),
-          client_(open_queue(link_, true), wait_options(session.measured().wake)) {}
+          client_(open_queue(link_, true), wait_options(session.measured().wake, session.measured().regime)) {
+    }
 
     std::uint64_t call(std::uint64_t sequence) {
         fill(message_, bytes, sequence);
@@ -56,7 +57,8 @@ class OurServer {
   public:
     explicit OurServer(Session& session)
         : link_(session, OurClient::arena_bytes),
-          server_(open_queue(link_, false), wait_options(session.measured().wake)) {}
+          server_(open_queue(link_, false),
+                  wait_options(session.measured().wake, session.measured().regime)) {}
 
     std::uint64_t serve() {
         for (;;) {

@@ -9,12 +9,15 @@
 
 namespace tandem::bench {
 
-inline shm::WaitOptions wait_options(Wake wake, std::chrono::nanoseconds spin = shm::WaitOptions{}.spin) {
+/// On one core, to spin means to yield.
+inline shm::WaitOptions wait_options(Wake wake, Regime regime,
+                                     std::chrono::nanoseconds spin = shm::WaitOptions{}.spin) {
     shm::WaitOptions how;
     how.spin = spin;
     how.mode = wake == Wake::spin              ? shm::WaitMode::spin
-               : wake == Wake::spin_then_futex ? shm::WaitMode::spin_then_futex
-                                               : shm::WaitMode::futex;
+               : wake != Wake::spin_then_futex ? shm::WaitMode::futex
+               : regime == Regime::same_core   ? shm::WaitMode::same_core
+                                               : shm::WaitMode::spin_then_futex;
     return how;
 }
 

@@ -15,7 +15,7 @@ std::size_t ports_of(const Session& session) { return std::stoul(session.measure
 class PortsEnd {
   public:
     explicit PortsEnd(Session& session)
-        : how_(wait_options(session.measured().wake)),
+        : how_(wait_options(session.measured().wake, session.measured().regime)),
           link_(session, ports_of(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)) {
         const std::size_t ports = ports_of(session);
         for (std::size_t i = 0; i < ports; ++i) out_.emplace_back(link_.add_ring(std::to_string(i), bytes));

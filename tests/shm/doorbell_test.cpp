@@ -94,3 +94,49 @@ TEST_CASE("no ring is lost between a waiter that falls asleep and a ringer") {
     CHECK(answered);
     CHECK(lost == 0);
 }
+
+TEST_CASE("an owner that looks at its rings is told by the ring alone and no bit is set") {
+    const auto mode = GENERATE(WaitMode::spin, WaitMode::spin_then_futex, WaitMode::futex);
+    Pair pair;
+    RingWriter writer(pair.first->add_ring("r", {}));
+    pair.first->publish();
+    RingReader reader(*pair.second->find_ring(Side::first, "r"));
+    auto& mine = pair.second->doorbell();
+    const auto ready = [&] { return !reader.empty(); };
+    CHECK(mine.wait_for(ready, 0ns) == std::uint64_t{1} << Doorbell::attention_bit);
+    const std::size_t rounds = stress(2000);
+    std::thread sender([&] {
+        for (std::size_t i = 0; i < rounds; ++i) {
+            writer.write(bytes_of("x"), i, 0);
+            pair.first->ring_peer(5);
+            eventually([&] { return writer.counters().waiting() == 0; });
+        }
+    });
+    std::size_t got = 0, other = 0;
+    for (std::size_t waits = 0; got < rounds && waits < 2 * rounds; ++waits) {
+        if (mine.wait_for(ready, 20s, {.mode = mode}) != 0) ++other;
+        while (reader.read()) ++got;
+    }
+    sender.join();
+    CHECK(got == rounds);
+    CHECK(other == 0);
+    // Back to bits: each port may have news now, once.
+    CHECK(mine.poll() == Doorbell::all_user_bits);
+    CHECK(mine.poll() == 0);
+    pair.first->ring_peer(7);
+    CHECK(mine.poll() == std::uint64_t{1} << 7);
+}
+
+TEST_CASE("waiting for a ring ends at its bound and at an interrupt in every mode") {
+    const auto mode = GENERATE(WaitMode::spin, WaitMode::spin_then_futex, WaitMode::futex);
+    Pair pair;
+    pair.second->doorbell().poll();
+    const auto never = [] { return false; };
+    const auto before = now_ns();
+    CHECK(pair.second->doorbell().wait_for(never, 3ms, {.mode = mode}) == 0);
+    CHECK(now_ns() - before >= 3'000'000);
+    std::thread other([&] { pair.second->doorbell().interrupt(); });
+    CHECK(pair.second->doorbell().wait_for(never, 20s, {.mode = mode}) == std::uint64_t{1}
+                                                                              << Doorbell::interrupt_bit);
+    other.join();
+}
