@@ -146,7 +146,7 @@ TEST_CASE("a side that needs a larger arena makes the next generation large enou
 }
 
 TEST_CASE("of many processes that join at once exactly one pair meets") {
-    const std::size_t rounds = stress(10);
+    const std::size_t rounds = stress(10, 200);
     for (std::size_t round = 0; round < rounds; ++round) {
         Link link;
         int gate[2], results[2];

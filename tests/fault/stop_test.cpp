@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// A side that is stopped for a while: late, not dead, and afterwards it goes on as if nothing had been.
+#include "../shm/fixture.hpp"
+#include "shared.hpp"
+
+#include "shm/call_client.hpp"
+#include "shm/call_server.hpp"
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+
+namespace {
+
+struct Flags {
+    std::atomic<bool> no_more{false}, done{false};
+    std::atomic<std::uint64_t> counted{0};
+};
+
+JoinOptions soon_late() {
+    auto options = small();
+    options.late_after = 20ms;
+    return options;
+}
+
+/// 0.6 s, in the long run 5 s. Late all the time, never anything else, and nobody can take its side.
+void stay_stopped(const Link& link, const Segment& survivor) {
+    REQUIRE(eventually([&] { return survivor.peer() == PeerState::late; }));
+    const auto until = deadline_after(std::chrono::milliseconds(stress(600, 5000)));
+    while (now_ns() < until) {
+        REQUIRE(survivor.peer() == PeerState::late);
+        REQUIRE_FALSE(survivor.superseded());
+        std::this_thread::sleep_for(5ms);
+    }
+    CHECK_THROWS_AS(join(link, other(survivor.side()), soon_late()), SideTaken);
+}
+
+} // namespace
+
+TEST_CASE("a writer that was stopped goes on without a gap") {
+    Link link;
+    Shared<Flags> flags;
+    auto first = join(link, Side::first, soon_late());
+    RingReader reader(first->add_ring("r", {.writer = Side::second,
+                                            .policy = RingPolicy::wait,
+                                            .max_record = 8,
+                                            .capacity = 4096,
+                                            .wait = 10s}));
+    first->publish();
+    Child writing([&] {
+        auto second = join(link, Side::second, soon_late());
+        RingWriter writer(*second->find_ring(Side::first, "r"));
+        for (std::uint64_t number = 1; !flags->no_more; ++number) {
+            second->heartbeat();
+            writer.write(std::as_bytes(std::span(&number, 1)), number, 0);
+            if (number % 64 == 0) std::this_thread::sleep_for(100us);
+        }
+        flags->counted = writer.counters().sent;
+        flags->done = true;
+        for (;;) pause();
+        return 0;
+    });
+    std::uint64_t received = 0;
+    bool in_order = true;
+    const auto drain = [&] {
+        while (const auto record = reader.read()) {
+            ++received;
+            in_order = in_order && record->stamp_ns == received && record->sequence == received;
+        }
+    };
+    REQUIRE(eventually([&] { return drain(), received > 1000; }));
+    REQUIRE(kill(writing.pid(), SIGSTOP) == 0);
+    stay_stopped(link, *first);
+    drain();
+    const std::uint64_t before = received;
+    REQUIRE(kill(writing.pid(), SIGCONT) == 0);
+    CHECK(eventually([&] { return drain(), first->peer() == PeerState::alive && received > before + 1000; }));
+    flags->no_more = true;
+    REQUIRE(eventually([&] { return drain(), flags->done.load(); }));
+    drain();
+    CHECK(in_order);
+    CHECK(received == flags->counted);
+    CHECK(reader.counters().dropped() == 0);
+}
+
+TEST_CASE("a reader that was stopped has missed what was dropped and the books balance") {
+    const auto policy = GENERATE(RingPolicy::drop_oldest, RingPolicy::reject);
+    Link link;
+    Shared<Flags> flags;
+    auto first = join(link, Side::first, soon_late());
+    RingWriter writer(first->add_ring("r", {.policy = policy, .max_record = 8, .capacity = 4096}));
+    first->publish();
+    Child reading([&] {
+        auto second = join(link, Side::second, soon_late());
+        RingReader reader(*second->find_ring(Side::first, "r"));
+        std::uint64_t last = 0;
+        for (;;) {
+            second->heartbeat();
+            const bool last_look = flags->no_more;
+            while (const auto record = reader.read()) {
+                if (record->stamp_ns <= last) return 1;
+                last = record->stamp_ns;
+                ++flags->counted;
+            }
+            if (last_look) break;
+            std::this_thread::sleep_for(50us);
+        }
+        flags->done = true;
+        for (;;) pause();
+        return 0;
+    });
+    std::uint64_t number = 0;
+    const auto write = [&] {
+        ++number;
+        writer.write(std::as_bytes(std::span(&number, 1)), number, 0);
+        if (number % 32 == 0) std::this_thread::sleep_for(50us);
+        return true;
+    };
+    REQUIRE(eventually([&] { return write() && flags->counted > 100; }));
+    REQUIRE(kill(reading.pid(), SIGSTOP) == 0);
+    for (int i = 0; i < 10'000; ++i) write();
+    stay_stopped(link, *first);
+    CHECK(writer.counters().dropped() > 1000);
+    const std::uint64_t before = flags->counted;
+    REQUIRE(kill(reading.pid(), SIGCONT) == 0);
+    CHECK(eventually([&] { return write() && flags->counted > before + 100; }));
+    flags->no_more = true;
+    REQUIRE(eventually([&] { return flags->done.load(); }));
+    const RingCounters counters = writer.counters();
+    CHECK(counters.sent == number);
+    CHECK(counters.received == flags->counted);
+    CHECK(counters.sent == counters.received + counters.dropped());
+    CHECK(first->peer() != PeerState::dead);
+}
+
+TEST_CASE("a call to a worker that was stopped ends by its deadline and the next is answered") {
+    Link link;
+    auto first = join(link, Side::first, soon_late());
+    CallClient client(first->add_call_queue("c", {.slots = 4, .max_bytes = 64}));
+    first->publish();
+    Child serving([&] {
+        auto second = join(link, Side::second, soon_late());
+        CallServer server(*second->find_call_queue(Side::first, "c"));
+        for (;;) {
+            second->heartbeat();
+            if (auto call = server.take(5ms)) call->reply(CallStatus::ok, call->arguments());
+        }
+        return 0;
+    });
+    REQUIRE(client.call(1, bytes_of("x"), 20s).status == CallStatus::ok);
+    REQUIRE(kill(serving.pid(), SIGSTOP) == 0);
+    CHECK(client.call(2, bytes_of("y"), 30ms).status == CallStatus::timeout);
+    stay_stopped(link, *first);
+    REQUIRE(kill(serving.pid(), SIGCONT) == 0);
+    CHECK(client.call(3, bytes_of("z"), 20s).text() == "z");
+    const CallCounters counters = client.counters();
+    CHECK(counters.calls == 3);
+    CHECK(counters.timeouts == 1);
+    CHECK(counters.in_use == 0);
+    CHECK(counters.answered == 2); // what had timed out was withdrawn and has not run
+}
