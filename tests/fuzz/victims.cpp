@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "victims.hpp"
+
+#include "shm/call_caller.hpp"
+#include "shm/call_client.hpp"
+#include "shm/call_server.hpp"
+#include "shm/call_worker.hpp"
+#include "shm/observer.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace tandem::shm::fuzz {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t max_record = 100, chunk_bytes = 4096, max_call = 200, max_operations = 64;
+constexpr std::size_t arena_bytes = 192 * 1024;
+constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
+                               RingPolicy::wait};
+
+void demand(bool holds, const char* what) {
+    if (holds) return;
+    std::fprintf(stderr, "out of bounds: %s\n", what);
+    std::abort();
+}
+
+/// Looks at every byte, for the address sanitizer.
+void touch(std::span<const std::byte> bytes) {
+    unsigned sum = 0;
+    for (const std::byte byte : bytes) sum += std::to_integer<unsigned>(byte);
+    volatile unsigned sink = sum;
+    static_cast<void>(sink);
+}
+
+template <class A>
+RingView<A> view_of(const RingView<RealAtomics>& real) {
+    RingView<A> view;
+    view.shared = reinterpret_cast<layout::BasicRingHeader<A>*>(real.shared);
+    view.cells = real.cells;
+    view.capacity = real.capacity;
+    view.max_record = real.max_record;
+    view.wait_ns = real.wait_ns;
+    view.policy = real.policy;
+    view.chunk_bytes = real.chunk_bytes;
+    view.chunk_count = real.chunk_count;
+    view.chunk_words = reinterpret_cast<layout::BasicChunkWords<A>*>(real.chunk_words);
+    view.chunks = real.chunks;
+    return view;
+}
+
+BasicCallView<MeddledAtomics> view_of(const CallView& real) {
+    BasicCallView<MeddledAtomics> view;
+    view.header = reinterpret_cast<layout::BasicCallQueueHeader<MeddledAtomics>*>(real.header);
+    view.slots = reinterpret_cast<layout::BasicCallSlot<MeddledAtomics>*>(real.slots);
+    view.overflow = real.overflow;
+    view.slot_count = real.slot_count;
+    view.max_bytes = real.max_bytes;
+    view.overflow_cells = real.overflow_cells;
+    return view;
+}
+
+/// In bounds: in the ring's own chunks or records, or in private memory of that size.
+void check_record(const Record& record, const RingView<RealAtomics>& ring) {
+    demand(record.bytes.size() <= std::max(ring.max_record, ring.chunk_bytes), "size of a record");
+    const auto* shared = reinterpret_cast<const std::byte*>(ring.shared);
+    const auto* end = ring.chunk_count != 0 ? ring.chunk(ring.chunk_count)
+                                            : reinterpret_cast<const std::byte*>(ring.cells) + ring.capacity;
+    const auto* at = record.bytes.data();
+    if (at >= shared && at < end)
+        demand(at + record.bytes.size() <= end, "end of a record in place");
+    else
+        demand(record.bytes.size() <= ring.max_record, "size of a copied record");
+    touch(record.bytes);
+}
+
+} // namespace
+
+Victims::Victims() : link_("fuzz-" + std::to_string(getpid())) {
+    JoinOptions options;
+    options.arena_bytes = arena_bytes;
+    hostile_ = Segment::join(link_, Side::first, options);
+    victim_ = Segment::join(link_, Side::second, options);
+    for (const auto policy : all_policies)
+        for (const std::uint32_t chunks : {0U, 2U})
+            for (const Side writer : {Side::first, Side::second}) {
+                const std::string name = "r" + std::to_string(to_victim_.size() + from_victim_.size());
+                hostile_->add_ring(name, {.writer = writer,
+                                          .policy = policy,
+                                          .max_record = max_record,
+                                          .capacity = 512,
+                                          .wait = 1us,
+                                          .chunk_bytes = chunks * chunk_bytes / 2,
+                                          .chunks = chunks});
+                auto& list = writer == Side::first ? to_victim_ : from_victim_;
+                list.push_back({name, hostile_->list(Side::first).back().memory});
+            }
+    hostile_->add_call_queue("c", {.callers = Side::second, .slots = 2, .max_bytes = max_call});
+    queue_ = {"c", hostile_->list(Side::first).back().memory};
+    hostile_->add_blob("b", 100);
+    hostile_->publish();
+    // The mapping begins where the arenas' offset says, before the first object.
+    std::byte* begin = to_victim_.front().hostile.data() - layout::arenas_begin;
+    everything_ = {begin, layout::arenas_begin + arena_bytes};
+    arena_ = everything_.subspan(layout::arenas_begin);
+    pristine_.assign(everything_.begin(), everything_.end());
+}
+
+void Victims::restore(Restore what) {
+    const auto to = what == Restore::all ? everything_ : arena_;
+    std::memcpy(to.data(), pristine_.data() + (pristine_.size() - to.size()), to.size());
+}
+
+RingHandle Victims::ring(const Object& object) const { return *victim_->find_ring(Side::first, object.name); }
+
+template <class A>
+void Victims::consume(Input& input, const Object& object) {
+    const RingHandle handle = ring(object);
+    RingProducer<RealAtomics> honest(hostile_->find_ring(Side::first, object.name)->view);
+    Meddler::unleash(input, object.hostile);
+    RingConsumer<A> consumer(view_of<A>(handle.view));
+    const std::vector<std::byte> payload(chunk_bytes, std::byte{7});
+    for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
+        const std::uint8_t what = input.byte();
+        std::optional<Record> record;
+        switch (what % 8) {
+        case 0:
+            Meddler::rewrite();
+            break;
+        case 1:
+            record = consumer.read();
+            break;
+        case 2:
+            record = consumer.read_newest();
+            break;
+        case 3:
+            if (!handle.view.lossy()) record = consumer.peek();
+            break;
+        case 4:
+            if (!handle.view.lossy()) consumer.release();
+            break;
+        case 5:
+            if (!handle.view.lossy())
+                consumer.consume([&](const Record& shown) { check_record(shown, handle.view); }, what / 8U);
+            break;
+        case 6:
+            consumer.empty();
+            break;
+        default:
+            honest.write(payload.data(), what > 200 ? what * 16U : what / 2U, i, 0);
+            break;
+        }
+        if (record) check_record(*record, handle.view);
+    }
+    Meddler::restrain();
+}
+
+template <class A>
+void Victims::produce(Input& input, const Object& object) {
+    const RingHandle handle = ring(object);
+    const auto same = hostile_->find_ring(Side::first, object.name)->view;
+    RingConsumer<RealAtomics> honest(same);
+    Meddler::unleash(input, object.hostile);
+    RingProducer<A> producer(view_of<A>(handle.view));
+    const std::vector<std::byte> payload(2 * chunk_bytes, std::byte{7});
+    for (std::size_t i = 0; i < max_operations && !input.used_up() && !producer.corrupt(); ++i) {
+        const std::uint8_t what = input.byte();
+        const std::size_t bytes = what > 200 ? what * 20U : what / 2U;
+        switch (what % 4) {
+        case 0:
+            Meddler::rewrite();
+            break;
+        case 1:
+            producer.write(payload.data(), bytes, i, 0);
+            break;
+        case 2: {
+            using Place = typename RingProducer<A>::Place;
+            const Place place = producer.reserve(bytes);
+            if (place == Place::refused) break;
+            if (place == Place::ring) std::memset(producer.cells(), 1, bytes);
+            if (place == Place::chunk) std::memset(producer.chunk(), 1, bytes);
+            if (what % 3 == 0)
+                producer.abandon();
+            else
+                producer.commit(payload.data(), bytes / (1 + what % 5), i, 0);
+            break;
+        }
+        default:
+            if (const auto record = honest.read()) check_record(*record, same);
+            break;
+        }
+    }
+    Meddler::restrain();
+}
+
+void Victims::read_with_shipping(Input& input, const Object& object) {
+    const RingHandle handle = ring(object);
+    Meddler::unleash(input, object.hostile);
+    Meddler::rewrite();
+    RingReader reader(handle);
+    for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
+        const std::uint8_t what = input.byte();
+        if (what % 2 == 0) Meddler::rewrite();
+        const auto record = what % 3 == 0 ? reader.read_newest() : reader.read();
+        if (record) check_record(*record, handle.view);
+        reader.consume([&](const Record& shown) { check_record(shown, handle.view); }, what / 64U);
+        reader.counters();
+    }
+}
+
+void Victims::write_with_shipping(Input& input, const Object& object) {
+    Meddler::unleash(input, object.hostile);
+    Meddler::rewrite();
+    RingWriter writer(ring(object));
+    for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
+        const std::uint8_t what = input.byte();
+        if (what % 2 == 0) Meddler::rewrite();
+        const auto room = writer.reserve(what > 200 ? what * 20U : what / 2U);
+        if (room.data() == nullptr) continue;
+        std::memset(room.data(), 1, room.size());
+        writer.commit(room.size(), i, 0);
+    }
+}
+
+void Victims::call(Input& input) {
+    Meddler::unleash(input, queue_.hostile);
+    CallCaller<MeddledAtomics> caller(view_of(victim_->find_call_queue(Side::first, "c")->view));
+    const std::vector<std::byte> payload(max_call, std::byte{7});
+    std::vector<std::byte> results(max_call);
+    for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
+        CallTicket ticket;
+        const std::uint8_t what = input.byte();
+        if (caller.begin(what, payload.data(), what % (max_call + 1), 1000, 0, what % 2 == 0, ticket) !=
+            CallStart::ok)
+            continue;
+        Meddler::rewrite();
+        if (what % 3 == 0) caller.cancel(ticket);
+        const bool over = what % 5 == 0 ? caller.sleep(ticket, now_ns() + 1000) : caller.spin(ticket, 0);
+        if (over && caller.replied(ticket)) {
+            const std::uint64_t word = caller.reply(ticket); // as CallClient does, it is read once
+            if (word == 0 || length_of(word) > max_call) {
+                caller.forget(ticket);
+                continue;
+            }
+            caller.copy_results(ticket, results.data(), length_of(word));
+            caller.done(ticket);
+        } else if (!caller.withdraw(ticket)) {
+            caller.done(ticket);
+        }
+    }
+    Meddler::restrain();
+}
+
+/// The same queue from the other end: it stands in the first side's half, but a worker's view has no side.
+void Victims::serve(Input& input) {
+    Meddler::unleash(input, queue_.hostile);
+    const auto view = victim_->find_call_queue(Side::first, "c")->view;
+    CallWorker<MeddledAtomics> worker(view_of(view));
+    CallCaller<RealAtomics> honest(view);
+    const std::vector<std::byte> payload(max_call, std::byte{7});
+    for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
+        const std::uint8_t what = input.byte();
+        CallTicket ticket;
+        if (what % 4 != 0) honest.begin(what, payload.data(), what % (max_call + 1), 1000, 0, true, ticket);
+        Meddler::rewrite();
+        bool watches = what % 2 == 0 && worker.watch();
+        const auto call = worker.take(watches);
+        if (watches) worker.stop_watching();
+        if (call) {
+            demand(call->bytes() <= max_call, "length of arguments");
+            touch({static_cast<const std::byte*>(call->arguments), call->bytes()});
+            worker.cancelled(*call);
+            worker.answer(*call, 0, call->arguments, call->bytes());
+        } else if (what % 16 == 1) {
+            worker.sleep(now_ns() + 1000);
+        }
+        if (what % 32 == 2) worker.close(), worker.drop_submitted(), worker.open();
+    }
+    Meddler::restrain();
+}
+
+void Victims::call_with_shipping(Input& input) {
+    Meddler::unleash(input, queue_.hostile);
+    Meddler::rewrite();
+    CallClient client(*victim_->find_call_queue(Side::first, "c"), {.spin = 500ns});
+    CallServer server(*hostile_->find_call_queue(Side::first, "c"), {.spin = 500ns});
+    const std::vector<std::byte> payload(max_call + 8, std::byte{7});
+    for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
+        const std::uint8_t what = input.byte();
+        auto pending = client.begin(what, {payload.data(), what % (max_call + 8)}, 5us);
+        if (what % 2 == 0) Meddler::rewrite();
+        if (auto call = server.take(0ns)) {
+            demand(call->arguments().size() <= max_call, "length of arguments");
+            touch(call->arguments());
+            if (what % 3 == 0) Meddler::rewrite();
+            call->reply(CallStatus::ok, call->arguments());
+        }
+        if (what % 5 == 0) Meddler::rewrite();
+        if (what % 7 == 0) pending.cancel();
+        if (what % 11 == 0) continue; // destroyed unanswered
+        const Reply reply = pending.wait();
+        demand(reply.bytes.size() <= max_call, "length of a reply");
+        client.counters();
+    }
+}
+
+/// Headers and directory: what can be found afterwards lies in the arena, and can be opened and used.
+void Victims::look_up(Input& input) {
+    const auto head = everything_.first(layout::page + 512 + 20 * sizeof(layout::DirectoryEntry));
+    Meddler::unleash(input, head);
+    for (std::size_t i = 0; i < max_operations / 4 && !input.used_up(); ++i) {
+        Meddler::rewrite();
+        const std::uint8_t what = input.byte();
+        if (what % 4 == 0) { // sizes of an object, too
+            const auto& object = what < 128 ? to_victim_[what / 4U % to_victim_.size()] : queue_;
+            Meddler::unleash(input, object.hostile.first(64));
+            Meddler::rewrite();
+            Meddler::unleash(input, head);
+        }
+        victim_->peer();
+        victim_->superseded();
+        victim_->doorbell().poll();
+        victim_->ring_peer(what);
+        try {
+            for (const auto& object : victim_->list(Side::first)) {
+                demand(object.memory.size() <= arena_bytes, "size of an object");
+                touch(object.memory.first(std::min<std::size_t>(64, object.memory.size())));
+                if (!object.memory.empty()) touch(object.memory.last(1));
+                if (object.kind == layout::ObjectKind::ring) {
+                    const auto found = victim_->find_ring(Side::first, object.name);
+                    if (found && found->writer == Side::first && found->view.wait_ns <= 1'000'000) {
+                        RingReader reader(*found);
+                        if (const auto record = reader.read()) check_record(*record, found->view);
+                    }
+                }
+            }
+            victim_->find_call_queue(Side::first, "c");
+            if (const auto blob = victim_->copy_blob(Side::first, "b")) touch(*blob);
+        } catch (const Error&) { // a clean end; the next word may repair it
+        }
+    }
+}
+
+void Victims::observe_it(Input& input) {
+    Meddler::unleash(input, everything_);
+    for (int i = 0; i < 4 + input.byte() % 8; ++i) Meddler::rewrite();
+    const auto observed = observe(link_);
+    demand(observed.has_value(), "the segment cannot be observed");
+}
+
+void Victims::run(Input& input) {
+    const std::uint8_t what = input.byte();
+    const auto& to = to_victim_[what / 16U % to_victim_.size()];
+    const auto& from = from_victim_[what / 16U % from_victim_.size()];
+    Restore after = Restore::arena;
+    try {
+        switch (what % 16) {
+        case 0:
+        case 1:
+        case 2:
+        case 3:
+            consume<MeddledAtomics>(input, to);
+            break;
+        case 4:
+        case 5:
+        case 6:
+            produce<MeddledAtomics>(input, from);
+            break;
+        case 7:
+            read_with_shipping(input, to);
+            break;
+        case 8:
+            write_with_shipping(input, from);
+            break;
+        case 9:
+        case 10:
+            call(input);
+            break;
+        case 11:
+        case 12:
+            serve(input);
+            break;
+        case 13:
+            call_with_shipping(input);
+            break;
+        case 14:
+            after = Restore::all;
+            look_up(input);
+            break;
+        default:
+            after = Restore::all;
+            if (what == 15)
+                observe_it(input);
+            else
+                look_up(input);
+        }
+    } catch (const Error&) { // the only clean way to refuse
+    }
+    Meddler::restrain();
+    restore(after);
+}
+
+} // namespace tandem::shm::fuzz
