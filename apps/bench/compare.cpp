@@ -14,14 +14,22 @@ namespace {
 
 constexpr double least_noise = 0.05, noise_of_one_run = 0.15;
 
-double noise_of(const Row& row) {
+std::vector<double> measured_runs(const Row& row) {
     std::vector<double> runs;
     for (double run : row.runs)
         if (std::isfinite(run)) runs.push_back(run);
+    std::sort(runs.begin(), runs.end());
+    return runs;
+}
+
+double noise_of(const std::vector<double>& runs) {
     if (runs.size() < 2) return noise_of_one_run;
-    const auto [least, most] = std::minmax_element(runs.begin(), runs.end());
     const double middle = median(runs);
-    return middle > 0 ? (*most - *least) / middle : 0;
+    return middle > 0 ? (runs.back() - runs.front()) / middle : 0;
+}
+
+bool overlap(const std::vector<double>& a, const std::vector<double>& b) {
+    return !a.empty() && !b.empty() && a.front() <= b.back() && b.front() <= a.back();
 }
 
 } // namespace
@@ -31,9 +39,10 @@ std::vector<Change> changes(const Report& before, const Report& after) {
     for (const Row& row : after.rows) {
         const Row* old = before.find(row.id);
         if (old == nullptr || !row.skipped.empty() || old->summary.p50 <= 0 || row.summary.p50 <= 0) continue;
-        const double noise = std::max({least_noise, noise_of(row), noise_of(*old)});
+        const auto runs = measured_runs(row), old_runs = measured_runs(*old);
+        const double noise = std::max({least_noise, noise_of(runs), noise_of(old_runs)});
         const double ratio = row.summary.p50 / old->summary.p50;
-        if (std::max(ratio, 1 / ratio) <= 1 + noise) continue;
+        if (std::max(ratio, 1 / ratio) <= 1 + noise || overlap(runs, old_runs)) continue;
         out.push_back({row.id, row.unit, old->summary.p50, row.summary.p50, noise,
                        row.higher_is_better() ? ratio > 1 : ratio < 1});
     }

@@ -12,8 +12,9 @@ struct Change {
     double ratio() const { return after / before; }
 };
 
-/// What changed beyond noise, largest first. Noise is the spread of the runs of both reports; 15 % where a
-/// report has one run only (two runs half an hour apart agree to that), and never less than 5 %.
+/// What changed beyond noise, largest first: by more than the spread of either report's runs (15 % where
+/// there is one run only: two runs half an hour apart agree to that; never less than 5 %), and no run of one
+/// report lies among those of the other.
 std::vector<Change> changes(const Report& before, const Report& after);
 
 std::string compare_text(const Report& before, const Report& after);
