@@ -7,24 +7,33 @@ namespace tandem::bench {
 
 namespace {
 
-/// One word to and fro, no ring around it.
+/// One word to and fro, no ring around it. From message to message another line: how far a line is from a
+/// core depends on its address, 130 to 180 ns on one machine, and a single one would be a matter of luck.
 class LineEnd {
   public:
     explicit LineEnd(Session& session)
-        : out_(word(session, session.is_a() ? 0 : 1)), in_(word(session, session.is_a() ? 1 : 0)) {}
-    void send(std::uint64_t sequence) { out_.store(sequence, std::memory_order_release); }
+        : out_(words(session, session.is_a() ? 0 : 1)), in_(words(session, session.is_a() ? 1 : 0)) {}
+    void send(std::uint64_t sequence) { word(out_, sent_++).store(sequence, std::memory_order_release); }
     std::uint64_t receive() {
-        std::uint64_t now = last_;
-        while (now == last_) now = in_.load(std::memory_order_acquire);
-        return last_ = now;
+        auto& word_now = word(in_, received_);
+        const std::uint64_t before = last_[received_ % lines];
+        std::uint64_t now = before;
+        while (now == before) now = word_now.load(std::memory_order_acquire);
+        return last_[received_++ % lines] = now;
     }
 
   private:
-    static std::atomic<std::uint64_t>& word(Session& session, int index) {
-        return *reinterpret_cast<std::atomic<std::uint64_t>*>(session.memory().data() + index * 256);
+    using Word = std::atomic<std::uint64_t>;
+    static constexpr std::size_t lines = 64, apart = 128;
+    static std::byte* words(Session& session, std::size_t index) {
+        return session.memory().data() + index * lines * apart;
     }
-    std::atomic<std::uint64_t>&out_, &in_;
-    std::uint64_t last_ = 0;
+    static Word& word(std::byte* words, std::size_t index) {
+        return *reinterpret_cast<Word*>(words + index % lines * apart);
+    }
+    std::byte *out_, *in_;
+    std::size_t sent_ = 0, received_ = 0;
+    std::uint64_t last_[lines] = {};
 };
 
 void read_clock(Session& session) {
