@@ -26,7 +26,7 @@ void answer(End& end) {
 }
 
 template <class Exchange>
-void time_exchanges(Session& session, Exchange&& exchange) {
+void time_exchanges(Session& session, Exchange&& exchange, std::size_t parts = 1) {
     std::uint64_t sequence = 1;
     const auto loop = [&] {
         for (; session.more(); ++sequence) {
@@ -37,9 +37,9 @@ void time_exchanges(Session& session, Exchange&& exchange) {
             session.sample(now - sent, now);
         }
     };
-    session.begin_warm_up();
+    session.begin_warm_up(parts);
     loop();
-    session.begin();
+    session.begin(parts);
     loop();
     session.end();
     exchange(stop_sequence);
@@ -55,6 +55,26 @@ void echo(Session& session) {
         end.send(sequence);
         return end.receive();
     });
+}
+
+/// The same at several places of the session's memory, one after the other, as End(session, place): how far a
+/// line that stays where it is lies from a core depends on its address.
+template <class End>
+void echo_at_places(Session& session, std::size_t places) {
+    for (std::size_t place = 0; place < places; ++place) {
+        End end(session, place);
+        session.meet();
+        if (!session.is_a())
+            answer(end);
+        else
+            time_exchanges(
+                session,
+                [&](std::uint64_t sequence) {
+                    end.send(sequence);
+                    return end.receive();
+                },
+                places);
+    }
 }
 
 /// Calls: A is the client, B the server.

@@ -18,7 +18,7 @@ void Session::meet() {
 void Session::begin(std::size_t count, double seconds, bool keep) {
     taken_ = 0;
     wanted_ = count;
-    kept_ = keep;
+    keep_ = keep;
     last_ = ticks();
     end_ = last_ + to_ticks(seconds * 1e9);
 }

@@ -49,15 +49,20 @@ class Session {
     void meet();
 
     /// The warm-up loop and the measured loop: while (more()) { ...; sample(ticks it took, now); }
-    void begin_warm_up() { begin(limits_.warm_up, limits_.warm_up_seconds, false); }
-    void begin() { begin(limits_.samples, limits_.seconds, true); }
+    /// Of several such loops, `parts`, each gets its share; the samples add up.
+    void begin_warm_up(std::size_t parts = 1) {
+        begin(limits_.warm_up / parts, limits_.warm_up_seconds / static_cast<double>(parts), false);
+    }
+    void begin(std::size_t parts = 1) {
+        begin(limits_.samples / parts, limits_.seconds / static_cast<double>(parts), true);
+    }
     bool more() const { return taken_ < wanted_ && last_ < end_; }
     void sample(std::uint64_t took, std::uint64_t now) {
-        if (kept_) control_.samples()[taken_] = to_ns(took) / measured_.divisor;
+        if (keep_) control_.samples()[kept_++] = to_ns(took) / measured_.divisor;
         ++taken_;
         last_ = now;
     }
-    void end() { control_.sample_count.store(taken_, std::memory_order_release); }
+    void end() { control_.sample_count.store(kept_, std::memory_order_release); }
     void result(double value); ///< One figure of a stream or a count.
 
     /// One side tells the other that it has enough.
@@ -74,9 +79,9 @@ class Session {
     Control& control_;
     std::span<std::byte> memory_;
     std::uint32_t met_ = 0;
-    std::size_t taken_ = 0, wanted_ = 0;
+    std::size_t taken_ = 0, wanted_ = 0, kept_ = 0;
     std::uint64_t last_ = 0, end_ = 0;
-    bool kept_ = false;
+    bool keep_ = false;
 };
 
 } // namespace tandem::bench
