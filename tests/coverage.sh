@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Line coverage of shm/ by its own tests: per file and in total.   tests/coverage.sh [--at-least PERCENT]
+# Builds preset coverage and runs the tests of shm, fault and fuzz. Exits 1 below 95 percent, or what was asked.
+# What a process counts is lost when it is killed or ends by _exit: what only such processes run counts as missed.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
+
+least=95
+if [ "${1:-}" = --at-least ]; then least=${2:?--at-least needs a number}; fi
+
+cd "$root"
+say "configuring and building preset coverage"
+cmake --preset coverage >/dev/null
+targets=$(ninja -C build/coverage -t targets all | sed -n 's/^\(test_shm_[a-z_]*\|test_fault_[a-z_]*\|fuzz_segment\): .*/\1/p')
+# shellcheck disable=SC2086 # one target a word
+cmake --build --preset coverage --target $targets | { grep -v '^ninja: no work' || true; } | tail -n 1
+find build/coverage -name '*.gcda' -delete
+say "running $(echo "$targets" | wc -w) test programs"
+for target in $targets; do
+    "build/coverage/tests/$target" >build/coverage/coverage.log 2>&1 ||
+        { tail -n 30 build/coverage/coverage.log >&2; echo "$target fails in preset coverage; mend that first" >&2; exit 1; }
+done
+
+say "counting"
+python3 - "$root" "$least" <<'PYTHON'
+"""Adds up what gcov says: a line of a header is covered if any program that includes it runs it."""
+import collections, json, pathlib, subprocess, sys
+
+root, least = pathlib.Path(sys.argv[1]), float(sys.argv[2])
+lines = collections.defaultdict(lambda: collections.defaultdict(int))
+for notes in (root / "build/coverage").rglob("*.gcno"):
+    if not any(part in str(notes) for part in ("/shm/", "/tests/fault/", "/tests/fuzz/")):
+        continue
+    out = subprocess.run(["gcov", "--json-format", "--stdout", str(notes)], capture_output=True, text=True,
+                         cwd=root / "build/coverage").stdout
+    for text in filter(None, out.splitlines()):
+        unit = json.loads(text)
+        for file in unit["files"]:
+            path = pathlib.Path(unit["current_working_directory"], file["file"]).resolve()
+            if path.parent != root / "shm":
+                continue
+            for line in file["lines"]:
+                lines[path.name][line["line_number"]] += line["count"]
+total = covered = 0
+for name in sorted(lines):
+    hit = sum(1 for count in lines[name].values() if count)
+    missed = sorted(number for number, count in lines[name].items() if not count)
+    total, covered = total + len(lines[name]), covered + hit
+    print(f"{name:24} {hit:5} of {len(lines[name]):5} lines {100 * hit / len(lines[name]):6.1f} %",
+          "  missed:" + " ".join(map(str, missed)) if missed else "")
+if total == 0:
+    sys.exit("gcov has counted nothing; is gcov of the compiler's version installed?")
+percent = 100 * covered / total
+print(f"{'shm/':24} {covered:5} of {total:5} lines {percent:6.1f} %")
+if percent < least:
+    sys.exit(f"line coverage of shm/ is {percent:.1f} %, at least {least:g} % expected; add tests for the lines named above")
+PYTHON
