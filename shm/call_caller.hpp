@@ -37,17 +37,18 @@ class CallCaller {
     }
 
     /// Submits a call. `prefer`: the slot to try first, best the one that this thread had last: its lines are
-    /// near. `waits`: this thread goes on to wait() at once.
+    /// near. `waits`: this thread goes on to wait() at once. `recent`: a time not long ago that is
+    /// exact enough for this call; 0 if there is none.
     CallStart begin(std::uint32_t operation, const void* arguments, std::size_t bytes, std::uint64_t timeout,
-                    std::uint32_t prefer, bool waits, CallTicket& ticket) {
+                    std::uint32_t prefer, bool waits, CallTicket& ticket, std::uint64_t recent = 0) {
         const std::uint32_t slot = claim(prefer);
         if (slot == no_slot) return CallStart::overload;
-        const std::uint64_t now = A::now();
         auto& mine = mine_[slot];
         auto& request = view_.slots[slot].request;
         mine.sequence = mine.sequence == sequence_mask ? 1 : mine.sequence + 1; // 0 is a slot without reply
-        ticket = {slot, call_word(layout::CallState::submitted, mine.sequence, bytes), now, now + timeout,
-                  false};
+        const std::uint64_t word = call_word(layout::CallState::submitted, mine.sequence, bytes);
+        const std::uint64_t now = recent == 0 || is_timed(word) ? A::now() : recent;
+        ticket = {slot, word, now, now + timeout, false};
         // Relaxed and word-wise: a worker may still be reading the call before, which was cancelled. Its
         // compare-and-swap fails then, whatever it has read.
         view_.put_arguments(slot, arguments, bytes);

@@ -4,6 +4,7 @@
 #include "shm/adaptive_spin.hpp"
 #include "shm/call_caller.hpp"
 #include "shm/error.hpp"
+#include "shm/recent_clock.hpp"
 
 namespace tandem::shm {
 namespace {
@@ -18,6 +19,10 @@ CallStatus say(CallStatus status, const std::string& text, std::vector<std::byte
 
 /// The slot this thread had last, in whichever queue: only a hint where to look first.
 thread_local std::uint32_t last_slot = 0;
+
+/// A bound of this length may pass 1 % early.
+constexpr std::uint64_t long_bound_ns = 100 * RecentClock::oldest_ns;
+thread_local RecentClock recent_clock;
 
 } // namespace
 
@@ -45,8 +50,8 @@ struct CallClient::State {
     CallStatus begin(std::uint32_t operation, std::span<const std::byte> arguments,
                      std::chrono::nanoseconds timeout, bool waits, CallTicket& ticket,
                      std::vector<std::byte>& text);
-    CallStatus finish(CallTicket& ticket, std::uint64_t now, std::vector<std::byte>& results);
-    CallStatus await(CallTicket& ticket, std::uint64_t now);
+    CallStatus finish(CallTicket& ticket, std::vector<std::byte>& results);
+    CallStatus await(CallTicket& ticket);
     CallStatus give_up(const CallTicket& ticket, CallStatus reason);
     CallStatus collect(const CallTicket& ticket, std::vector<std::byte>& results);
     void take_time(const CallTicket& ticket);
@@ -74,8 +79,10 @@ CallStatus CallClient::State::begin(std::uint32_t operation, std::span<const std
     auto& shared = *queue.view.header;
     if (stopped.load(std::memory_order_relaxed) || shared.closed.load(std::memory_order_relaxed) != 0)
         return CallStatus::shut_down;
-    switch (caller.begin(operation, arguments.data(), arguments.size(), bounded_ns(timeout), last_slot, waits,
-                         ticket)) {
+    const std::uint64_t bound = bounded_ns(timeout);
+    const std::uint64_t recent = bound >= long_bound_ns ? recent_clock.now_ns() : 0;
+    switch (caller.begin(operation, arguments.data(), arguments.size(), bound, last_slot, waits, ticket,
+                         recent)) {
     case CallStart::ok:
         last_slot = ticket.slot;
         return CallStatus::ok;
@@ -88,8 +95,8 @@ CallStatus CallClient::State::begin(std::uint32_t operation, std::span<const std
     return CallStatus::overload;
 }
 
-CallStatus CallClient::State::finish(CallTicket& ticket, std::uint64_t now, std::vector<std::byte>& results) {
-    const CallStatus status = await(ticket, now);
+CallStatus CallClient::State::finish(CallTicket& ticket, std::vector<std::byte>& results) {
+    const CallStatus status = await(ticket);
     if (status == CallStatus::ok) return collect(ticket, results);
     auto& shared = *queue.view.header;
     if (status == CallStatus::timeout) shared.timeouts.fetch_add(1, std::memory_order_relaxed);
@@ -100,12 +107,15 @@ CallStatus CallClient::State::finish(CallTicket& ticket, std::uint64_t now, std:
 }
 
 /// ok: there is a reply to collect. Anything else: the slot is no longer this call's.
-CallStatus CallClient::State::await(CallTicket& ticket, std::uint64_t now) {
+CallStatus CallClient::State::await(CallTicket& ticket) {
     auto& spin = spins[ticket.slot];
-    const std::uint64_t began = now, deadline = ticket.deadline_ns;
-    bool over = caller.replied(ticket);
-    if (!over && how.mode != WaitMode::futex)
-        over = caller.spin(ticket, std::min(now + spin.limit_ns(spin_ns), deadline));
+    const std::uint64_t deadline = ticket.deadline_ns;
+    const bool polls = how.mode != WaitMode::futex;
+    // A short call ends within the first looks, before anybody has asked for the time.
+    bool over = polls ? caller.spin(ticket, 0) : caller.over(ticket);
+    std::uint64_t now = over ? 0 : now_ns();
+    const std::uint64_t began = now;
+    if (!over && polls) over = caller.spin(ticket, std::min(now + spin.limit_ns(spin_ns), deadline));
     if (over && caller.replied(ticket)) {
         spin.learn(spin_ns, 0);
         return CallStatus::ok;
@@ -118,7 +128,7 @@ CallStatus CallClient::State::await(CallTicket& ticket, std::uint64_t now) {
         const std::uint64_t slice = std::min(now + look_after_peer_ns, deadline);
         over = how.mode == WaitMode::spin ? caller.spin(ticket, slice) : caller.sleep(ticket, slice);
     }
-    spin.learn(spin_ns, now_ns() - began);
+    if (began != 0) spin.learn(spin_ns, now_ns() - began);
     return caller.replied(ticket) ? CallStatus::ok : give_up(ticket, CallStatus::cancelled);
 }
 
@@ -167,7 +177,7 @@ CallStatus CallClient::call_into(std::uint32_t operation, std::span<const std::b
                                  std::chrono::nanoseconds timeout, std::vector<std::byte>& results) {
     CallTicket ticket;
     const CallStatus begun = state_->begin(operation, arguments, timeout, true, ticket, results);
-    return begun == CallStatus::ok ? state_->finish(ticket, ticket.begun_ns, results) : begun;
+    return begun == CallStatus::ok ? state_->finish(ticket, results) : begun;
 }
 
 PendingCall CallClient::begin(std::uint32_t operation, std::span<const std::byte> arguments,
@@ -204,7 +214,7 @@ CallStatus PendingCall::wait_into(std::vector<std::byte>& results) {
         results = reason_;
         return refused_;
     }
-    return client->finish(ticket_, now_ns(), results);
+    return client->finish(ticket_, results);
 }
 
 Reply PendingCall::wait() {

@@ -20,7 +20,8 @@ class CallClient {
     /// caller waits for its reply.
     explicit CallClient(const CallQueueHandle& queue, const WaitOptions& how = {});
 
-    /// Runs an operation on the other side and waits for its reply, at most `timeout`. timeout: whether it
+    /// Runs an operation on the other side and waits for its reply, at most `timeout` (of 10 ms and
+    /// more up to 1 % less). timeout: whether it
     /// ran is unknown, but it will not start any more. overload: no slot was free, it has not run. peer_died:
     /// within 5 ms.
     Reply call(std::uint32_t operation, std::span<const std::byte> arguments,

@@ -43,8 +43,8 @@ struct BasicCallView {
 
     typename A::Cell* overflow_of(std::uint32_t slot) const { return overflow + slot * overflow_cells; }
 
-    // Who polls the first line of a request or reply asks for the second one all the time: it is written
-    // before, and so is on its way by the time the first one shows that there is something to read.
+    // Ask for the second line of a request or reply, which is written before the first one: a worker when it
+    // has found a call, a caller all the time while it polls the first one.
     void expect_request(std::uint32_t slot) const { fetch(&slots[slot].request); }
     void expect_reply(std::uint32_t slot) const { fetch(&slots[slot].reply); }
 

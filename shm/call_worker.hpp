@@ -55,8 +55,6 @@ class CallWorker {
             if (request.word.compare_exchange_strong(word, running, std::memory_order_acq_rel)) {
                 leave_watch(watches);
                 watches = false;
-                if (last_slot_.load(std::memory_order_relaxed) != slot)
-                    last_slot_.store(slot, std::memory_order_relaxed);
                 return taken;
             }
             busy_[slot].store(0, std::memory_order_release);
@@ -95,11 +93,12 @@ class CallWorker {
         set_watching(layout::CallWatch::no);
     }
 
-    /// Polls until there is a call to take or interrupted(); false: now() has reached `until`.
+    /// Polls until there is a call to take or interrupted(); false: now() has reached `until`. It does not
+    /// ask for the second line of the next call, as a caller does for its reply's: measured, that takes the
+    /// line from the caller while it is being written.
     bool spin(std::uint64_t until) const {
         for (unsigned round = 1;; ++round) {
             if (any_submitted() || interrupted()) return true;
-            view_.expect_request(last_slot_.load(std::memory_order_relaxed));
             if (round % 32 == 0 && A::now() >= until) return false;
             A::pause();
         }
@@ -149,11 +148,13 @@ class CallWorker {
   private:
     static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
 
+    bool submitted(std::uint32_t slot) const {
+        return has_state(view_.slots[slot].request.word.load(std::memory_order_seq_cst),
+                         layout::CallState::submitted);
+    }
     bool any_submitted() const {
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot)
-            if (has_state(view_.slots[slot].request.word.load(std::memory_order_seq_cst),
-                          layout::CallState::submitted))
-                return true;
+            if (submitted(slot)) return true;
         return false;
     }
 
@@ -212,7 +213,6 @@ class CallWorker {
     std::vector<std::uint64_t> copies_;
     std::vector<typename A::template Atomic<std::uint32_t>> busy_; // 1 = a worker is in the slot
     typename A::template Atomic<std::uint32_t> spinning_{0}, interrupted_{0};
-    typename A::template Atomic<std::uint32_t> last_slot_{0}; // a hint: whose lines come next
 };
 
 } // namespace tandem::shm
