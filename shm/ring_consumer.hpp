@@ -15,6 +15,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tandem::shm {
@@ -155,12 +156,14 @@ inline std::optional<Record> RingConsumer<A>::read_as(bool newest) {
     if (newest && A::load(*ring_.cell(end), std::memory_order_acquire) != 0) return receive(newest);
     // The rest of the line comes along: what is behind the payload is nobody's.
     const bool lossy = ring_.lossy();
-    const auto copy = lossy ? &A::copy_out : &A::take_out;
     if (lossy)
         A::copy_out(scratch_.data(), at + 2, one_line);
     else
         A::take_out(scratch_.data(), at + 2, one_line);
-    if (length > one_line) copy(scratch_.data() + one_line / word_bytes, at + 8, length - one_line);
+    if (length > one_line && lossy)
+        A::copy_out(scratch_.data() + one_line / word_bytes, at + 8, length - one_line);
+    else if (length > one_line)
+        A::take_out(scratch_.data() + one_line / word_bytes, at + 8, length - one_line);
     const std::uint64_t stamp = A::load(*(at + 1), std::memory_order_acquire);
     std::uint64_t from = position_;
     if (!move_tail(from, end)) return receive(newest);

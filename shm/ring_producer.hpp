@@ -31,6 +31,7 @@
 #include "shm/ring_view.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace tandem::shm {
@@ -85,9 +86,6 @@ class alignas(layout::line_pair) RingProducer {
     void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
                  std::uint64_t stamp, std::uint8_t tag);
 
-    // A shorter payload is made elsewhere and copied in at one go: written piece by piece to the line that
-    // the reader looks at, it would cost a transfer of that line for every look.
-    static constexpr std::size_t longest_burst = 4096;
     static constexpr std::uint64_t nowhere = ~std::uint64_t{0};
 
     RingView<A> ring_;
@@ -231,7 +229,7 @@ typename RingProducer<A>::Place RingProducer<A>::reserve(std::size_t bytes) {
     reserved_ = bytes;
     if (bytes <= ring_.max_record) {
         if (make_room(need(record_bytes(bytes))))
-            place_ = ring_.lossy() || bytes <= longest_burst ? Place::elsewhere : Place::ring;
+            place_ = ring_.lossy() || bytes <= ring_.longest_burst ? Place::elsewhere : Place::ring;
         if (place_ == Place::ring) ended_at_ = nowhere; // the user may write over it, and abandon
     } else if (bytes <= ring_.chunk_bytes && make_room(need(record_bytes(sizeof(LoanRecord))))) {
         if (claim_chunk()) place_ = Place::chunk;

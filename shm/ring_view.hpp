@@ -22,6 +22,9 @@ struct RingView {
     std::uint32_t chunk_count = 0;
     layout::BasicChunkWords<A>* chunk_words = nullptr;
     std::byte* chunks = nullptr;
+    // A payload up to this is made elsewhere and copied in at one go: written piece by piece to the line that
+    // the reader looks at, it would cost a transfer of that line for every look.
+    std::size_t longest_burst = 4096;
 
     bool lossy() const { return policy == RingPolicy::latest_only || policy == RingPolicy::drop_oldest; }
     typename A::Cell* cell(std::uint64_t position) const {
