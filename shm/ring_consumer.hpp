@@ -343,7 +343,13 @@ template <class A>
         if (corrupt_) break;
         Found found;
         const Look seen = newest ? look_newest(tail, found) : look(tail, found);
-        if (seen == Look::nothing && current_tail() == tail) return std::nullopt;
+        if (seen == Look::nothing && current_tail() == tail) {
+            // The writer has moved the tail to here for a record that it has not finished, and perhaps never
+            // will: here is where empty() and the next read shall look.
+            in_step_ = in_step_ && tail == position_;
+            position_ = tail;
+            return std::nullopt;
+        }
         if (seen == Look::nothing || ((seen == Look::unsound || !copy(found)) && !damaged(tail))) continue;
         if (corrupt_) break;
         const bool in_step = in_step_ && tail == position_;
