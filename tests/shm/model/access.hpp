@@ -37,13 +37,13 @@ inline std::uint64_t Execution::look(std::uint32_t word, Order order, Index& rea
     // Stores come to be seen some day: nobody reads the same old one again and again.
     Repeat& repeat = me().repeats[word];
     const std::size_t allowed = oldest;
-    if (me().pauses >= settings_.patience) oldest = newest;
+    if (me().pauses >= settings_.patience || me().hurry != 0) oldest = newest;
     if (repeat.index >= oldest && repeat.index < newest && repeat.count >= settings_.patience)
         oldest = repeat.index + 1U;
     if (oldest != allowed && explores())
         reduction_.turn_round(choices_, turn_, {Kind::load, order, word}, true);
     read = static_cast<Index>(newest - choices_.value(static_cast<std::uint32_t>(newest - oldest + 1)));
-    repeat = {read, read == repeat.index ? repeat.count + 1 : 1};
+    repeat = {read, read == newest ? 0 : read == repeat.index ? repeat.count + 1 : 1};
     me().looks.push_back({word, read});
     return memory_.read(who, word, read, order);
 }
@@ -167,6 +167,17 @@ inline void Execution::put(std::uint32_t word, std::uint64_t value, const Site& 
     memory_.write(me().observer, word, value, Order::relaxed);
 }
 
+/// What this thread has read last of a word must happen before every later store there. A copy that is
+/// believed must be like that: otherwise the processor or compiler may delay the load behind the store (load
+/// buffering, which the executions themselves do not show).
+inline void Execution::settle(std::uint32_t word, const Site& at) {
+    if (!in_thread() || over()) return;
+    if (memory_.settle(turn_, word, me().repeats[word].index)) return;
+    fail("a store does not wait for what " + me().name + " has read of word " + std::to_string(word) +
+         " before " + name_of(at));
+    throw Ended{};
+}
+
 inline void Execution::fence(const Site& at) {
     if (log_ != nullptr) log_->note(at, Access::fence, Order::seq_cst);
     if (damaged(at, Damage::no_fence)) return;
@@ -178,17 +189,29 @@ inline void Execution::fence(const Site& at) {
     trace(at, "fence", "");
 }
 
-/// Goes on when something that was looked at since the last pause has changed.
+/// Goes on when something that was looked at since the last pause has changed, or when time is up: then the
+/// next rounds go by without a change, until the thread looks at the clock.
 inline void Execution::pause(const Site& at) {
     if (!in_thread() || over()) return;
     Thread& thread = me();
+    ++thread.pauses;
+    if (thread.hurry != 0) {
+        --thread.hurry;
+        thread.observer.time += idle_round;
+        return;
+    }
     thread.next = {};
     thread.state = State::paused;
-    ++thread.pauses;
     trace(at, "pause", "");
     hand_on();
+    if (!ready(thread)) { // nothing has changed: time is up, as far as this thread is concerned
+        if (thread.lapses != 0) --thread.lapses;
+        thread.hurry = polling_rounds;
+    } else if (thread.lapses != 0 && explores()) { // and it may have been up before that change
+        for (const Look& look : thread.looks)
+            reduction_.turn_round(choices_, turn_, {Kind::load, Order::seq_cst, look.word});
+    }
     thread.state = State::runs;
-    for (const Look& look : thread.looks) reduction_.after_word(turn_, look.word);
     thread.looks.clear();
     done(thread.next, 0, 0, false);
 }
@@ -197,6 +220,7 @@ inline std::uint64_t Execution::now() {
     if (in_thread() && over()) return ~std::uint64_t{0} - 1;
     Thread& thread = me();
     ++thread.observer.time;
+    thread.hurry = 0;
     if (in_thread() && thread.lapses != 0 && choices_.value(2, 8) == 1) {
         --thread.lapses;
         thread.observer.time += lapse;

@@ -60,7 +60,8 @@ inline std::vector<Case> call_wait_cases() {
                          world.check(ends);
                      }});
 
-    cases.push_back({"two workers of which one polls", [](Execution& execution) {
+    cases.push_back({"two workers of which one polls",
+                     [](Execution& execution) {
                          CallWorld world(execution);
                          CallWorld::Ends ends;
                          execution.thread("caller", [&] {
@@ -72,7 +73,8 @@ inline std::vector<Case> call_wait_cases() {
                          execution.run();
                          expect_ends(execution, ends, {End::answered});
                          world.check(ends);
-                     }});
+                     },
+                     Settings{.lapses = 1}});
 
     cases.push_back({"a caller polls and the worker sleeps",
                      [](Execution& execution) {
@@ -92,7 +94,8 @@ inline std::vector<Case> call_wait_cases() {
                      },
                      Settings{}, true});
 
-    cases.push_back({"two callers and two workers of which one polls", [](Execution& execution) {
+    cases.push_back({"two callers and two workers of which one polls",
+                     [](Execution& execution) {
                          CallWorld world(execution);
                          CallWorld::A::Atomic<std::uint32_t> finished{0};
                          CallWorld::Ends ends{{1, End::closed}, {2, End::closed}};
@@ -106,9 +109,11 @@ inline std::vector<Case> call_wait_cases() {
                          execution.run();
                          expect_ends(execution, ends, {End::answered});
                          world.check(ends);
-                     }});
+                     },
+                     Settings{.lapses = 1}});
 
-    cases.push_back({"callers poll and one of two workers watches", [](Execution& execution) {
+    cases.push_back({"callers poll and one of two workers watches",
+                     [](Execution& execution) {
                          CallWorld world(execution);
                          CallWorld::A::Atomic<std::uint32_t> finished{0};
                          CallWorld::Ends ends{{1, End::closed}, {2, End::closed}};
@@ -124,9 +129,11 @@ inline std::vector<Case> call_wait_cases() {
                          execution.run();
                          expect_ends(execution, ends, {End::answered});
                          world.check(ends);
-                     }});
+                     },
+                     Settings{.lapses = 1}});
 
-    cases.push_back({"the worker that is expected back does not come", [](Execution& execution) {
+    cases.push_back({"the worker that is expected back does not come",
+                     [](Execution& execution) {
                          using A = CallWorld::A;
                          CallWorld world(execution);
                          A::Atomic<std::uint32_t> finished{0};
@@ -147,7 +154,8 @@ inline std::vector<Case> call_wait_cases() {
                          execution.run();
                          expect_ends(execution, ends, {End::answered});
                          world.check(ends);
-                     }});
+                     },
+                     Settings{.lapses = 1}});
 
     return cases;
 }

@@ -23,9 +23,12 @@ struct Settings {
 class Execution {
   public:
     /// The time that a lapse takes: longer than any time-out of a scenario.
+    static constexpr std::uint64_t never = std::uint64_t{1} << 62; ///< deadlines from here on do not come
     static constexpr std::uint64_t lapse = 20'000'000'000;
     /// What pause() takes when nobody can run: a polling thread soon finds that its time to poll is over.
     static constexpr std::uint64_t idle_round = 100'000;
+    static constexpr unsigned polling_rounds =
+        32; ///< that a thread goes through without looking at the clock
 
     /// A thread of `process`; threads of one process die together, if it is mortal. Called before run().
     void thread(std::string name, std::function<void()> body, unsigned process = 0, bool mortal = false) {
@@ -111,6 +114,7 @@ class Execution {
                  const Site& at);
     std::uint64_t take(std::uint32_t word, const Site& at);
     void put(std::uint32_t word, std::uint64_t value, const Site& at);
+    void settle(std::uint32_t word, const Site& at);
     void fence(const Site& at);
     void pause(const Site& at);
     std::uint64_t now();
@@ -137,7 +141,7 @@ class Execution {
         Operation next;
         bool mortal = false, dead = false, woken = false, finished = false;
         std::uint8_t group = 0;
-        unsigned lapses = 0, pauses = 0;
+        unsigned lapses = 0, pauses = 0, hurry = 0;
         std::uint32_t queue = no_location, steps = 0;
         std::uint64_t deadline = 0;
         std::vector<Look> looks; ///< since the last pause

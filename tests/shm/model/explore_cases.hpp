@@ -8,12 +8,12 @@ namespace tandem::shm::model {
 
 constexpr std::uint64_t seed = 20260101;
 
-/// Searches whatever is complete within `limit` executions completely, and as many of the others.
+/// Searches the small ones completely, and `limit` executions of the others.
 inline void search_all(const std::vector<Case>& cases, std::size_t limit) {
     for (const auto& one : cases) {
         Effort effort;
         effort.settings = one.settings;
-        effort.executions = limit;
+        if (!one.small) effort.executions = limit;
         const auto outcome = explore(one.scenario, effort);
         INFO(one.name << ": " << outcome.executions << " executions");
         CHECK(outcome.failure == "");

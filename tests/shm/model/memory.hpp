@@ -48,6 +48,7 @@ struct Store {
     std::uint64_t value;
     std::int32_t message; ///< what an acquiring reader learns: an index of Memory::messages_, -1 = nothing
     std::uint64_t time;
+    std::array<std::uint32_t, max_threads> knows; ///< the writer's clock
 };
 
 struct Location {
@@ -77,7 +78,7 @@ class Memory {
     std::uint32_t add(std::uint64_t value) {
         if (used_ == max_locations) throw std::logic_error("model: more than max_locations words");
         if (locations_.size() <= used_) locations_.emplace_back();
-        locations_[used_].stores.push_back({value, -1, 0});
+        locations_[used_].stores.push_back({value, -1, 0, {}});
         return static_cast<std::uint32_t>(used_++);
     }
 
@@ -117,7 +118,7 @@ class Memory {
             message = new_message(releases(order) ? who.now : who.on_release);
             if (earlier >= 0) messages_[message].join(messages_[earlier], used_);
         }
-        place.stores.push_back({value, message, who.time});
+        place.stores.push_back({value, message, who.time, who.now.clock});
         if (sequential(order)) place.sequential = index;
     }
 
@@ -138,6 +139,17 @@ class Memory {
     void pass_on(const Observer& who, std::uint32_t location) {
         Index& all = locations_[location].sequential;
         all = std::max(all, who.now.seen.index[location]);
+    }
+
+    /// From now on `thread`'s last read of the word counts as a plain one. False: a store that is there
+    /// already did
+    /// not wait for it.
+    bool settle(std::size_t thread, std::uint32_t location, Index read) {
+        Location& place = locations_[location];
+        place.plain_read[thread] = place.read[thread];
+        for (std::size_t i = read + 1U; i < place.stores.size(); ++i)
+            if (place.stores[i].knows[thread] < place.read[thread]) return false;
+        return true;
     }
 
     /// Notes an access for the detection of data races. False: it races with an earlier one.

@@ -121,6 +121,11 @@ struct ModelAtomics {
 
     static void prefetch(const Cell*) {}
 
+    /// For scenarios: see Execution::settle().
+    static void settle(const Cell* cells, std::size_t bytes, const Site& at = Site::current()) {
+        for (std::size_t i = 0; i < (bytes + 7) / 8; ++i) Execution::current().settle(cells[i].word(), at);
+    }
+
     static void fence(const Site& at = Site::current()) { Execution::current().fence(at); }
     static void pause(const Site& at = Site::current()) { Execution::current().pause(at); }
     static std::uint64_t now() { return Execution::current().now(); }

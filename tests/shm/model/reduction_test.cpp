@@ -27,7 +27,7 @@ Program make_program(std::mt19937& random, std::size_t threads, std::size_t leng
     for (auto& thread : program)
         for (std::size_t i = 0; i < length; ++i)
             thread.push_back(
-                {static_cast<unsigned>(random() % 9), static_cast<unsigned>(random() % 2),
+                {static_cast<unsigned>(random() % 10), static_cast<unsigned>(random() % 2),
                  one_of(Order::relaxed, Order::acquire, Order::seq_cst),
                  one_of(Order::relaxed, Order::release, Order::seq_cst),
                  one_of(Order::relaxed, Order::acquire, Order::release, Order::acq_rel, Order::seq_cst),
@@ -53,6 +53,9 @@ std::uint32_t perform(const Action& action, Word& word) {
     case 7:
         A::futex_wait(word, action.value, A::now() + 1000);
         return 0;
+    case 9:
+        for (int i = 0; i < 2 && word.load(action.load) != action.value; ++i) A::pause();
+        return word.load(action.load);
     default:
         A::futex_wake(word, 1);
         return 0;
@@ -98,7 +101,8 @@ void compare(std::size_t programs, std::size_t threads, std::size_t length, bool
         const auto program = make_program(random, threads, length);
         const auto with = results(program, true, mortal), without = results(program, false, mortal);
         std::string text;
-        const char* names[] = {"load", "load", "load", "store", "store", "add", "compare", "sleep", "wake"};
+        const char* names[] = {"load", "load",    "load",  "store", "store",
+                               "add",  "compare", "sleep", "wake",  "poll"};
         for (const auto& thread : program) {
             for (const auto& a : thread)
                 text += std::string(names[a.what]) + " " + "xy"[a.word] + " " + std::to_string(a.value) +

@@ -60,13 +60,16 @@ inline std::size_t Execution::pick() {
         next[i] = thread.next;
         if (ready(thread))
             can |= 1U << i;
-        else if (thread.state == State::sleeps && thread.lapses != 0 && thread.deadline != ~std::uint64_t{0})
+        else if (thread.lapses != 0 && (thread.state == State::paused ||
+                                        (thread.state == State::sleeps && thread.deadline < never)))
             may_expire |= 1U << i;
     }
     if (can == 0 && may_expire == 0) return pass_time();
-    const Sleep sleep = settings_.reduced && reduction_.any() && !choices_.random()
-                            ? reduction_.sleep_after(choices_.node(reduction_.last_node()), next)
-                            : Sleep{};
+    Sleep sleep = settings_.reduced && reduction_.any() && !choices_.random()
+                      ? reduction_.sleep_after(choices_.node(reduction_.last_node()), next)
+                      : Sleep{};
+    for (std::size_t i = 1; i <= count_; ++i) // a change has made another step of it
+        if (threads_[i].state == State::paused && (can >> i & 1U) != 0) sleep[i] = awake;
     const auto chosen = choices_.thread(can, may_expire, turn_, sleep);
     if (!chosen) {
         redundant_ = true;
@@ -86,7 +89,7 @@ inline std::size_t Execution::pass_time() {
             first = i;
             break;
         }
-        const bool waits = thread.state == State::sleeps && thread.deadline != ~std::uint64_t{0};
+        const bool waits = thread.state == State::sleeps && thread.deadline < never;
         if (waits && (first == 0 || thread.deadline < threads_[first].deadline)) first = i;
     }
     if (first == 0) {
