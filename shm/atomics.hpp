@@ -47,6 +47,9 @@ struct RealAtomics {
     static void prefetch(const Cell* cell) { _mm_prefetch(cell, _MM_HINT_T0); }
 
     static void fence() { std::atomic_thread_fence(std::memory_order_seq_cst); }
+    /// How a loop polls: so many rounds without a pause between them, and from one look at the clock to the
+    /// next.
+    static constexpr unsigned eager_rounds = 1U << 15, rounds_per_clock = 128;
     static void pause() { _mm_pause(); }
     static void yield() { sched_yield(); }
     static std::uint64_t now() { return now_ns(); }

@@ -32,15 +32,14 @@ class BoundedSleep {
     bool first_ = true;
 };
 
-/// Polls ready() until it holds or now_ns() reaches `deadline`. Looks at the clock every 128th time only, and
-/// pauses only when it has polled for long: a pause takes 50 ns here, by which the news would be late.
+/// Polls ready() until it holds or now_ns() reaches `deadline`. Looks at the clock seldom, and pauses only
+/// when it has polled for long: a pause takes 50 ns here, by which the news would be late.
 template <class A = RealAtomics, class Ready>
 bool spin_until(std::uint64_t deadline, Ready&& ready) {
-    constexpr unsigned eager_rounds = 1U << 15;
     for (unsigned round = 1;; ++round) {
         if (ready()) return true;
-        if (round % 128 == 0 && A::now() >= deadline) return false;
-        if (round > eager_rounds) A::pause();
+        if (round % A::rounds_per_clock == 0 && A::now() >= deadline) return false;
+        if (round > A::eager_rounds) A::pause();
     }
 }
 

@@ -127,7 +127,11 @@ struct ModelAtomics {
     }
 
     static void fence(const Site& at = Site::current()) { Execution::current().fence(at); }
+    /// Few, because each is a step, and always with a pause, because without it a round that finds no news
+    /// would be repeated for ever.
+    static constexpr unsigned eager_rounds = 0, rounds_per_clock = 2;
     static void pause(const Site& at = Site::current()) { Execution::current().pause(at); }
+    static void yield(const Site& at = Site::current()) { Execution::current().pause(at); }
     static std::uint64_t now() { return Execution::current().now(); }
 
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline,
