@@ -6,6 +6,7 @@
 #include "shm/liveness.hpp"
 
 #include <sys/mman.h>
+#include <sys/stat.h>
 
 namespace tandem::shm {
 namespace {
@@ -32,10 +33,15 @@ ipc::mapped_region map_all(int fd, const std::string& path, std::uint64_t bytes)
 Mapping::Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked,
                  Side side, std::chrono::nanoseconds late_after)
     : file_(std::move(file)), path_(path), region_(map_all(file_.get(), path, checked.total_bytes)),
-      side_(side), generation_(checked.generation),
+      guarded_(region_.get_address(), region_.get_size()), side_(side), generation_(checked.generation),
       late_after_ns_(static_cast<std::uint64_t>(late_after.count())) {
     for (std::size_t half = 0; half < 2; ++half)
         arena_[half] = {at<std::byte>(checked.arena_offset[half]), checked.arena_bytes[half]};
+}
+
+bool Mapping::truncated() const {
+    struct stat file {};
+    return fstat(file_.get(), &file) == 0 && static_cast<std::uint64_t>(file.st_size) < region_.get_size();
 }
 
 PeerState Mapping::peer() const {

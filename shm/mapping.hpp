@@ -3,6 +3,7 @@
 #include "shm/file_descriptor.hpp"
 #include "shm/layout.hpp"
 #include "shm/side.hpp"
+#include "shm/truncation_guard.hpp"
 
 #include <boost/interprocess/mapped_region.hpp>
 #include <chrono>
@@ -33,6 +34,8 @@ class Mapping {
     /// [any-thread] One system call.
     PeerState peer() const;
 
+    bool truncated() const; ///< The file is shorter than what was mapped. One system call.
+
   private:
     template <class T>
     T* at(std::size_t offset) const {
@@ -42,6 +45,7 @@ class Mapping {
     FileDescriptor file_;
     std::string path_;
     boost::interprocess::mapped_region region_;
+    GuardedRange guarded_;
     std::span<std::byte> arena_[2];
     Side side_;
     std::uint64_t generation_;

@@ -32,7 +32,9 @@ std::uint32_t Segment::peer_pid() const {
 void Segment::heartbeat() { mapping_->half(side()).heartbeat_ns.store(now_ns(), std::memory_order_relaxed); }
 
 bool Segment::superseded() const {
-    return load_word(&mapping_->header().superseded_by) > generation() || !still_named(mapping_->fd());
+    // In this order: what was truncated has no header.
+    return mapping_->truncated() || !still_named(mapping_->fd()) ||
+           load_word(&mapping_->header().superseded_by) > generation();
 }
 
 RingHandle Segment::add_ring(const std::string& name, const RingOptions& options) {

@@ -44,8 +44,8 @@ class Segment {
     std::uint32_t peer_pid() const; ///< As the peer wrote it: for messages to people only.
     void heartbeat();               ///< [any-thread] I am well. Call it more often than late_after.
 
-    /// [any-thread] A newer generation exists, or the file was removed: leave and join again. One system
-    /// call.
+    /// [any-thread] A newer generation exists, or the file was removed or cut: leave and join again. Two system
+    /// calls.
     bool superseded() const;
 
     /// New objects in my half; the peer sees them after publish(). Throw Error if the arena or the directory
