@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// A segment's file that is cut short, before it is joined and while it is in use.
+#include "../shm/fixture.hpp"
+
+#include "shm/call_client.hpp"
+#include "shm/call_server.hpp"
+#include "shm/observer.hpp"
+#include "shm/truncation_guard.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr std::size_t arena = 64 * 1024;
+constexpr off_t whole = layout::arenas_begin + 2 * arena;
+
+RingOptions in_place(Side writer) {
+    return {.writer = writer,
+            .policy = RingPolicy::reject,
+            .max_record = 200,
+            .capacity = 8192,
+            .chunk_bytes = 8192,
+            .chunks = 2};
+}
+
+/// Everything that a side can do with what it had found; none of it may end the process.
+void use_all(Segment& mine, RingWriter& writer, RingReader& reader, CallClient& client, CallServer& server) {
+    for (int i = 0; i < 100; ++i) {
+        mine.heartbeat();
+        mine.peer();
+        mine.doorbell().poll();
+        mine.ring_peer(1);
+        writer.write(bytes_of(std::string(static_cast<std::size_t>(i * 90), 'x')), 1, 1);
+        reader.peek();
+        reader.read();
+        reader.consume([](const Record&) {}, 3);
+        client.call(1, bytes_of("x"), 10us);
+        if (auto call = server.take(0ns)) call->reply(CallStatus::ok);
+    }
+    try {
+        mine.list(Side::first);
+        mine.find_ring(Side::second, "to-first");
+    } catch (const Error&) {
+    }
+}
+
+} // namespace
+
+TEST_CASE("a file that is shorter than its header says is refused and its observer says damaged") {
+    for (const off_t bytes : {off_t{0}, off_t{1}, off_t{87}, off_t{4095}, off_t{4096}, off_t{5000},
+                              off_t{layout::arenas_begin}, whole - 4096, whole - 1}) {
+        Link link;
+        auto first = join(link, Side::first, small(arena));
+        REQUIRE(truncate(first->path().c_str(), bytes) == 0);
+        CAPTURE(bytes);
+        try {
+            join(link, Side::second, small(arena));
+            FAIL_CHECK("it was joined");
+        } catch (const Error& refused) {
+            CHECK_THAT(refused.what(), Contains(first->path()));
+            CHECK(std::string(refused.what()).find('\n') == std::string::npos);
+        }
+        const auto observed = observe(link.name);
+        REQUIRE(observed);
+        CHECK(observed->segment.readability == Readability::damaged);
+        CHECK(first->superseded());
+        // Only so that leaving, which touches the peer's half, is survived without the guard.
+        REQUIRE(truncate(first->path().c_str(), whole) == 0);
+        first.reset();
+        CHECK(link.files().empty());
+    }
+}
+
+TEST_CASE("a file that grows is refused") {
+    Link link;
+    auto first = join(link, Side::first, small(arena));
+    REQUIRE(truncate(first->path().c_str(), whole + 4096) == 0);
+    CHECK_THROWS_AS(join(link, Side::second, small(arena)), Error);
+}
+
+TEST_CASE("with the guard a file that is cut while in use ends no process and superseded() says to leave") {
+    for (const off_t bytes : {off_t{0}, off_t{4096}, off_t{8192}, off_t{layout::arenas_begin},
+                              off_t{layout::arenas_begin + 8192}}) {
+        Link link;
+        Child cut([&] {
+            install_truncation_guard();
+            install_truncation_guard(); // once is enough
+            auto first = join(link, Side::first, small(arena));
+            auto second = join(link, Side::second, small(arena));
+            RingReader reader(first->add_ring("to-first", in_place(Side::second)));
+            RingWriter writer(first->add_ring("to-second", in_place(Side::first)));
+            CallClient client(first->add_call_queue("c", {.slots = 2, .max_bytes = 64}));
+            first->publish();
+            CallServer server(*second->find_call_queue(Side::first, "c"));
+            use_all(*first, writer, reader, client, server);
+            if (first->superseded()) return 1;
+            if (truncate(first->path().c_str(), bytes) != 0) return 2;
+            if (!first->superseded() || !second->superseded()) return 3;
+            use_all(*first, writer, reader, client, server);
+            first.reset();
+            second.reset();
+            if (!link.files().empty()) return 4;
+            // The next generation is as good as new.
+            first = join(link, Side::first, small(arena));
+            second = join(link, Side::second, small(arena));
+            return first->peer() == PeerState::alive ? 0 : 5;
+        });
+        CAPTURE(bytes);
+        CHECK(cut.wait() == 0);
+        CHECK(link.files().empty());
+    }
+}
+
+namespace {
+
+/// Touches a mapping of a file that ends before it; no segment's.
+void touch_lost_memory() {
+    FILE* file = std::tmpfile();
+    auto* lost = static_cast<volatile char*>(mmap(nullptr, 4096, PROT_READ, MAP_SHARED, fileno(file), 0));
+    static_cast<void>(lost[0]);
+}
+
+} // namespace
+
+TEST_CASE("the guard leaves what is not a segment to the handler before it or to the system") {
+    Child one([] {
+        struct sigaction mine {};
+        mine.sa_handler = [](int) { _exit(42); };
+        sigaction(SIGBUS, &mine, nullptr);
+        install_truncation_guard();
+        touch_lost_memory();
+        return 1;
+    });
+    CHECK(one.wait() == 42);
+    Child two([] {
+        struct sigaction mine {};
+        mine.sa_sigaction = [](int, siginfo_t* info, void*) { _exit(info->si_code == BUS_ADRERR ? 43 : 1); };
+        mine.sa_flags = SA_SIGINFO;
+        sigaction(SIGBUS, &mine, nullptr);
+        install_truncation_guard();
+        touch_lost_memory();
+        return 1;
+    });
+    CHECK(two.wait() == 43);
+    Child three([] {
+        signal(SIGBUS, SIG_DFL);
+        install_truncation_guard();
+        touch_lost_memory();
+        return 0;
+    });
+    CHECK(three.wait() == Child::crashed);
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// A /dev/shm that is too small, and a user to whom a segment does not belong.
+#include "../shm/fixture.hpp"
+
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+
+namespace {
+
+constexpr int not_permitted = 77;
+
+/// In a mount namespace of its own, with a /dev/shm of 1 MiB; exits not_permitted where that is not allowed.
+bool enter_small_shm() {
+    if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+    return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+           mount("tmpfs", shm_directory, "tmpfs", 0, "size=1m") == 0;
+}
+
+/// 0 if joining fails with an error that names both numbers.
+int fails_naming(const Link& link, std::size_t arena_bytes, const std::string& available) {
+    const std::uint64_t needed = layout::arenas_begin + 2 * arena_bytes;
+    try {
+        join(link, Side::first, small(arena_bytes));
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        if (text.find(std::to_string(needed) + " bytes needed") == std::string::npos ||
+            text.find(available) == std::string::npos) {
+            fprintf(stderr, "%s\n", text.c_str());
+            return 2;
+        }
+        return link.files().empty() ? 0 : 3;
+    }
+    return 1;
+}
+
+} // namespace
+
+TEST_CASE("a /dev/shm of 1 MiB is an error that names both numbers and a segment that fits is made") {
+    Link link;
+    Child child([&] {
+        if (!enter_small_shm()) return not_permitted;
+        // A page or so of the 1 MiB may be the file system's own.
+        const int failed = fails_naming(link, std::size_t{4} << 20, "10");
+        if (failed != 0) return failed;
+        auto fits = join(link, Side::first, small(256 * 1024));
+        return fails_naming(Link(), 256 * 1024, " available in /dev/shm (No space left on device)");
+    });
+    const int result = child.wait();
+    if (result == not_permitted)
+        WARN("skipped: this process may not mount a file system of its own");
+    else
+        CHECK(result == 0);
+}
+
+TEST_CASE("a limit on the size of files is an error that names the bytes needed and why") {
+    Link link;
+    Child child([&] {
+        signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{1 << 20, 1 << 20};
+        if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return not_permitted;
+        return fails_naming(link, std::size_t{4} << 20, "(File too large)");
+    });
+    CHECK(child.wait() == 0);
+}
+
+TEST_CASE("another user is refused whichever side is free and cannot remove the segment") {
+    if (geteuid() != 0) {
+        WARN("skipped: only root can become another user");
+        return;
+    }
+    Link link;
+    auto first = join(link, Side::first);
+    Child stranger([&] {
+        constexpr uid_t nobody = 65534;
+        if (setgid(nobody) != 0 || setuid(nobody) != 0) return not_permitted;
+        for (const Side side : {Side::first, Side::second}) {
+            try {
+                join(link, side);
+                return 1;
+            } catch (const Error& refused) {
+                if (std::string(refused.what()).find('\n') != std::string::npos) return 2;
+            }
+        }
+        remove_dead(link.name);
+        return link.files().size() == 1 ? 0 : 3;
+    });
+    const int result = stranger.wait();
+    if (result == not_permitted)
+        WARN("skipped: this process may not become another user");
+    else
+        CHECK(result == 0);
+    CHECK(first->peer() == PeerState::absent);
+    auto second = join(link, Side::second);
+    CHECK(second->generation() == first->generation());
+}
