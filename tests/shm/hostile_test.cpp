@@ -7,12 +7,20 @@
 #include "shm/call_client.hpp"
 #include "shm/call_server.hpp"
 
+#include <numeric>
+
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 
 namespace {
 
-constexpr unsigned values[] = {0x00, 0x01, 0x08, 0x7f, 0x80, 0xff};
+/// Six that matter; in the long run all 256.
+const std::vector<unsigned> values = [] {
+    if (stress(1) < 100) return std::vector<unsigned>{0x00, 0x01, 0x08, 0x7f, 0x80, 0xff};
+    std::vector<unsigned> all(256);
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+}();
 constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
                                RingPolicy::wait};
 
@@ -246,7 +254,7 @@ TEST_CASE("while a stranger scribbles over everything nothing crashes hangs or l
             }
     });
     std::size_t too_long = 0;
-    const auto until = deadline_after(std::chrono::milliseconds(stress(300)));
+    const auto until = deadline_after(std::chrono::milliseconds(stress(300, 30'000)));
     while (now_ns() < until) {
         writer->write(bytes_of("some text"), 0, 0);
         if (const auto record = reader->read()) too_long += record->bytes.size() > 100 ? 1 : 0;
