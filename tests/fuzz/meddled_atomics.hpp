@@ -29,8 +29,10 @@ class Input {
 
 class Meddler {
   public:
-    /// From now on it writes to this memory.
-    static void unleash(Input& input, std::span<std::byte> target) { input_ = &input, target_ = target; }
+    /// From now on it writes to this memory; at `records` the records or slots begin.
+    static void unleash(Input& input, std::span<std::byte> target, std::size_t records = 0) {
+        input_ = &input, target_ = target, records_ = records;
+    }
     static void restrain() { input_ = nullptr; }
 
     /// Before a look of the victim's: meddles about every eighth time.
@@ -41,9 +43,12 @@ class Meddler {
     static void rewrite() {
         Input& input = *input_;
         const std::size_t words = target_.size() / word_bytes;
-        // Half of the time near the begin, where the headers are; there mostly the words that move.
         std::size_t at = input.number(2);
-        if (at % 2 == 0) at = 8 * (at / 2 % 12) + at / 32 % 8;
+        // Mostly where it hurts: the first words of the headers' lines, and of those of records and slots.
+        const std::size_t line = at / 4 % 12, in_line = at / 64 % 4 == 0 ? at / 256 % 8 : at / 128 % 2;
+        const std::size_t where = at % 4;
+        if (where == 0) at = 8 * line + in_line;
+        if (where == 1 || where == 2) at = records_ / word_bytes + 8 * (line % 8) + in_line;
         auto& word = *reinterpret_cast<std::uint64_t*>(target_.data() + at % words * word_bytes);
         std::atomic_ref<std::uint64_t> shared(word);
         shared.store(value_like(shared.load(std::memory_order_relaxed)), std::memory_order_relaxed);
@@ -66,7 +71,7 @@ class Meddler {
         case 4:
             return old ^ std::uint64_t{1} << (how / 8U + 32U * (input.byte() & 1U));
         case 5:
-            return (old & ~std::uint64_t{0x3fffffff}) | input.number(2);
+            return (old & ~std::uint64_t{0x3fffffff}) | input.number(2) % 1024;
         case 6:
             return Commit::word(static_cast<layout::RecordKind>(how / 8U & 3U), input.byte(), 0,
                                 how / 32U + 1U);
@@ -77,6 +82,7 @@ class Meddler {
 
     static inline Input* input_ = nullptr;
     static inline std::span<std::byte> target_;
+    static inline std::size_t records_ = 0;
 };
 
 struct MeddledAtomics : RealAtomics {

@@ -17,6 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t max_record = 100, chunk_bytes = 4096, max_call = 200, max_operations = 64;
 constexpr std::size_t arena_bytes = 192 * 1024;
+constexpr std::size_t slots_at = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
 constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
                                RingPolicy::wait};
 
@@ -118,7 +119,7 @@ template <class A>
 void Victims::consume(Input& input, const Object& object) {
     const RingHandle handle = ring(object);
     RingProducer<RealAtomics> honest(hostile_->find_ring(Side::first, object.name)->view);
-    Meddler::unleash(input, object.hostile);
+    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
     RingConsumer<A> consumer(view_of<A>(handle.view));
     const std::vector<std::byte> payload(chunk_bytes, std::byte{7});
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
@@ -161,7 +162,7 @@ void Victims::produce(Input& input, const Object& object) {
     const RingHandle handle = ring(object);
     const auto same = hostile_->find_ring(Side::first, object.name)->view;
     RingConsumer<RealAtomics> honest(same);
-    Meddler::unleash(input, object.hostile);
+    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
     RingProducer<A> producer(view_of<A>(handle.view));
     const std::vector<std::byte> payload(2 * chunk_bytes, std::byte{7});
     for (std::size_t i = 0; i < max_operations && !input.used_up() && !producer.corrupt(); ++i) {
@@ -196,7 +197,7 @@ void Victims::produce(Input& input, const Object& object) {
 
 void Victims::read_with_shipping(Input& input, const Object& object) {
     const RingHandle handle = ring(object);
-    Meddler::unleash(input, object.hostile);
+    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
     Meddler::rewrite();
     RingReader reader(handle);
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
@@ -210,7 +211,7 @@ void Victims::read_with_shipping(Input& input, const Object& object) {
 }
 
 void Victims::write_with_shipping(Input& input, const Object& object) {
-    Meddler::unleash(input, object.hostile);
+    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
     Meddler::rewrite();
     RingWriter writer(ring(object));
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
@@ -224,7 +225,7 @@ void Victims::write_with_shipping(Input& input, const Object& object) {
 }
 
 void Victims::call(Input& input) {
-    Meddler::unleash(input, queue_.hostile);
+    Meddler::unleash(input, queue_.hostile, slots_at);
     CallCaller<MeddledAtomics> caller(view_of(victim_->find_call_queue(Side::first, "c")->view));
     const std::vector<std::byte> payload(max_call, std::byte{7});
     std::vector<std::byte> results(max_call);
@@ -254,7 +255,7 @@ void Victims::call(Input& input) {
 
 /// The same queue from the other end: it stands in the first side's half, but a worker's view has no side.
 void Victims::serve(Input& input) {
-    Meddler::unleash(input, queue_.hostile);
+    Meddler::unleash(input, queue_.hostile, slots_at);
     const auto view = victim_->find_call_queue(Side::first, "c")->view;
     CallWorker<MeddledAtomics> worker(view_of(view));
     CallCaller<RealAtomics> honest(view);
@@ -281,7 +282,7 @@ void Victims::serve(Input& input) {
 }
 
 void Victims::call_with_shipping(Input& input) {
-    Meddler::unleash(input, queue_.hostile);
+    Meddler::unleash(input, queue_.hostile, slots_at);
     Meddler::rewrite();
     CallClient client(*victim_->find_call_queue(Side::first, "c"), {.spin = 500ns});
     CallServer server(*hostile_->find_call_queue(Side::first, "c"), {.spin = 500ns});
