@@ -207,6 +207,7 @@ inline void Execution::pause(const Site& at) {
     if (!ready(thread)) { // nothing has changed: time is up, as far as this thread is concerned
         if (thread.lapses != 0) --thread.lapses;
         thread.hurry = polling_rounds;
+        thread.observer.time += idle_round;
     } else if (thread.lapses != 0 && explores()) { // and it may have been up before that change
         for (const Look& look : thread.looks)
             reduction_.turn_round(choices_, turn_, {Kind::load, Order::seq_cst, look.word});

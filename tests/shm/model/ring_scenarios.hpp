@@ -111,6 +111,20 @@ inline std::vector<Case> ring_cases() {
          How::one_by_one,
          Dies::reader},
         {"reject: loans", {reject, 4, 0, 48, 4096, 2 * Execution::never, 2}, {big, big, big}, 3},
+        large({"wait: three records in room for one", {wait, 2, 0, 48}, {one, one, one}, 3, How::polling}),
+        {"wait: two records in room for one", {wait, 2, 0, 48}, {one, one}, 2, How::polling},
+        {"wait: batches", {wait, 4, 3}, {two, two}, 3, How::polling},
+        large({"wait: the reader is killed",
+               {wait, 2, 0, 48, 4096, RingWorld::second},
+               {one, one, one},
+               3,
+               How::one_by_one,
+               Dies::reader}),
+        large({"wait: loans",
+               {wait, 4, 0, 48, 4096, 2 * Execution::never, 2},
+               {big, big, big},
+               3,
+               How::polling}),
         {"drop oldest: three records in room for one", {oldest, 2, 1, 48}, {one, one, one}},
         {"drop oldest: four records in room for three", {oldest, 4, 2, 48}, {one, one, one, one}, 2},
         large({"drop oldest: padding at the end", {oldest, 4, 3}, {two, one, two}, 2}),
@@ -155,35 +169,20 @@ inline std::vector<Case> ring_cases() {
                2,
                How::newest,
                Dies::writer}),
-        large({"wait: three records in room for one", {wait, 2, 0, 48}, {one, one, one}, 3, How::polling}),
-        {"wait: two records in room for one", {wait, 2, 0, 48}, {one, one}, 2, How::polling},
-        {"wait: batches", {wait, 4, 3}, {two, two}, 3, How::polling},
-        {"wait: the reader is killed",
-         {wait, 2, 0, 48, 4096, RingWorld::second},
-         {one, one, one},
-         3,
-         How::one_by_one,
-         Dies::reader},
-        large({"wait: loans",
-               {wait, 4, 0, 48, 4096, 2 * Execution::never, 2},
-               {big, big, big},
-               3,
-               How::polling}),
     };
     std::vector<Case> cases;
     for (const auto& plan : plans)
         cases.push_back({plan.name, [plan](Execution& execution) { run_ring(plan, execution); },
                          settings_of(plan), plan.small});
     cases.push_back({"reject: a writer that comes late", [](Execution& execution) {
-                         RingWorld world(execution, {reject, 2, 0, 48});
-                         world.write(one);
+                         RingWorld world(execution, {reject, 4, 0, 48});
+                         for (int i = 0; i < 3; ++i) world.write(one);
                          execution.thread("writer", [&] {
                              world.new_writer();
-                             world.write(one);
+                             for (int i = 0; i < 2; ++i) world.write(one);
                          });
                          execution.thread("reader", [&] {
-                             world.read();
-                             world.read();
+                             for (int i = 0; i < 3; ++i) world.read();
                          });
                          execution.run();
                          world.check_at_end();

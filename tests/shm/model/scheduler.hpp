@@ -108,7 +108,6 @@ inline std::size_t Execution::pass_time() {
     if (thread.state == State::paused) {
         for (const auto& other : threads_)
             thread.observer.time = std::max(thread.observer.time, other.observer.time);
-        thread.observer.time += idle_round;
     }
     reduction_.after_all(first);
     choices_.thread(1U << first, 0, first, Sleep{});
