@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/opros/allocations.hpp"
 #include "tests/opros/recording_archive.hpp"
 
 #include <InputDataPort.h>
@@ -18,6 +19,7 @@ class Outside : public DataPortSource {
         waiting.push_back(pipe.bytes.str());
     }
     opros::archive::iarchive* next() override {
+        ++looks;
         if (waiting.empty()) return nullptr;
         bytes_ = std::istringstream(waiting.front());
         archive_ = std::make_unique<opros::archive::binary_iarchive>(&bytes_);
@@ -31,11 +33,34 @@ class Outside : public DataPortSource {
 
     std::deque<std::string> waiting;
     std::string complaint;
-    int finished = 0;
+    int finished = 0, looks = 0;
 
   private:
     std::istringstream bytes_;
     std::unique_ptr<opros::archive::binary_iarchive> archive_;
+};
+
+/// Offers the same encoded numbers whenever asked to, without allocating itself.
+class Repeater : public DataPortSource {
+  public:
+    explicit Repeater(const std::vector<double>& values) {
+        BinaryPipe pipe;
+        pipe.out << values;
+        bytes_.str(pipe.bytes.str());
+    }
+    opros::archive::iarchive* next() override {
+        if (!ready) return nullptr;
+        bytes_.clear();
+        bytes_.seekg(0);
+        return &archive_;
+    }
+    void done() override { ready = false; }
+
+    bool ready = false;
+
+  private:
+    std::istringstream bytes_;
+    opros::archive::binary_iarchive archive_{&bytes_};
 };
 
 double pop(InputDataPort<double>& port) {
@@ -66,6 +91,73 @@ TEST_CASE("with FIFO the consumer gets every value in order, and a full queue le
     CHECK(pop(port) == 1);
     CHECK(pop(port) == 2);
     CHECK(pop(port) == 3);
+}
+
+TEST_CASE("a consumer that waits gets the next value with one look at the source and the rest in order") {
+    InputDataPort<double> port(OPROS_FIFO, 4);
+    Outside outside;
+    port.addSource(&outside);
+    CHECK(port.pop() == nullptr);
+    for (double value : {1., 2., 3.}) outside.send(value);
+    outside.looks = 0;
+    CHECK(pop(port) == 1);
+    CHECK(outside.looks == 1);
+    CHECK(pop(port) == 2); // it lags behind, so what waits outside is fetched in
+    CHECK(outside.waiting.empty());
+    CHECK(pop(port) == 3);
+    CHECK(port.pop() == nullptr);
+}
+
+TEST_CASE("a consumer that waits gets the values of all its sources and what is pushed") {
+    InputDataPort<double> port;
+    Outside one, other;
+    port.addSource(&one);
+    port.addSource(&other);
+    CHECK(port.pop() == nullptr);
+    other.send(1);
+    CHECK(pop(port) == 1);
+    CHECK(port.pop() == nullptr);
+    double pushed = 2;
+    port.push(pushed);
+    CHECK(pop(port) == 2);
+    CHECK(port.pop() == nullptr);
+    one.waiting.push_back("junk");
+    one.send(3);
+    CHECK(pop(port) == 3);
+    CHECK(one.finished == 2);
+}
+
+TEST_CASE("a value that was popped stays as it is when others come") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    std::vector<std::unique_ptr<opros_any>> kept;
+    for (double value : {1., 2., 3.}) {
+        CHECK(port.pop() == nullptr);
+        outside.send(value);
+        kept.emplace_back(port.pop());
+    }
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        CHECK(port.getContent(*kept[i]) == static_cast<double>(i + 1));
+}
+
+TEST_CASE("once warm, a waiting consumer gets a value without an allocation but those of decoding") {
+    InputDataPort<std::vector<double>> port;
+    const std::vector<double> values(100, 1.5);
+    std::vector<double> decoded = values;
+    Repeater source(values);
+    port.addSource(&source);
+    for (int i = 0; i < 3; ++i) {
+        CHECK(port.pop() == nullptr); // what the next value needs is allocated here
+        source.ready = true;
+        const long before = allocations();
+        *source.next() >> decoded;
+        const long between = allocations();
+        const std::unique_ptr<opros_any> any(port.pop());
+        const long after = allocations();
+        if (i > 0) CHECK(after - between == between - before);
+        CHECK(port.getContent(*any) == values);
+    }
 }
 
 TEST_CASE("pushed values and those of a source meet in one queue") {

@@ -16,12 +16,14 @@ class DataQueue {
     DataQueue(DataPortPolicy policy, std::size_t limit);
 
     std::size_t size() const { return count_; }
+    /// Whether values leave in the order in which they came, all of them while there is room.
+    bool keeps_order() const { return policy_ == OPROS_FIFO || policy_ == OPROS_UFIFO; }
     /// Whether one more value would cost an older one that somebody still wants.
     bool full() const { return policy_ == OPROS_FIFO && count_ >= slots_.size(); }
     /// Makes room as the policy says and returns the slot for the newest value, to be assigned to.
     opros_any& push();
     /// The value that is next by the policy; there must be one.
-    const opros_any& front() const { return slots_[next_index()]; }
+    opros_any& front() { return slots_[next_index()]; }
     void pop();
     void clear() { count_ = 0; }
 

@@ -4,6 +4,8 @@
 #include <InputDataPortInterface.h>
 
 #include <algorithm>
+#include <atomic>
+#include <memory>
 #include <mutex>
 
 namespace {
@@ -23,18 +25,31 @@ class InputDataPortImpl {
         opros_any& slot = queue_.push();
         if (slot.empty()) slot = port_.sample();
         slot = value;
+        note();
     }
 
-    opros_any* next(bool take) {
+    opros_any* pop() {
+        if (idle()) return nullptr;
         const std::lock_guard<std::mutex> lock(mutex_);
+        if (queue_.size() == 0 && caught_up_ && queue_.keeps_order()) return next_of_sources();
         poll_sources();
-        if (queue_.size() == 0) return nullptr;
-        opros_any* value = new opros_any(queue_.front());
-        if (take) queue_.pop();
+        caught_up_ = queue_.size() == 0;
+        if (caught_up_) return prepare();
+        opros_any* value = hand_out(queue_.front());
+        queue_.pop();
+        note();
         return value;
     }
 
+    opros_any* peek() {
+        if (idle()) return nullptr;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        poll_sources();
+        return queue_.size() == 0 ? nullptr : new opros_any(queue_.front());
+    }
+
     std::size_t size() {
+        if (idle()) return 0;
         const std::lock_guard<std::mutex> lock(mutex_);
         poll_sources();
         return queue_.size();
@@ -45,37 +60,79 @@ class InputDataPortImpl {
         for (DataPortSource* source : sources_)
             for (int i = 0; i < values_per_poll && source->next(); ++i) source->done();
         queue_.clear();
+        note();
     }
 
     void add(DataPortSource* source) {
         const std::lock_guard<std::mutex> lock(mutex_);
         sources_.push_back(source);
+        note();
     }
 
     void remove(DataPortSource* source) {
         const std::lock_guard<std::mutex> lock(mutex_);
         sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
+        note();
     }
 
   private:
+    enum class Read { nothing, undecodable, value };
+
+    /// A consumer that polls must not get into the way of those who push: nothing to take is seen without the
+    /// lock.
+    bool idle() const { return !worth_a_look_.load(std::memory_order_acquire); }
+    void note() { worth_a_look_.store(queue_.size() != 0 || !sources_.empty(), std::memory_order_release); }
+
     void poll_sources() {
         for (DataPortSource* source : sources_)
-            for (int i = 0; i < values_per_poll && !queue_.full(); ++i)
-                if (!take_one(*source)) break;
+            for (int i = 0; i < values_per_poll && !queue_.full(); ++i) {
+                const Read read = read_one(*source);
+                if (read == Read::nothing) break;
+                if (read == Read::value) queue_.push() = scratch_;
+            }
     }
 
-    bool take_one(DataPortSource& source) {
+    /// For a consumer that found nothing the last time, and so waits for the next value: it gets that one at
+    /// once, without a second look at a source that is most likely empty then (in shared memory, such a look
+    /// costs as much as the value's own way). What else waits there comes into the queue with the next pop().
+    opros_any* next_of_sources() {
+        for (DataPortSource* source : sources_)
+            for (int i = 0; i < values_per_poll; ++i) {
+                const Read read = read_one(*source);
+                if (read == Read::nothing) break;
+                if (read == Read::undecodable) continue;
+                caught_up_ = false;
+                return hand_out(scratch_);
+            }
+        return prepare();
+    }
+
+    /// While there is nothing to do: makes the next value to be handed out, with as much storage as the last
+    /// one had.
+    opros_any* prepare() {
+        if (!spare_ && !scratch_.empty()) spare_ = std::make_unique<opros_any>(scratch_);
+        return nullptr;
+    }
+
+    opros_any* hand_out(opros_any& value) {
+        if (!spare_) return new opros_any(value);
+        spare_->swap(value); // and its storage takes the place of what leaves
+        return spare_.release();
+    }
+
+    Read read_one(DataPortSource& source) {
         opros::archive::iarchive* archive = source.next();
-        if (!archive) return false;
+        if (!archive) return Read::nothing;
+        Read read = Read::undecodable;
         try {
             if (scratch_.empty()) scratch_ = port_.sample();
             scratch_.decode(*archive);
-            queue_.push() = scratch_;
+            read = Read::value;
         } catch (const std::exception& error) {
             source.undecodable(error.what());
         }
         source.done();
-        return true;
+        return read;
     }
 
     InputDataPortInterface& port_;
@@ -83,6 +140,9 @@ class InputDataPortImpl {
     opros::DataQueue queue_;
     opros_any scratch_; // decoded here first: a value that breaks off half-way must cost no older one
     std::vector<DataPortSource*> sources_;
+    std::unique_ptr<opros_any> spare_; // the next to be handed out
+    bool caught_up_ = false;           // the last pop() found nothing
+    std::atomic<bool> worth_a_look_{false};
 };
 
 InputDataPortInterface::InputDataPortInterface()
@@ -97,8 +157,8 @@ InputDataPortInterface::InputDataPortInterface(const std::string& name, DataPort
 InputDataPortInterface::~InputDataPortInterface() { delete m_impl; }
 
 DataPortRole InputDataPortInterface::getRole() { return OPROS_DATA_PORT_INPUT; }
-opros_any* InputDataPortInterface::peek() { return m_impl->next(false); }
-opros_any* InputDataPortInterface::pop() { return m_impl->next(true); }
+opros_any* InputDataPortInterface::peek() { return m_impl->peek(); }
+opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
 int InputDataPortInterface::getSize() { return static_cast<int>(m_impl->size()); }
 void InputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = darc; }
 void InputDataPortInterface::reset() { m_impl->clear(); }

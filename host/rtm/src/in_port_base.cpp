@@ -128,6 +128,8 @@ InPortConnector* InPortBase::readableLocked(const std::string& name, bool or_fir
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;
         if (first == nullptr) first = connector;
+        // The only one is what the caller gets, new data or not, and reading it shows which.
+        if (or_first && m_connectors.size() == 1) return first;
         if (connector->getBuffer()->readable() > 0) return connector;
     }
     return or_first ? first : nullptr;
