@@ -2,6 +2,7 @@
 // A /dev/shm that is too small, and a user to whom a segment does not belong.
 #include "../shm/fixture.hpp"
 
+#include <fstream>
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -13,11 +14,23 @@ namespace {
 
 constexpr int not_permitted = 77;
 
-/// In a mount namespace of its own, with a /dev/shm of 1 MiB; exits not_permitted where that is not allowed.
+void tell(const char* file, const std::string& text) { std::ofstream(file) << text << std::flush; }
+
+/// A user who may mount, who is the same one outside.
+bool become_root_of_own_namespace() {
+    const std::string user = std::to_string(geteuid()), group = std::to_string(getegid());
+    if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+    tell("/proc/self/setgroups", "deny");
+    tell("/proc/self/uid_map", user + " " + user + " 1");
+    tell("/proc/self/gid_map", group + " " + group + " 1");
+    return true;
+}
+
+/// In a mount namespace of its own, with a /dev/shm of 1 MiB; false where that is not allowed.
 bool enter_small_shm() {
-    if (unshare(CLONE_NEWNS) != 0 && unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
+    if (unshare(CLONE_NEWNS) != 0 && !become_root_of_own_namespace()) return false;
     return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
-           mount("tmpfs", shm_directory, "tmpfs", 0, "size=1m") == 0;
+           mount("tmpfs", shm_directory, "tmpfs", 0, "size=1m,mode=1777") == 0;
 }
 
 /// 0 if joining fails with an error that names both numbers.
