@@ -30,6 +30,7 @@ if(TANDEM_SANITIZE)
 endif()
 if(TANDEM_COVERAGE)
   add_compile_options(--coverage)
+  add_compile_definitions(TANDEM_COVERAGE)
   add_link_options(--coverage)
 endif()
 
