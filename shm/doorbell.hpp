@@ -3,37 +3,37 @@
 #include "shm/adaptive_spin.hpp"
 #include "shm/futex.hpp"
 #include "shm/mapping.hpp"
+#include "shm/ready_bits.hpp"
 
 #include <memory>
 
 namespace tandem::shm {
 
-/// One bell per side, however many ports: 64 ready bits and one futex word. Whoever has published data rings
-/// a bit at the other side's bell, after the data, once per batch. That makes a system call only if the owner
-/// sleeps, and does not even write while the owner looks at its rings itself (wait_for).
+/// One bell per side, however many ports: ready bits and a futex word, all in one line. Whoever has published
+/// data rings a bit at the other side's bell, after the data, once per batch. That makes a system call only
+/// if the owner sleeps, and does not even write while the owner looks at its rings itself (wait_for).
 class Doorbell {
   public:
-    static constexpr unsigned user_bits = 62;     ///< 0..61 are the user's
-    static constexpr unsigned attention_bit = 62; ///< peer joined, published or left: look at Segment
-    static constexpr unsigned interrupt_bit = 63; ///< interrupt() was called
-    static constexpr std::uint64_t all_user_bits = (std::uint64_t{1} << user_bits) - 1;
+    static constexpr unsigned user_bits = ReadyBits::size - 2; ///< the user's: 0 .. user_bits - 1
+    static constexpr unsigned attention_bit = user_bits; ///< peer joined, published or left: look at Segment
+    static constexpr unsigned interrupt_bit = attention_bit + 1; ///< interrupt() was called
 
     Doorbell(std::shared_ptr<const Mapping> mapping, Side owner);
 
-    /// [any-thread] Sets one bit, or many by one store, and wakes the owner if it sleeps.
-    void ring(unsigned bit) { ring_all(std::uint64_t{1} << (bit & 63U)); }
-    void ring_all(std::uint64_t bits);
+    /// [any-thread] Sets one bit, or several, and wakes the owner once if it sleeps.
+    void ring(unsigned bit);
+    void ring_all(const ReadyBits& bits);
 
-    /// [one thread] For many ports: takes the bits rung so far; waits for the first at most `bound`. 0: none
-    /// came. A set bit says "look there", after wait_for() all of them once.
-    std::uint64_t wait(std::chrono::nanoseconds bound, const WaitOptions& how = {});
-    std::uint64_t poll();
+    /// [one thread] For many ports: takes the bits rung so far; waits for the first at most `bound`. Empty:
+    /// none came. A set bit says "look there"; after wait_for() all of the user's are set once.
+    ReadyBits wait(std::chrono::nanoseconds bound, const WaitOptions& how = {});
+    ReadyBits poll();
 
     /// [one thread] For few ports: waits until ready() holds, at most `bound`, or attention or interrupt was
     /// rung: these two bits come back. ready() looks at the rings (RingReader::empty()) and is called often;
     /// from here until the next wait() or poll() the other side rings no user bit but to wake.
     template <class Ready>
-    std::uint64_t wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how = {});
+    ReadyBits wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how = {});
 
     /// [any-thread] Ends the owner's wait, now or the next, with interrupt_bit.
     void interrupt() { ring(interrupt_bit); }
@@ -45,8 +45,13 @@ class Doorbell {
     using Owner = layout::DoorbellOwner;
 
     void become(Owner state);
-    std::uint64_t take() { return words_.ready.exchange(0, std::memory_order_seq_cst); }
-    bool rung() const { return words_.ready.load(std::memory_order_relaxed) != 0; }
+    void wake_owner();
+    ReadyBits take();
+    bool rung() const {
+        std::uint64_t all = 0;
+        for (const auto& word : words_.ready) all |= word.load(std::memory_order_relaxed);
+        return all != 0;
+    }
     template <class Done>
     bool wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how, Owner awake);
 
@@ -97,11 +102,16 @@ bool Doorbell::wait_until_done(Done&& done, std::chrono::nanoseconds bound, cons
 }
 
 template <class Ready>
-std::uint64_t Doorbell::wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how) {
-    if (!rung() && ready()) return 0;
+ReadyBits Doorbell::wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how) {
+    if (!rung() && ready()) return {};
     if (owner_ != Owner::looks) become(Owner::looks);
     wait_until_done([&] { return rung() || ready(); }, bound, how, Owner::looks);
-    return rung() ? take() & ~all_user_bits : 0;
+    if (!rung()) return {};
+    const ReadyBits bits = take();
+    ReadyBits own;
+    for (const unsigned bit : {attention_bit, interrupt_bit})
+        if (bits.test(bit)) own.set(bit);
+    return own;
 }
 
 } // namespace tandem::shm

@@ -73,10 +73,12 @@ struct SegmentHeader {
 /// wake. looks: at its rings by itself; user bits need not be set.
 enum class DoorbellOwner : std::uint32_t { listens, sleeps, looks };
 
+constexpr std::size_t doorbell_words = 7;
+
 struct alignas(line_pair) DoorbellWords {
-    Word64 ready; // bit i: something is ready at the user's port i
-    Word32 owner; // futex word: DoorbellOwner
-    std::byte unused[116];
+    Word64 ready[doorbell_words]; // bit i: something is ready at the user's port i
+    Word32 owner;                 // futex word: DoorbellOwner; in the same line
+    std::byte unused[68];
 };
 
 enum class ObjectKind : std::uint32_t { ring = 1, call_queue = 2, blob = 3 };

@@ -25,20 +25,22 @@ class PortsEnd {
 
     void send(std::uint64_t sequence) {
         const std::size_t port = next_++ % out_.size();
-        const auto room = out_[port].reserve(bytes);
-        fill(room.data(), bytes, sequence);
-        out_[port].commit(bytes, sequence, 0);
+        alignas(8) std::byte message[bytes];
+        fill(message, bytes, sequence);
+        out_[port].write(message, sequence, 0);
         link_.segment().ring_peer(static_cast<unsigned>(port % doorbell_bits));
     }
 
     /// The doorbell says which ports may have something; those are looked at, and no other.
     std::uint64_t receive() {
         for (;;) {
-            const std::uint64_t bits = link_.segment().doorbell().wait(std::chrono::seconds(1), how_);
-            for (std::uint64_t rest = bits; rest != 0; rest &= rest - 1)
-                for (auto port = static_cast<std::size_t>(__builtin_ctzll(rest)); port < in_.size();
-                     port += doorbell_bits)
-                    if (const auto record = in_[port].read()) return sequence_of(record->bytes.data(), bytes);
+            std::uint64_t sequence = 0;
+            link_.segment().doorbell().wait(std::chrono::seconds(1), how_).for_each([&](unsigned bit) {
+                for (std::size_t port = bit; port < in_.size(); port += doorbell_bits)
+                    if (const auto record = in_[port].read())
+                        sequence = sequence_of(record->bytes.data(), bytes);
+            });
+            if (sequence != 0) return sequence;
         }
     }
 

@@ -14,7 +14,7 @@ TEST_CASE("objects are seen by the peer once published and all at once") {
     CHECK_FALSE(pair.second->find_blob(Side::first, "table"));
     CHECK(pair.second->list(Side::first).empty());
     pair.first->publish();
-    CHECK(pair.second->doorbell().poll() == std::uint64_t{1} << Doorbell::attention_bit);
+    CHECK(pair.second->doorbell().poll() == ReadyBits{Doorbell::attention_bit});
     REQUIRE(pair.second->peer_published());
     CHECK(pair.second->list(Side::first).size() == 2);
     CHECK(text_of(*pair.second->copy_blob(Side::first, "table")).substr(0, 5) == "hello");

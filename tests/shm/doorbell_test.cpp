@@ -7,17 +7,18 @@ using namespace tandem::shm::test;
 TEST_CASE("a doorbell hands over all bits rung since the last wait") {
     Pair pair;
     pair.second->doorbell().poll();
-    CHECK(pair.second->doorbell().wait(0ns) == 0);
+    CHECK_FALSE(pair.second->doorbell().wait(0ns).any());
     pair.first->ring_peer(3);
     pair.first->ring_peer(61);
-    pair.first->peer_doorbell().ring_all(0b110000);
-    CHECK(pair.second->doorbell().wait(1s) == ((std::uint64_t{1} << 61) | 0b111000));
-    CHECK(pair.second->doorbell().wait(0ns) == 0);
+    pair.first->ring_peer(Doorbell::user_bits - 1);
+    pair.first->peer_doorbell().ring_all({4, 5, 300});
+    CHECK(pair.second->doorbell().wait(1s) == ReadyBits{3, 4, 5, 61, 300, Doorbell::user_bits - 1});
+    CHECK_FALSE(pair.second->doorbell().wait(0ns).any());
 }
 
 TEST_CASE("joining publishing and leaving ring the peer's attention bit") {
     Pair pair;
-    const auto attention = std::uint64_t{1} << Doorbell::attention_bit;
+    const ReadyBits attention{Doorbell::attention_bit};
     CHECK(pair.first->doorbell().poll() == attention);
     pair.second->publish();
     CHECK(pair.first->doorbell().poll() == attention);
@@ -30,7 +31,7 @@ TEST_CASE("a wait ends at its bound in every mode") {
     Pair pair;
     pair.second->doorbell().poll();
     const auto before = now_ns();
-    CHECK(pair.second->doorbell().wait(3ms, {.mode = mode}) == 0);
+    CHECK_FALSE(pair.second->doorbell().wait(3ms, {.mode = mode}).any());
     CHECK(now_ns() - before >= 3'000'000);
 }
 
@@ -58,13 +59,13 @@ TEST_CASE("ringing an owner that is awake makes no system call and a sleeping on
 
 TEST_CASE("an interrupt from another thread ends the wait") {
     Pair pair;
-    std::uint64_t bits = 0;
+    ReadyBits bits;
     std::thread sleeper([&] {
-        while ((bits >> Doorbell::interrupt_bit) == 0) bits |= pair.first->doorbell().wait(30s);
+        while (!bits.test(Doorbell::interrupt_bit)) bits |= pair.first->doorbell().wait(30s);
     });
     pair.first->doorbell().interrupt();
     sleeper.join();
-    CHECK((bits >> Doorbell::interrupt_bit) == 1);
+    CHECK(bits.test(Doorbell::interrupt_bit));
 }
 
 TEST_CASE("no ring is lost between a waiter that falls asleep and a ringer") {
@@ -76,7 +77,7 @@ TEST_CASE("no ring is lost between a waiter that falls asleep and a ringer") {
     // Each side rings the other only after it was rung: one lost ring stops both.
     std::thread echo([&] {
         for (std::size_t i = 0; i < rounds && lost == 0; ++i) {
-            while ((pair.second->doorbell().wait(20s, {.mode = mode, .spin = 1us}) & 2) == 0)
+            while (!(pair.second->doorbell().wait(20s, {.mode = mode, .spin = 1us}).test(1)))
                 if (++lost > 3) return;
             lost = 0;
             pair.second->ring_peer(2);
@@ -85,10 +86,10 @@ TEST_CASE("no ring is lost between a waiter that falls asleep and a ringer") {
     bool answered = true;
     for (std::size_t i = 0; i < rounds && answered; ++i) {
         pair.first->ring_peer(1);
-        std::uint64_t bits = 0;
-        for (int tries = 0; tries < 3 && (bits & 4) == 0; ++tries)
+        ReadyBits bits;
+        for (int tries = 0; tries < 3 && !bits.test(2); ++tries)
             bits |= pair.first->doorbell().wait(20s, {.mode = mode, .spin = 1us});
-        answered = (bits & 4) != 0;
+        answered = bits.test(2);
     }
     echo.join();
     CHECK(answered);
@@ -103,7 +104,7 @@ TEST_CASE("an owner that looks at its rings is told by the ring alone and no bit
     RingReader reader(*pair.second->find_ring(Side::first, "r"));
     auto& mine = pair.second->doorbell();
     const auto ready = [&] { return !reader.empty(); };
-    CHECK(mine.wait_for(ready, 0ns) == std::uint64_t{1} << Doorbell::attention_bit);
+    CHECK(mine.wait_for(ready, 0ns) == ReadyBits{Doorbell::attention_bit});
     const std::size_t rounds = stress(2000);
     std::thread sender([&] {
         for (std::size_t i = 0; i < rounds; ++i) {
@@ -114,17 +115,19 @@ TEST_CASE("an owner that looks at its rings is told by the ring alone and no bit
     });
     std::size_t got = 0, other = 0;
     for (std::size_t waits = 0; got < rounds && waits < 2 * rounds; ++waits) {
-        if (mine.wait_for(ready, 20s, {.mode = mode}) != 0) ++other;
+        if (mine.wait_for(ready, 20s, {.mode = mode}).any()) ++other;
         while (reader.read()) ++got;
     }
     sender.join();
     CHECK(got == rounds);
     CHECK(other == 0);
     // Back to bits: each port may have news now, once.
-    CHECK(mine.poll() == Doorbell::all_user_bits);
-    CHECK(mine.poll() == 0);
+    const ReadyBits all = mine.poll();
+    CHECK((all.test(0) && all.test(5) && all.test(Doorbell::user_bits - 1)));
+    CHECK_FALSE(all.test(Doorbell::attention_bit));
+    CHECK_FALSE(mine.poll().any());
     pair.first->ring_peer(7);
-    CHECK(mine.poll() == std::uint64_t{1} << 7);
+    CHECK(mine.poll() == ReadyBits{7});
 }
 
 TEST_CASE("waiting for a ring ends at its bound and at an interrupt in every mode") {
@@ -133,10 +136,9 @@ TEST_CASE("waiting for a ring ends at its bound and at an interrupt in every mod
     pair.second->doorbell().poll();
     const auto never = [] { return false; };
     const auto before = now_ns();
-    CHECK(pair.second->doorbell().wait_for(never, 3ms, {.mode = mode}) == 0);
+    CHECK_FALSE(pair.second->doorbell().wait_for(never, 3ms, {.mode = mode}).any());
     CHECK(now_ns() - before >= 3'000'000);
     std::thread other([&] { pair.second->doorbell().interrupt(); });
-    CHECK(pair.second->doorbell().wait_for(never, 20s, {.mode = mode}) == std::uint64_t{1}
-                                                                              << Doorbell::interrupt_bit);
+    CHECK(pair.second->doorbell().wait_for(never, 20s, {.mode = mode}) == ReadyBits{Doorbell::interrupt_bit});
     other.join();
 }
