@@ -149,40 +149,39 @@ struct BasicRingHeader {
     std::uint32_t unused0;
     std::uint64_t wait_ns; // bound of RingPolicy::wait
     std::byte unused1[80];
+    // The writer's line: few ports or many, a message touches no more of the header than this and the next.
     alignas(line_pair) Word64 head; // end of the newest record; moved by the writer only
     Word64 newest;                  // begin of the newest record; both for those who come later or skip
-    std::byte unused2[112];
-    alignas(line_pair) Word64 tail; // begin of the oldest record; moved by the reader, in lossy rings also by
-                                    // the writer
-    Word32 writer_sleeps;           // futex word of RingPolicy::wait
-    std::byte unused3[112];
-    alignas(line_pair) Word64 sent; // counters of the writer, see RingCounters
+    Word64 sent;                    // counters, see RingCounters
     Word64 refused;
     Word64 overwritten;
     Word64 bytes_sent;
     Word64 published; // records; the sequence number of the newest
     Word64 sample;    // when a record was published: 63 .. 16 time / 16 ns | 15 .. 0 sequence / 64
-    std::byte unused4[80];
-    alignas(line_pair) Word64 received; // counters of the reader
+    std::byte unused2[64];
+    // The reader's line.
+    alignas(line_pair) Word64 tail; // begin of the oldest record; moved by the reader, in lossy rings also by
+                                    // the writer
+    Word64 received;                // counters
     Word64 skipped;
     Word64 bytes_received;
-    std::byte unused5[104];
+    Word32 writer_sleeps; // futex word of RingPolicy::wait
+    std::byte unused3[92];
     alignas(line_pair) Histogram age; // from published to read, of every 64th record; by the reader
 };
 using RingHeader = BasicRingHeader<RealAtomics>;
 
 static_assert(offsetof(RingHeader, wait_ns) == 40);
 static_assert(offsetof(RingHeader, head) == 128 && offsetof(RingHeader, tail) == 256);
-static_assert(offsetof(RingHeader, sent) == 384 && offsetof(RingHeader, received) == 512);
-static_assert(offsetof(RingHeader, age) == 640 && sizeof(RingHeader) == 640 + sizeof(Histogram));
+static_assert(offsetof(RingHeader, age) == 384 && sizeof(RingHeader) == 384 + sizeof(Histogram));
 
 constexpr std::size_t record_header = 16;
 constexpr std::uint64_t sequence_mask = 0xffffff; // of a commit word
 
 // Chunk: behind data, ChunkWords of all chunks, then the chunks, each at a page of the file. Who may touch a
 // chunk: the writer, until it has published a loan of it; then whoever takes that record off the ring (the
-// reader to read it, a lossy writer to drop it); the reader gives it back by storing the record's sequence, or,
-// having skipped that record, any later one up to the one before the record it took.
+// reader to read it, a lossy writer to drop it); the reader gives it back by storing the record's sequence,
+// or, having skipped that record, any later one up to the one before the record it took.
 template <class A>
 struct BasicChunkWords {
     alignas(line_pair)

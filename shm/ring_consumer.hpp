@@ -118,13 +118,14 @@ class alignas(layout::line_pair) RingConsumer {
     std::uint64_t position_; // end of what I consumed last; in lossy rings the shared tail may be further
     std::uint64_t sequence_; // of the record consumed last
     bool in_step_;           // sequence_ + 1 is that of the record at position_
-    std::uint64_t received_, skipped_, bytes_;
+    bool corrupt_ = false;
+    std::uint64_t received_, bytes_;
+    mutable Pace pace_;
+    Hold hold_;
     std::vector<std::uint64_t> scratch_;
+    std::uint64_t skipped_; // from here on rarely needed
     std::uint64_t stamp_ = 0;
     LoanRecord loan_{};
-    Hold hold_;
-    mutable Pace pace_;
-    bool corrupt_ = false;
 };
 
 template <class A>
@@ -325,7 +326,8 @@ void RingConsumer<A>::give_back() {
     if (hold_.give_back()) wake_writer();
 }
 
-/// Which chunks the skipped records lay in is not looked up: whatever was lent before this record is given back.
+/// Which chunks the skipped records lay in is not looked up: whatever was lent before this record is given
+/// back.
 template <class A>
 void RingConsumer<A>::give_back_before(std::uint64_t sequence) {
     if (ring_.chunk_count == 0) return;

@@ -16,10 +16,10 @@ template <class A>
 struct RingView {
     layout::BasicRingHeader<A>* shared = nullptr;
     typename A::Cell* cells = nullptr;
-    std::uint64_t capacity = 0, max_record = 0, wait_ns = 0;
+    std::uint64_t capacity = 0, max_record = 0;
     RingPolicy policy = RingPolicy::drop_oldest;
-    std::uint64_t chunk_bytes = 0;
     std::uint32_t chunk_count = 0;
+    std::uint64_t chunk_bytes = 0, wait_ns = 0; // from here on rarely needed
     layout::BasicChunkWords<A>* chunk_words = nullptr;
     std::byte* chunks = nullptr;
     // A payload up to this is made elsewhere and copied in at one go: written piece by piece to the line that

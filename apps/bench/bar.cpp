@@ -76,7 +76,10 @@ void add_rest(std::vector<BarLine>& lines) {
     for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"})
         lines.push_back({"component to component, " + direction + " / minimal ring", Sense::at_most, 3,
                          "ours/bridge/one-way/64/spin/" + direction, minimal_ring});
-    lines.push_back({"one-way with 256 ports / with one", Sense::at_most, 1.2,
+    lines.push_back({"one-way, 256 ports open, one used / one port", Sense::at_most, 1.2,
+                     "ours/ring/ports/64/spin-then-futex/256 ports (1 used)",
+                     "ours/ring/ports/64/spin-then-futex/1 port"});
+    lines.push_back({"one-way round 256 ports / one port", Sense::at_most, 1.2,
                      "ours/ring/ports/64/spin-then-futex/256 ports",
                      "ours/ring/ports/64/spin-then-futex/1 port"});
     for (const std::string wake : {"spin", "spin-then-futex"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many ports behind one doorbell: N rings each way are open, and the messages go round them.
+// Many ports behind one doorbell: N rings each way are open, and the messages go round them all, or (1 used)
+// all through one of them. Round 256 every message finds its lines in the second-level cache.
 #include "apps/bench/cases.hpp"
 #include "apps/bench/our_link.hpp"
 
@@ -11,12 +12,14 @@ constexpr std::size_t bytes = 64;
 constexpr unsigned doorbell_bits = shm::Doorbell::user_bits;
 
 std::size_t ports_of(const Session& session) { return std::stoul(session.measured().detail); }
+bool one_is_used(const Session& session) { return session.measured().detail.ends_with(" (1 used)"); }
 
 class PortsEnd {
   public:
     explicit PortsEnd(Session& session)
         : how_(wait_options(session.measured().wake, session.measured().regime)),
-          link_(session, ports_of(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)) {
+          link_(session, ports_of(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)),
+          step_(one_is_used(session) ? 0 : 1), next_(one_is_used(session) ? ports_of(session) / 2 : 0) {
         const std::size_t ports = ports_of(session);
         for (std::size_t i = 0; i < ports; ++i) out_.emplace_back(link_.add_ring(std::to_string(i), bytes));
         link_.open();
@@ -24,7 +27,8 @@ class PortsEnd {
     }
 
     void send(std::uint64_t sequence) {
-        const std::size_t port = next_++ % out_.size();
+        const std::size_t port = next_;
+        next_ = (next_ + step_) % out_.size();
         alignas(8) std::byte message[bytes];
         fill(message, bytes, sequence);
         out_[port].write(message, sequence, 0);
@@ -49,13 +53,14 @@ class PortsEnd {
     OurLink link_;
     std::vector<shm::RingWriter> out_;
     std::vector<shm::RingReader> in_;
-    std::size_t next_ = 0;
+    std::size_t step_, next_;
 };
 
 } // namespace
 
 void add_our_port_cases(Registry& registry) {
-    for (const char* ports : {"1 port", "4 ports", "16 ports", "64 ports", "256 ports"}) {
+    for (const char* ports :
+         {"1 port", "4 ports", "16 ports", "64 ports", "256 ports", "256 ports (1 used)"}) {
         Case one;
         one.who = "ring";
         one.what = "ports";
