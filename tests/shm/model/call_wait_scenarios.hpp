@@ -157,6 +157,36 @@ inline std::vector<Case> call_wait_cases() {
                      },
                      Settings{.lapses = 1}});
 
+    for (const bool polls : {true, false})
+        cases.push_back({polls ? "the worker that watched goes off while callers poll"
+                               : "the worker that watched goes off while callers sleep",
+                         [polls](Execution& execution) {
+                             using A = CallWorld::A;
+                             CallWorld world(execution);
+                             A::Atomic<std::uint32_t> finished{0};
+                             CallWorld::Ends ends{{1, End::closed}, {2, End::closed}};
+                             execution.thread("worker 1", [&] {
+                                 world.serve(1, true);
+                                 for (auto seen = finished.load(Order::seq_cst); seen < 2;
+                                      seen = finished.load(Order::seq_cst))
+                                     A::futex_wait(finished, seen, CallWorld::never);
+                             });
+                             execution.thread("worker 2", [&] { world.serve(9, true); });
+                             for (const std::uint32_t id : {1U, 2U})
+                                 execution.thread("caller " + std::to_string(id), [&, id] {
+                                     CallTicket ticket;
+                                     world.begin(id, CallWorld::far(id), id - 1, !polls, ticket);
+                                     ends[id] = world.wait(id, ticket, 0, polls);
+                                     const auto before = finished.fetch_add(1, Order::seq_cst);
+                                     A::futex_wake(finished, 1);
+                                     if (before == 1) world.worker.interrupt();
+                                 });
+                             execution.run();
+                             expect_ends(execution, ends, {End::answered});
+                             world.check(ends);
+                         },
+                         Settings{.lapses = 1}});
+
     return cases;
 }
 

@@ -9,7 +9,8 @@
 
 namespace tandem::shm::model {
 
-/// Damage that no scenario can catch, and why that is all right. `text` is a piece of the line of source.
+/// Damage that no scenario can catch, and why that is all right. `text` is a piece of the line of source,
+/// with ^ before it its beginning.
 struct Spared {
     const char* file;
     const char* text;
@@ -146,7 +147,9 @@ class MutantRun {
                               const std::string& line) {
         for (const auto& one : spared)
             if (mutation.damage == one.damage && (!one.order || *one.order == mutation.order) &&
-                mutation.place.file.ends_with(one.file) && line.find(one.text) != std::string::npos)
+                mutation.place.file.ends_with(one.file) &&
+                (one.text[0] == '^' ? line.starts_with(one.text + 1)
+                                    : line.find(one.text) != std::string::npos))
                 return &one;
         return nullptr;
     }

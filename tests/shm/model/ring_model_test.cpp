@@ -6,7 +6,7 @@ namespace tandem::shm::model {
 namespace {
 
 TEST_CASE("Records are whole and in order and counted exactly in any order of steps") {
-    search_all(ring_cases(), test::stress(10'000));
+    search_all(ring_cases(), test::stress(6'000));
 }
 
 TEST_CASE("The ring is sound in random orders of steps") { run_at_random(ring_cases(), test::stress(2'000)); }

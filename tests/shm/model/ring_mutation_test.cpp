@@ -60,7 +60,7 @@ const std::vector<Spared> spared{
 };
 
 TEST_CASE("Each weakened order or removed step of the ring is caught or has a reason not to be") {
-    check_mutations(ring_cases(), spared, 300, 2000);
+    check_mutations(ring_cases(), spared, 150, 2000);
 }
 
 } // namespace

@@ -129,7 +129,7 @@ inline std::vector<Case> ring_cases() {
         {"drop oldest: four records in room for three", {oldest, 4, 2, 48}, {one, one, one, one}, 2},
         large({"drop oldest: padding at the end", {oldest, 4, 3}, {two, one, two}, 2}),
         {"drop oldest: by turns the newest", {oldest, 4, 0}, {one, two, one}, 3, How::mixed},
-        {"drop oldest: a polling reader", {oldest, 2, 0, 48}, {one, one, one}, 3, How::polling},
+        large({"drop oldest: a polling reader", {oldest, 2, 0, 48}, {one, one, one}, 3, How::polling}),
         large({"drop oldest: the writer is killed",
                {oldest, 2, 1, 48},
                {one, one, one},
