@@ -136,6 +136,10 @@ RingWriter::RingWriter(RingHandle ring)
     if (producer_.corrupt())
         throw Error(ring_.mapping->path() +
                     ": a ring to be written is damaged; leave the segment and join again");
+    // Which chunks the reader still holds only the writer that lent them knows.
+    if (ring_.view.chunk_count != 0 && ring_.view.shared->published.load(std::memory_order_relaxed) != 0)
+        throw Error(ring_.mapping->path() +
+                    ": a ring with chunks takes one writer in its life; leave the segment and join again");
 }
 
 std::span<std::byte> RingWriter::reserve(std::size_t bytes) {

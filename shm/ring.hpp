@@ -47,7 +47,8 @@ RingCounters read_counters(const RingHandle& ring); ///< [any-process] Costs the
 /// Does not ring the doorbell: the user does, once after a batch.
 class RingWriter {
   public:
-    /// Throws Error if this side is not the ring's writer, or the ring is damaged.
+    /// Throws Error if this side is not the ring's writer, the ring is damaged, or it has chunks and another
+    /// RingWriter has written to it.
     explicit RingWriter(RingHandle ring);
 
     /// Room for a payload of up to `bytes`; data() == nullptr if there is none, which counts as one sent and

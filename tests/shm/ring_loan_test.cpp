@@ -158,6 +158,14 @@ TEST_CASE("peek shows a record in place until release and consume takes many at 
     CHECK(lossy.reader.consume([](const Record&) {}, 3) == 3);
 }
 
+TEST_CASE("a ring with chunks takes no second writer once it was written") {
+    LoanPair ring(RingPolicy::reject);
+    const auto handle = *ring.first->find_ring(Side::first, "r");
+    CHECK_NOTHROW(RingWriter(handle));
+    ring.writer.write(bytes_of("x"), 0, 0);
+    CHECK_THROWS_AS(RingWriter(handle), Error);
+}
+
 TEST_CASE("chunks that cannot be are refused when the ring is made") {
     Pair pair;
     CHECK_THROWS_AS(pair.first->add_ring("r", {.chunk_bytes = 1 << 20, .chunks = 1}), Error);
