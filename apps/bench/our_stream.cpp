@@ -36,7 +36,7 @@ class OurRateEnd {
     }
 
   private:
-    static constexpr std::size_t bytes = 64, capacity = std::size_t{512} * 1024;
+    static constexpr std::size_t bytes = 64, capacity = std::size_t{1024} * 1024;
     OurLink link_;
     shm::RingWriter out_;
     shm::RingReader in_;
