@@ -353,7 +353,7 @@ TEST_CASE("the counters that are seen while both ends run are never impossible")
         const auto seen = observed(pair.link);
         const auto& c = seen.rings.at(0).counters;
         sound = sound && seen.rings[0].damage.empty() && c.sent >= sent && c.received >= received &&
-                seen.rings[0].waiting() <= ring.view.capacity;
+                c.sent >= c.received; // the two are read one after the other: waiting() has no bound here
         sent = c.sent;
         received = c.received;
     }
