@@ -26,8 +26,8 @@
 //
 // Written under the assumption that the other side changes every byte at any time: sizes and offsets are
 // copied once, checked, and then only the copy is used. (The *size* of the file: whoever may write the file may
-// also truncate it, which ends its users by SIGBUS, unless they have called install_truncation_guard(). Mode 0600
-// keeps that among processes of one user.)
+// also truncate it, which ends its users by SIGBUS, unless they have called install_truncation_guard(), as
+// proxy/link does. Mode 0600 keeps that among processes of one user.)
 //
 // Words that change while both sides look are std::atomic; they stand on cache-line pairs of their own,
 // because the hardware fetches lines in pairs.

@@ -44,9 +44,10 @@ class Segment {
     std::uint32_t peer_pid() const; ///< As the peer wrote it: for messages to people only.
     void heartbeat();               ///< [any-thread] I am well. Call it more often than late_after.
 
-    /// [any-thread] A newer generation exists, or the file was removed or cut: leave and join again. Two system
-    /// calls.
+    /// [any-thread] A newer generation exists, or the file was removed or cut: leave and join again. Two
+    /// system calls.
     bool superseded() const;
+    bool truncated() const { return mapping_->truncated(); } ///< [any-thread] The file was cut.
 
     /// New objects in my half; the peer sees them after publish(). Throw Error if the arena or the directory
     /// is full, or the name (at most 103 characters, unique in my half) or an option is not acceptable.

@@ -53,14 +53,15 @@ void on_bus_error(int signal, siginfo_t* info, void* context) {
 } // namespace
 
 void install_truncation_guard() {
-    struct sigaction current {};
-    if (sigaction(SIGBUS, nullptr, &current) == 0 && current.sa_sigaction == on_bus_error) return;
-    struct sigaction guard {};
-    guard.sa_sigaction = on_bus_error;
-    guard.sa_flags = SA_SIGINFO | SA_ONSTACK;
-    before = current;
-    if (sigaction(SIGBUS, &guard, nullptr) != 0)
+    // Not again when another handler stands before ours meanwhile: each would go on to the other for ever.
+    static const bool once = [] {
+        struct sigaction guard {};
+        guard.sa_sigaction = on_bus_error;
+        guard.sa_flags = SA_SIGINFO | SA_ONSTACK;
+        if (sigaction(SIGBUS, nullptr, &before) == 0 && sigaction(SIGBUS, &guard, nullptr) == 0) return true;
         throw Error("SIGBUS: no handler can be installed (" + errno_text() + ")");
+    }();
+    static_cast<void>(once);
 }
 
 GuardedRange::GuardedRange(void* begin, std::size_t bytes) : place_(0) {

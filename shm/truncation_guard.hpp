@@ -6,9 +6,9 @@
 
 namespace tandem::shm {
 
-/// [once] From now on a lost part of a segment is replaced by zeros in this process, which every reader of
-/// shared words takes for damage or for nothing, and Segment::superseded() says that it is time to leave. A
-/// SIGBUS for another reason goes on to the handler that was there before. Off unless called: how a process
+/// [any-thread] From now on a lost part of a segment is replaced by zeros in this process, which every reader
+/// of shared words takes for damage or for nothing, and Segment::superseded() says that it is time to leave.
+/// A SIGBUS for another reason goes on to the handler that was there before. Off unless called: how a process
 /// handles signals is its own business.
 void install_truncation_guard();
 

@@ -140,10 +140,7 @@ std::string AdaptorComp::accept(const link::PortTable& partner) {
 
 // ---- the partner comes, goes, calls
 
-void AdaptorComp::link_changed(bool up) {
-    if (!up) spdlog::warn("{}: link '{}' is down: the partner process has gone", getId(), settings_.link);
-    push_link_state();
-}
+void AdaptorComp::link_changed(bool) { push_link_state(); }
 
 void AdaptorComp::partner_came() {
     if (!started_) return;

@@ -156,11 +156,7 @@ void InterceptorComp::release() {
 // ---- the partner comes, goes, calls
 
 void InterceptorComp::link_changed(bool up) {
-    if (up)
-        spdlog::info("{}: link '{}' is up", getInstanceName(), settings_.link);
-    else
-        spdlog::warn("{}: link '{}' is down: the partner process has gone", getInstanceName(),
-                     settings_.link);
+    if (up) spdlog::info("{}: link '{}' is up", getInstanceName(), settings_.link);
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     link_state_.tm.sec = static_cast<CORBA::ULong>(now.tv_sec);

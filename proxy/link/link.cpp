@@ -2,6 +2,7 @@
 #include "proxy/link/link.hpp"
 
 #include "proxy/link/session.hpp"
+#include "shm/truncation_guard.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -34,6 +35,7 @@ Link::Link(shm::Side side, LinkOptions options, PortTable own, LinkHandler& hand
 Link::~Link() { close(); }
 
 void Link::open() {
+    shm::install_truncation_guard();
     session_ = join();
     link_thread_ = std::thread([this] { run_link(); });
     task_thread_ = std::thread([this] { run_tasks(); });
@@ -114,20 +116,24 @@ void Link::run_link() {
             continue;
         }
         now->segment->heartbeat();
-        const bool afresh = damaged();
-        if (afresh) spdlog::error("link '{}': a ring is damaged; the link starts afresh", options_.name);
-        if (afresh || session_over(*now)) {
-            take_down();
+        if (const std::string why = why_over(*now); !why.empty()) {
+            take_down(why);
             continue;
         }
         if (!up() && !now->refused && now->segment->peer_published()) try_bring_up(now);
         watcher_.wait(up() ? watch_up : watch_down);
     }
-    take_down();
+    take_down("");
 }
 
-bool Link::session_over(const Session& session) const {
-    return session.segment->peer() == shm::PeerState::dead || session.segment->superseded();
+/// Empty while the session goes on. What was cut reads as zeros, so that is looked at first.
+std::string Link::why_over(const Session& session) {
+    const shm::Segment& segment = *session.segment;
+    if (segment.truncated())
+        return segment.path() + " was truncated by another process; the link starts afresh";
+    if (damaged()) return "a ring of " + segment.path() + " is damaged; the link starts afresh";
+    if (segment.peer() == shm::PeerState::dead) return "the partner process has gone";
+    return segment.superseded() ? segment.path() + " was removed or superseded; the link starts afresh" : "";
 }
 
 /// Words in a ring that cannot be: somebody else has written there, and nothing more would come through it.
@@ -203,7 +209,8 @@ void Link::bind(Session& session, const PortTable& table, bool own) {
     }
 }
 
-void Link::take_down() {
+void Link::take_down(const std::string& why) {
+    if (!why.empty()) spdlog::warn("link '{}' is down: {}", options_.name, why);
     const bool was_up = up_.exchange(false);
     {
         const std::lock_guard lock(mutex_);

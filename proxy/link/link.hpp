@@ -42,6 +42,8 @@ class Link {
     ~Link();
 
     /// Joins the segment and starts the link's threads. Throws shm::Error when the segment cannot be had.
+    /// From here on a segment that somebody truncates ends the session and not the process: the one place
+    /// that installs shm's handler of SIGBUS.
     void open();
     /// Waits for the partner. Throws LinkError when it does not come in time or its table was refused.
     void wait_up(std::chrono::milliseconds bound, const std::string& partner);
@@ -67,11 +69,11 @@ class Link {
     std::shared_ptr<Session> join() const;
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds bound, const std::string& why);
-    bool session_over(const Session&) const;
+    std::string why_over(const Session&);
     bool damaged();
     void try_bring_up(const std::shared_ptr<Session>&);
     void bind(Session&, const PortTable&, bool own);
-    void take_down();
+    void take_down(const std::string& why);
     std::shared_ptr<Session> session() const;
 
     void run_worker();

@@ -147,6 +147,22 @@ TEST_CASE("the guard leaves what is not a segment to the handler before it or to
         return 1;
     });
     CHECK(two.wait() == 43);
+    Child between([] { // a handler that came later and goes on to ours, which must not go on to it in turn
+        install_truncation_guard();
+        static struct sigaction guard {};
+        struct sigaction mine {};
+        mine.sa_sigaction = [](int signal, siginfo_t* info, void* context) {
+            static int times = 0;
+            if (++times > 3) _exit(44);
+            guard.sa_sigaction(signal, info, context);
+        };
+        mine.sa_flags = SA_SIGINFO;
+        sigaction(SIGBUS, &mine, &guard);
+        install_truncation_guard();
+        touch_lost_memory();
+        return 1;
+    });
+    CHECK(between.wait() == Child::crashed);
     Child three([] {
         signal(SIGBUS, SIG_DFL);
         install_truncation_guard();

@@ -33,10 +33,26 @@ TEST_CASE("a killed host that is started again is bound again, and nothing is le
         CHECK(hosts.says("opros", "is down: the partner process has gone"));
         const auto before = hosts.output("opros").size();
         hosts.start_rtm();
-        for (int i = 0; i < 1500 && hosts.output("opros").find("reply:", before) == std::string::npos; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        CHECK(hosts.output("opros").find("reply:", before) != std::string::npos);
+        CHECK(hosts.says("opros", "reply:", before));
     }
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a segment that is truncated under running hosts is named by both and they are joined afresh") {
+    TwoHosts hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "reply: hello 5 "));
+    const auto segments = hosts.segments();
+    REQUIRE(segments.size() == 1);
+    std::filesystem::resize_file(segments[0], 0);
+    for (const auto* host : {"opros", "rtm"})
+        CHECK(hosts.says(host, segments[0].string() + " was truncated by another process"));
+    REQUIRE(hosts.says("opros", "' is up again"));
+    const auto before = hosts.output("opros").size();
+    CHECK(hosts.says("opros", "reply:", before));
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
     CHECK_FALSE(hosts.left_in_shared_memory());

@@ -75,9 +75,9 @@ class TwoHosts {
         std::ifstream file(folder_ / (host + ".log"));
         return {std::istreambuf_iterator<char>(file), {}};
     }
-    bool says(const std::string& host, const std::string& text) const {
+    bool says(const std::string& host, const std::string& text, std::size_t from = 0) const {
         for (int i = 0; i < 1500; ++i) {
-            if (output(host).find(text) != std::string::npos) return true;
+            if (output(host).find(text, from) != std::string::npos) return true;
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
         }
         return false;
@@ -96,11 +96,14 @@ class TwoHosts {
         hosts_.at(host).wait(std::chrono::seconds(30));
         hosts_.erase(host);
     }
-    bool left_in_shared_memory() const {
+    std::vector<std::filesystem::path> segments() const {
+        std::vector<std::filesystem::path> found;
         for (const auto& file : std::filesystem::directory_iterator("/dev/shm"))
-            if (file.path().filename().string().find(link_) != std::string::npos) return true;
-        return false;
+            if (file.path().filename().string().find(link_) != std::string::npos)
+                found.push_back(file.path());
+        return found;
     }
+    bool left_in_shared_memory() const { return !segments().empty(); }
 
   private:
     void start(const std::string& host, std::vector<std::string> command) {

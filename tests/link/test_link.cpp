@@ -193,6 +193,32 @@ TEST_CASE("a partner that leaves and comes back is bound again") {
     CHECK(segments_of(name) == 0);
 }
 
+TEST_CASE("a segment that is truncated while in use takes the link down and a new one is joined") {
+    const auto name = unique_name("truncated");
+    const off_t bytes = GENERATE(off_t{0}, off_t{100}, off_t{8192}, off_t{2 << 20});
+    CAPTURE(bytes);
+    {
+        auto a = adaptor(name), b = interceptor(name);
+        a->link.open();
+        b->link.open();
+        a->link.wait_up(soon, "partner");
+        b->link.wait_up(soon, "partner");
+        REQUIRE(send(b->link.writer("reference"), 1));
+        REQUIRE(truncate(fmt::format("/dev/shm/tandem.{}.1", name).c_str(), bytes) == 0);
+        // Every page is touched before the link looks, as a component in the middle of its tick would.
+        send(b->link.writer("reference"), 2);
+        receive(a->link.reader("reference"));
+        a->link.call({"p", "o", "", {}}, 10ms);
+        CHECK(eventually([&] { return a->downs == 1 && b->downs == 1; }));
+        CHECK(eventually([&] { return a->link.up() && b->link.up(); }));
+        // What was on its way is lost, what comes now arrives, and nothing else does.
+        CHECK(eventually([&] { return send(b->link.writer("reference"), 3); }));
+        CHECK(eventually([&] { return receive(a->link.reader("reference")) == 3; }));
+        CHECK(a->link.call({"p", "o", "", bytes_of("again")}, soon).text() == "again");
+    }
+    CHECK(segments_of(name) == 0);
+}
+
 TEST_CASE("a table that does not fit is refused with the reason, and a better partner accepted later") {
     const auto name = unique_name("refused");
     auto a = adaptor(name), b = interceptor(name);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host of the mixed run is killed in mid-run. Times are reported by the run; here they only have to be
-// there, and of a size that a busy machine does not exceed.
+// A host of the mixed run is killed in mid-run, or its segment is truncated. Times are reported by the run;
+// here they only have to be there, and of a size that a busy machine does not exceed.
 #include <catch2/catch.hpp>
 
 #include <dirent.h>
 #include <fcntl.h>
 
+#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -34,12 +35,16 @@ class MixedRun {
 
     /// Kills the host once the chair drives. The pid is the one the run printed: no other process is meant.
     void kill_when_driving(const std::string& host) {
-        for (int i = 0; i < 300 && !driving(); ++i) std::this_thread::sleep_for(50ms);
-        REQUIRE(driving());
+        wait_until_driving();
         const std::string text = file_content(dir_ / "output");
         const auto at = text.find(host + " pid ");
         REQUIRE(at != text.npos);
         kill(std::stoi(text.substr(at + host.size() + 5)), SIGKILL);
+    }
+
+    void truncate_when_driving() {
+        wait_until_driving();
+        REQUIRE(truncate(("/dev/shm/tandem." + link() + ".1").c_str(), 4096) == 0);
     }
 
     nlohmann::json result() {
@@ -54,13 +59,25 @@ class MixedRun {
     int exit_code = -1;
     std::string errors;
 
+    std::vector<HWRecord> hw() const { return read_trace<HWRecord>(dir_ / "run/trace/HWComp.trace"); }
+    std::vector<ControlRecord> control() const {
+        return read_trace<ControlRecord>(dir_ / "run/trace/ControlComp.trace");
+    }
+    std::string host_log(const std::string& host) const {
+        return file_content(dir_ / ("run/log/" + host + ".log"));
+    }
+
   private:
+    void wait_until_driving() const {
+        for (int i = 0; i < 300 && !driving(); ++i) std::this_thread::sleep_for(50ms);
+        REQUIRE(driving());
+    }
     Fd open_file(const std::string& name) {
         return Fd(::open((dir_ / name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
     }
     bool driving() const {
-        const auto hw = read_trace<HWRecord>(dir_ / "run/trace/HWComp.trace");
-        return !hw.empty() && hw.back().volts_left > 1.0;
+        const auto records = hw();
+        return !records.empty() && records.back().volts_left > 1.0;
     }
 
     ScratchDir dir_;
@@ -127,5 +144,30 @@ TEST_CASE("with the roles exchanged the hardware RTC stops the motors when opros
     REQUIRE(result["incidents"][0]["motors_off_after_ms"].is_number());
     CHECK(result["incidents"][0]["motors_off_after_ms"] < 1000.0);
     CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    CHECK_FALSE(left_in_shared_memory(run.link()));
+}
+
+TEST_CASE("when the segment is truncated the motors stop until the hosts have joined a new one") {
+    MixedRun run({});
+    run.truncate_when_driving();
+    const auto result = run.result();
+    INFO(run.errors);
+    CHECK(result["incidents"].empty()); // no host died; what was under way may be lost, and is reported
+    CHECK(result["complete"] == true);
+    for (const auto* host : {"opros_host", "rtm_host"}) {
+        INFO(run.host_log(host));
+        CHECK_THAT(run.host_log(host), Catch::Contains(run.link() + ".1 was truncated by another process"));
+    }
+    const auto hw = run.hw();
+    const auto down = [](const HWRecord& r) { return r.voltage_sequence > 0 && r.link_up == 0.0; };
+    const auto cut = std::find_if(hw.begin(), hw.end(), down);
+    REQUIRE(cut != hw.end());
+    CHECK(std::all_of(hw.begin(), hw.end(), [&](const HWRecord& r) {
+        return !down(r) || (r.volts_left == 0.0 && r.volts_right == 0.0);
+    }));
+    const auto control = run.control();
+    CHECK(std::any_of(control.begin(), control.end(), [&](const ControlRecord& r) {
+        return r.at > cut->at && r.references_received > 0; // through the new segment
+    }));
     CHECK_FALSE(left_in_shared_memory(run.link()));
 }
