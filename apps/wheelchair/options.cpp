@@ -21,10 +21,12 @@ std::string absolute(const std::string& path) {
 }
 
 /// Options handed on to both hosts unchanged.
-void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin, bool& idle, bool& lock) {
+void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin,
+                      std::optional<std::string>& wait, bool& idle, bool& lock) {
     app.add_option("--opros-cpu", o.opros_cpu, "core for opros_host's tick threads");
     app.add_option("--rtm-cpu", o.rtm_cpu, "core for rtm_host's tick threads");
     app.add_option("--tick-spin", spin, "both hosts poll this long before each tick [us]");
+    app.add_option("--wait-mode", wait, "both hosts wait this way for each other's calls");
     app.add_flag("--low-latency-idle", idle, "both hosts keep the cores out of deep sleep");
     app.add_flag("--lock-memory", lock, "both hosts lock their memory");
 }
@@ -40,6 +42,7 @@ std::string name_of(Configuration configuration) {
 Options parse_options(int argc, char** argv) {
     Options o;
     std::optional<double> spin;
+    std::optional<std::string> wait;
     bool idle = false, lock = false;
     std::string configuration = "mixed";
     CLI::App app{
@@ -72,7 +75,7 @@ Options parse_options(int argc, char** argv) {
                    "how long ControlComp looks out for a reference in each tick, real time")
         ->check(CLI::Range(0.0, 9000.0))
         ->capture_default_str();
-    add_host_options(app, o, spin, idle, lock);
+    add_host_options(app, o, spin, wait, idle, lock);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -81,6 +84,7 @@ Options parse_options(int argc, char** argv) {
     o.configuration = configurations.at(configuration);
     for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep}) *path = absolute(*path);
     if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", CLI::detail::to_string(*spin)});
+    if (wait) o.host_arguments.insert(o.host_arguments.end(), {"--wait-mode", *wait});
     if (idle) o.host_arguments.push_back("--low-latency-idle");
     if (lock) o.host_arguments.push_back("--lock-memory");
     return o;

@@ -31,20 +31,20 @@ std::optional<std::string> set_priority(const ThreadOptions& options) {
            "; grant CAP_SYS_NICE or an rtprio limit";
 }
 
-std::optional<std::string> pin(const ThreadOptions& options) {
+} // namespace
+
+std::optional<std::string> pin_this_thread(const std::string& who, int cpu) {
     int error = EINVAL;
-    if (options.cpu < CPU_SETSIZE) {
+    if (cpu < CPU_SETSIZE) {
         cpu_set_t set;
         CPU_ZERO(&set);
-        CPU_SET(static_cast<std::size_t>(options.cpu), &set);
+        CPU_SET(static_cast<std::size_t>(cpu), &set);
         error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
     }
     if (error == 0) return std::nullopt;
-    return "thread " + options.name + " is not pinned to processor " + std::to_string(options.cpu) + ": " +
-           why(error) + "; choose one of `taskset -p $$`";
+    return who + " is not pinned to processor " + std::to_string(cpu) + ": " + why(error) +
+           "; choose one of `taskset -cp $$`";
 }
-
-} // namespace
 
 std::vector<std::string> set_up_this_thread(const ThreadOptions& options) {
     std::vector<std::string> notices;
@@ -53,7 +53,8 @@ std::vector<std::string> set_up_this_thread(const ThreadOptions& options) {
     if (options.fifo_priority > 0)
         if (auto notice = set_priority(options)) notices.push_back(std::move(*notice));
     if (options.cpu >= 0)
-        if (auto notice = pin(options)) notices.push_back(std::move(*notice));
+        if (auto notice = pin_this_thread("thread " + options.name, options.cpu))
+            notices.push_back(std::move(*notice));
     return notices;
 }
 

@@ -19,6 +19,10 @@ struct ThreadOptions {
 /// refusal.
 std::vector<std::string> set_up_this_thread(const ThreadOptions& options);
 
+/// Pins the calling thread, and those that it will start. Returns a notice, which begins with `who`, when
+/// refused.
+std::optional<std::string> pin_this_thread(const std::string& who, int cpu);
+
 /// Locks present and future memory of the process (mlockall). Returns a notice when not permitted.
 std::optional<std::string> lock_memory();
 

@@ -3,6 +3,7 @@
 
 #include "proxy/adaptor/method_check.hpp"
 #include "proxy/link/control.hpp"
+#include "proxy/link/wait_mode.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -46,6 +47,7 @@ ReturnType AdaptorComp::onInitialize() {
         link::LinkOptions options;
         options.name = settings_.link;
         options.segment_bytes = settings_.segment_bytes;
+        options.wait = link::wait_options();
         link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
                                              static_cast<LinkHandler&>(*this));
         link_->open();

@@ -4,6 +4,7 @@
 #include "proxy/interceptor/link_buffer.hpp"
 #include "proxy/interceptor/raw_port.hpp"
 #include "proxy/link/control.hpp"
+#include "proxy/link/wait_mode.hpp"
 #include "proxy/wire/match.hpp"
 
 #include <rtm/CORBA_SeqUtil.h>
@@ -61,6 +62,7 @@ void InterceptorComp::share_rtc() {
     link::PortTable table{settings_.rtc, {}};
     for (const auto& port : ports) table.ports.push_back(port.entry);
     link::LinkOptions options{settings_.link, settings_.ring_bytes, settings_.segment_bytes};
+    options.wait = link::wait_options();
     link_ = std::make_unique<link::Link>(shm::Side::second, options, table, static_cast<LinkHandler&>(*this));
     driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,
                                           [this] { link_->post([this] { report_failure(); }); });

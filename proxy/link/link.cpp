@@ -105,7 +105,7 @@ std::shared_ptr<Session> Link::join() const {
     const auto table = encode(own_);
     std::memcpy(segment->add_blob(table_name, table.size()).data(), table.data(), table.size());
     segment->publish();
-    return std::make_shared<Session>(segment, calls);
+    return std::make_shared<Session>(segment, calls, options_.wait);
 }
 
 void Link::run_link() {
@@ -178,7 +178,7 @@ void Link::try_bring_up(const std::shared_ptr<Session>& session) {
             bind(*session, own_, true);
             bind(*session, table, false);
             const std::lock_guard lock(mutex_);
-            session->outgoing.emplace(*calls);
+            session->outgoing.emplace(*calls, options_.wait);
         }
     } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: all of them one line
         refusal = fmt::format("link '{}': {}", options_.name, error.what());

@@ -31,6 +31,7 @@ struct LinkOptions {
     std::size_t ring_bytes = 256 * 1024;         ///< of each data port
     std::size_t segment_bytes = 4 * 1024 * 1024; ///< that each half may lay out
     unsigned max_workers = 8;                    ///< calls of the partner that may run at once
+    shm::WaitOptions wait{};                       ///< of calls, theirs and ours
 };
 
 /// One half of a link: shares its port table with the partner, moves data and calls, and survives the

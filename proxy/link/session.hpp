@@ -14,8 +14,9 @@ namespace tandem::link {
 /// What one generation of the segment is to one half. Whoever works in it holds a pointer, so that it stays
 /// mapped.
 struct Session {
-    Session(std::shared_ptr<shm::Segment> joined, const shm::CallQueueHandle& calls)
-        : segment(std::move(joined)), incoming(calls) {}
+    Session(std::shared_ptr<shm::Segment> joined, const shm::CallQueueHandle& calls,
+            const shm::WaitOptions& wait)
+        : segment(std::move(joined)), incoming(calls, wait) {}
 
     std::shared_ptr<shm::Segment> segment;
     shm::CallServer incoming;                ///< calls of the partner, in our half

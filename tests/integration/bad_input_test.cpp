@@ -56,6 +56,21 @@ TEST_CASE("shared memory that is not there is an error with what is needed and w
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
+TEST_CASE("a wait mode that cannot be is refused by both hosts and by the bridge in any other engine") {
+    TwoHosts hosts;
+    hosts.set_switches({"--wait-mode", "same-core"});
+    hosts.start_rtm();
+    hosts.start_opros();
+    for (const auto* host : {"rtm", "opros"}) check_refused(hosts, host, {"needs --cpu N"});
+    setenv("TANDEM_WAIT_MODE", "sleepy", 1);
+    TwoHosts others;
+    others.start_rtm();
+    others.start_opros();
+    unsetenv("TANDEM_WAIT_MODE");
+    for (const auto* host : {"rtm", "opros"})
+        check_refused(others, host, {"TANDEM_WAIT_MODE is 'sleepy'", "same-core expected"});
+}
+
 TEST_CASE("a link name in use by a living process is refused") {
     TwoHosts hosts, others;
     hosts.start_rtm();

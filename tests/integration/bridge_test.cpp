@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <csignal>
+#include <sched.h>
 
 TEST_CASE("strings and calls cross between components that know nothing of each other") {
     TwoHosts hosts;
@@ -21,6 +22,18 @@ TEST_CASE("strings and calls cross between components that know nothing of each 
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
     CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("calls cross in every wait mode") {
+    TwoHosts hosts;
+    const std::string mode = GENERATE("spin", "spin-then-futex", "futex", "same-core");
+    CAPTURE(mode);
+    hosts.set_switches({"--wait-mode", mode, "--cpu", std::to_string(sched_getcpu())});
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "pages: 2 last 5"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
 }
 
 TEST_CASE("a killed host that is started again is bound again, and nothing is left behind") {

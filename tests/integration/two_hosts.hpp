@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fcntl.h>
 
@@ -44,6 +45,8 @@ class TwoHosts {
     void set_wait(const std::string& seconds) { wait_ = seconds; }
     void set_interceptor(const std::string& parameters) { interceptor_ = parameters; }
     void append_to_rtc_conf(const std::string& lines) { rtc_conf_more_ += lines; }
+    /// More arguments of both hosts.
+    void set_switches(const std::vector<std::string>& switches) { switches_ = switches; }
     const std::string& link() const { return link_; }
 
     void start_opros() {
@@ -108,6 +111,7 @@ class TwoHosts {
   private:
     void start(const std::string& host, std::vector<std::string> command) {
         command.insert(command.end(), {"--plugin-path", TEST_PLUGINS, "--parent-death"});
+        command.insert(command.end(), switches_.begin(), switches_.end());
         const tandem::wheelchair::Fd log(
             open((folder_ / (host + ".log")).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
         hosts_.erase(host);
@@ -116,5 +120,6 @@ class TwoHosts {
 
     std::filesystem::path folder_;
     std::string link_, connections_, wait_ = "30", interceptor_ = "rtc=EchoRtc0", rtc_conf_more_;
+    std::vector<std::string> switches_;
     std::map<std::string, tandem::wheelchair::ChildProcess> hosts_;
 };

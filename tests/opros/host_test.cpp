@@ -84,8 +84,8 @@ TEST_CASE("the host says ready when all is started and stops in order on a signa
 TEST_CASE("the host takes all its options") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", "/nowhere", "--plugin-path", FIXTURES, "--cpu", "0",
-                  "--tick-spin", "50", "--parent-death", "--workers", "2", "--lockstep",
-                  folder.path() / "step", one_component(folder, "maker")});
+                  "--tick-spin", "50", "--wait-mode", "same-core", "--low-latency-idle", "--parent-death",
+                  "--workers", "2", "--lockstep", folder.path() / "step", one_component(folder, "maker")});
     REQUIRE(host.says("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/src/application.hpp"
-#include "host/rt/thread.hpp"
+#include "host/rt/switches.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -19,8 +19,8 @@ using tandem::engine::ApplicationOptions;
 struct Options {
     std::filesystem::path application;
     ApplicationOptions host;
-    long spin_us = 0;
-    bool keep_going = false, low_latency_idle = false, lock_memory = false, parent_death = false;
+    tandem::rt::Switches switches;
+    bool keep_going = false;
 };
 
 void declare(CLI::App& cli, Options& options) {
@@ -29,15 +29,11 @@ void declare(CLI::App& cli, Options& options) {
         ->allow_extra_args(false);
     cli.add_option("--lockstep", options.host.lockstep_socket,
                    "Step components through this socket, no executors");
-    cli.add_option("--cpu", options.host.executors.cpu, "Pin executors to this processor");
-    cli.add_option("--tick-spin", options.spin_us, "Poll the last US microseconds before a tick");
     cli.add_option("--workers", options.host.workers, "Threads for events and non-blocking calls")
         ->check(CLI::Range(1, 64));
     cli.add_flag("--keep-going", options.keep_going,
                  "Run without components that fail to initialize or start");
-    cli.add_flag("--low-latency-idle", options.low_latency_idle, "Keep processors out of deep idle states");
-    cli.add_flag("--lock-memory", options.lock_memory, "Lock the process in memory");
-    cli.add_flag("--parent-death", options.parent_death, "Leave in order when the parent process dies");
+    tandem::rt::declare(cli, options.switches);
 }
 
 // The environment, then what lies beside the program: in the build tree, then as installed.
@@ -51,15 +47,6 @@ void add_default_plugin_dirs(std::vector<std::filesystem::path>& dirs) {
     dirs.push_back(prefix / TANDEM_INSTALLED_PLUGINS);
 }
 
-void apply(const Options& options) {
-    const auto tell = [](const std::optional<std::string>& notice) {
-        if (notice) spdlog::info("{}", *notice);
-    };
-    if (options.lock_memory) tell(tandem::rt::lock_memory());
-    if (options.low_latency_idle) tell(tandem::rt::hold_low_latency_idle());
-    if (options.parent_death) tell(tandem::rt::end_with_parent());
-}
-
 sigset_t ending_signals() {
     sigset_t signals;
     sigemptyset(&signals);
@@ -70,7 +57,7 @@ sigset_t ending_signals() {
 int run(const Options& options) {
     const sigset_t signals = ending_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
-    apply(options);
+    for (const auto& notice : tandem::rt::apply(options.switches)) spdlog::warn("{}", notice);
     tandem::engine::Application application(options.application, options.host);
     application.start();
     std::cout << "ready" << std::endl;
@@ -92,7 +79,8 @@ int main(int argc, char** argv) {
     declare(cli, options);
     CLI11_PARSE(cli, argc, argv);
     options.host.strict = !options.keep_going;
-    options.host.executors.spin = std::chrono::microseconds(options.spin_us);
+    options.host.executors.cpu = options.switches.cpu;
+    options.host.executors.spin = options.switches.tick_spin();
     try {
         add_default_plugin_dirs(options.host.plugin_dirs);
         return run(options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names.
 #include "host/rt/step_server.hpp"
-#include "host/rt/thread.hpp"
+#include "host/rt/switches.hpp"
 #include "host/rtm/src/manager_options.hpp"
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -20,9 +20,8 @@ struct Arguments {
     std::string conf_file, port, lockstep;
     std::vector<std::string> settings;
     std::vector<fs::path> plugin_path;
-    bool daemon = false, ignored = false, low_latency_idle = false, lock_memory = false, parent_death = false;
-    int cpu = -1;
-    double tick_spin_us = 0;
+    bool daemon = false, ignored = false;
+    tandem::rt::Switches switches;
 };
 
 void describe(CLI::App& app, Arguments& a) {
@@ -35,14 +34,9 @@ void describe(CLI::App& app, Arguments& a) {
     app.add_flag("-i", a.ignored, "accepted for OpenRTM-aist's sake");
     app.add_option("--lockstep", a.lockstep,
                    "unix socket: cycles run when a conductor asks there, not on timers");
-    app.add_option("--cpu", a.cpu, "pin tick threads to this processor");
-    app.add_option("--tick-spin", a.tick_spin_us,
-                   "microseconds before each tick that are polled instead of slept");
-    app.add_flag("--low-latency-idle", a.low_latency_idle, "keep processors out of deep idle states");
-    app.add_flag("--lock-memory", a.lock_memory, "lock the process's memory");
     app.add_option("--plugin-path", a.plugin_path, "further folder of component libraries (repeatable)")
         ->allow_extra_args(false);
-    app.add_flag("--parent-death", a.parent_death, "leave in order when the parent process dies");
+    tandem::rt::declare(app, a.switches);
 }
 
 // --plugin-path, $TANDEM_PLUGIN_PATH, then where build and installation put plugins.
@@ -73,21 +67,12 @@ coil::vstring manager_arguments(const Arguments& a) {
     return args;
 }
 
-void ask_kernel(const Arguments& a) {
-    auto notice = [](const std::optional<std::string>& refused) {
-        if (refused) spdlog::warn("{}", *refused);
-    };
-    if (a.low_latency_idle) notice(tandem::rt::hold_low_latency_idle());
-    if (a.lock_memory) notice(tandem::rt::lock_memory());
-    if (a.parent_death) notice(tandem::rt::end_with_parent());
-}
-
 int run(const Arguments& a) {
-    ask_kernel(a);
+    for (const auto& notice : tandem::rt::apply(a.switches)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep.empty();
-    options.cpu = a.cpu;
-    options.tick_spin = std::chrono::nanoseconds(static_cast<std::int64_t>(a.tick_spin_us * 1e3));
+    options.cpu = a.switches.cpu;
+    options.tick_spin = a.switches.tick_spin();
     options.plugin_path = plugin_path(a);
     coil::Argv argv(manager_arguments(a));
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/wait_mode.hpp"
+
+#include "proxy/link/error.hpp"
+
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+namespace tandem::link {
+
+shm::WaitOptions wait_options() {
+    using enum shm::WaitMode;
+    constexpr std::pair<std::string_view, shm::WaitMode> modes[] = {
+        {"spin", spin}, {"spin-then-futex", spin_then_futex}, {"futex", futex}, {"same-core", same_core}};
+    const char* wanted = std::getenv("TANDEM_WAIT_MODE");
+    if (wanted == nullptr) return {};
+    for (const auto& [name, mode] : modes)
+        if (name == wanted) return {.mode = mode};
+    throw LinkError(std::string("TANDEM_WAIT_MODE is '") + wanted +
+                    "': spin, spin-then-futex, futex or same-core expected");
+}
+
+} // namespace tandem::link

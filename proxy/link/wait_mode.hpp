@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shm/futex.hpp"
+
+namespace tandem::link {
+
+/// How calls across links wait, for the whole process: $TANDEM_WAIT_MODE, which our hosts set by --wait-mode;
+/// spin-then-futex if there is none. Throws LinkError when it names no mode.
+shm::WaitOptions wait_options();
+
+} // namespace tandem::link

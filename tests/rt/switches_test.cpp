@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rt/switches.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <functional>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+using tandem::rt::apply;
+using tandem::rt::Switches;
+
+namespace {
+
+/// What apply() asks for stays with the process, so each case has one of its own. True: body() was.
+bool in_a_process(const std::function<bool()>& body) {
+    const pid_t child = fork();
+    if (child == 0) _exit(body() ? 0 : 1);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+bool of_a_later_thread(const std::function<bool()>& look) {
+    bool seen = false;
+    std::thread([&] { seen = look(); }).join();
+    return seen;
+}
+
+} // namespace
+
+TEST_CASE("threads started after the switches are applied have a timer slack of one nanosecond") {
+    CHECK(in_a_process([] {
+        return apply({}).empty() &&
+               of_a_later_thread([] { return prctl(PR_GET_TIMERSLACK, 0, 0, 0, 0) == 1; });
+    }));
+}
+
+TEST_CASE("in wait mode same-core all threads of the process stay on its processor") {
+    CHECK(in_a_process([] {
+        Switches switches;
+        switches.cpu = sched_getcpu();
+        switches.wait_mode = "same-core";
+        return apply(switches).empty() && of_a_later_thread([&] {
+                   cpu_set_t set;
+                   return sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) == 1 &&
+                          CPU_ISSET(static_cast<std::size_t>(switches.cpu), &set);
+               });
+    }));
+}
+
+TEST_CASE("other wait modes leave threads on all processors and reach the bridges") {
+    CHECK(in_a_process([] {
+        cpu_set_t before, after;
+        sched_getaffinity(0, sizeof before, &before);
+        Switches switches;
+        switches.cpu = sched_getcpu();
+        switches.wait_mode = "spin";
+        const bool quiet = apply(switches).empty();
+        sched_getaffinity(0, sizeof after, &after);
+        return quiet && CPU_EQUAL(&before, &after) && std::string(getenv("TANDEM_WAIT_MODE")) == "spin";
+    }));
+}
+
+TEST_CASE("same-core without a processor is refused") {
+    Switches switches;
+    switches.wait_mode = "same-core";
+    CHECK_THROWS_WITH(apply(switches),
+                      "--wait-mode same-core needs --cpu N, the same processor for both hosts");
+}
+
+TEST_CASE("what the kernel refuses is one line for each switch and the process goes on") {
+    CHECK(in_a_process([] {
+        if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) return false;
+        Switches switches;
+        switches.cpu = 100000;
+        switches.wait_mode = "same-core";
+        switches.low_latency_idle = true;
+        const auto notices = apply(switches);
+        if (notices.size() != 2) return false;
+        for (const auto& notice : notices)
+            if (notice.find('\n') != std::string::npos) return false;
+        return notices[0].find("processor 100000") != std::string::npos &&
+               notices[1].find("/dev/cpu_dma_latency") != std::string::npos;
+    }));
+}
