@@ -68,6 +68,7 @@ CallQueueHandle create_call_queue(std::shared_ptr<const Mapping> mapping, std::s
     header->max_bytes = options.max_bytes;
     header->overflow_bytes = overflow_size(options.max_bytes);
     new (made.times) layout::CallTimes{};
+    mapping->touch(memory);
     for (std::uint32_t i = 0; i < options.slots; ++i) new (&made.view.slots[i]) layout::CallSlot{};
     return {std::move(mapping), made.view, made.times, made.callers};
 }
@@ -88,6 +89,7 @@ CallQueueParts find_call_queue_parts(std::span<std::byte> memory, const std::str
 CallQueueHandle open_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                                 const std::string& name) {
     const auto found = find_call_queue_parts(memory, mapping->path() + ": call queue '" + name + "'");
+    mapping->touch(memory);
     return {std::move(mapping), found.view, found.times, found.callers};
 }
 

@@ -2,13 +2,15 @@
 #include "shm/directory.hpp"
 
 #include "shm/error.hpp"
+#include "shm/segment_file.hpp"
 #include "shm/shared_copy.hpp"
 
 namespace tandem::shm {
 
 Directory::Directory(std::shared_ptr<const Mapping> mapping) : mapping_(std::move(mapping)) {}
 
-std::span<std::byte> Directory::add(const std::string& name, layout::ObjectKind kind, std::uint64_t bytes) {
+std::span<std::byte> Directory::add(const std::string& name, layout::ObjectKind kind, std::uint64_t bytes,
+                                    std::uint64_t at_once) {
     const Side mine = mapping_->side();
     const std::string where = mapping_->path() + ": object '" + name + "'";
     if (name.empty() || name.size() >= layout::name_bytes || name.find('\0') != std::string::npos)
@@ -25,13 +27,16 @@ std::span<std::byte> Directory::add(const std::string& name, layout::ObjectKind 
         throw Error(where + " needs " + std::to_string(bytes) + " bytes, " + std::to_string(free) +
                     " are left in the arena; raise JoinOptions::arena_bytes");
 
+    const auto memory = mapping_->arena(mine).subspan(used_, bytes);
+    if (mapping_->sparse() && at_once != 0)
+        reserve(mapping_->fd(), where, mapping_->place_in_file(memory.data()), at_once);
+
     layout::DirectoryEntry listed{};
     name.copy(listed.name, layout::name_bytes - 1);
     listed.kind = static_cast<std::uint32_t>(kind);
     listed.offset = used_;
     listed.bytes = bytes;
     copy_to_shared(&mapping_->half(mine).directory[added_], &listed, sizeof listed);
-    const auto memory = mapping_->arena(mine).subspan(used_, bytes);
     used_ += round_up(bytes, layout::line_pair);
     ++added_;
     return memory;

@@ -20,9 +20,10 @@ class Directory {
   public:
     explicit Directory(std::shared_ptr<const Mapping> mapping);
 
-    /// Takes memory for a new object from my arena, 128-aligned, and lists it. Throws Error if it does not
-    /// fit.
-    std::span<std::byte> add(const std::string& name, layout::ObjectKind kind, std::uint64_t bytes);
+    /// Takes memory for a new object from my arena, 128-aligned, and lists it. In a sparse segment its first
+    /// `at_once` bytes are reserved. Throws Error if it does not fit.
+    std::span<std::byte> add(const std::string& name, layout::ObjectKind kind, std::uint64_t bytes,
+                             std::uint64_t at_once);
     void publish();
 
     std::vector<ObjectInfo> list(Side half) const; ///< Throws Error if an entry is not sound.

@@ -33,7 +33,10 @@ class Joining {
             if (probe.held[index_of(side_)]) throw side_taken(path);
             living = std::max(living, generation);
         }
-        arena_bytes_ = round_up(std::max<std::uint64_t>(options_.arena_bytes, 1), layout::page);
+        const auto pages = [](std::uint64_t bytes) { return round_up(bytes, layout::page); };
+        arena_bytes_[0] = arena_bytes_[1] = pages(std::max<std::uint64_t>(options_.arena_bytes, 1));
+        at_once_ = layout::arenas_begin + arena_bytes_[0] + arena_bytes_[1];
+        arena_bytes_[index_of(side_)] += pages(options_.loan_bytes);
         if (living != 0) {
             bool usable = true;
             auto joined = attach(segment_path(link_, living), usable);
@@ -79,9 +82,11 @@ class Joining {
             usable = ::unlink(path.c_str()) == 0;
             return nullptr;
         }
-        const bool large_enough = header.arena_bytes[index_of(side_)] >= arena_bytes_;
+        const bool large_enough = header.arena_bytes[index_of(side_)] >= arena_bytes_[index_of(side_)];
         usable = large_enough && mapping->half(side_).taken.load(std::memory_order_acquire) == 0;
-        arena_bytes_ = std::max({arena_bytes_, header.arena_bytes[0], header.arena_bytes[1]});
+        for (const Side half : {Side::first, Side::second})
+            arena_bytes_[index_of(half)] =
+                std::max(arena_bytes_[index_of(half)], header.arena_bytes[index_of(half)]);
         if (!usable) return nullptr;
         auto joined = take_side(mapping);
         joined->ring_peer(Doorbell::attention_bit);
@@ -96,9 +101,10 @@ class Joining {
         header.contract = options_.contract;
         header.generation = generation;
         header.arena_offset[0] = layout::arenas_begin;
-        header.arena_offset[1] = layout::arenas_begin + arena_bytes_;
-        header.arena_bytes[0] = header.arena_bytes[1] = arena_bytes_;
-        header.total_bytes = layout::arenas_begin + 2 * arena_bytes_;
+        header.arena_offset[1] = layout::arenas_begin + arena_bytes_[0];
+        header.arena_bytes[0] = arena_bytes_[0];
+        header.arena_bytes[1] = arena_bytes_[1];
+        header.total_bytes = layout::arenas_begin + arena_bytes_[0] + arena_bytes_[1];
         header.created_ns = now_ns();
         return header;
     }
@@ -106,7 +112,9 @@ class Joining {
     std::unique_ptr<Segment> create(std::uint64_t generation) {
         const std::string path = segment_path(link_, generation);
         const auto header = new_header(generation);
-        const FileDescriptor unnamed = create_unnamed(path, header.total_bytes, access_);
+        const FileDescriptor unnamed = options_.sparse
+                                           ? create_sparse(path, header.total_bytes, at_once_, access_)
+                                           : create_unnamed(path, header.total_bytes, access_);
         if (pwrite(unnamed.get(), static_cast<const void*>(&header), sizeof header, 0) != sizeof header)
             throw Error(path + ": cannot be written (" + errno_text() + ")");
         auto created = name_and_take(unnamed.get(), path, header);
@@ -147,7 +155,8 @@ class Joining {
     Side side_;
     JoinOptions options_;
     Access access_;
-    std::uint64_t arena_bytes_ = 0;
+    std::uint64_t arena_bytes_[2] = {}; // of each half
+    std::uint64_t at_once_ = 0;         // bytes that must be there, though not all of them are reserved
 };
 
 std::unique_ptr<Segment> Segment::join(const std::string& link, Side side, const JoinOptions& options) {

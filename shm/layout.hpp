@@ -19,15 +19,19 @@
 //        slots | blobs
 //        +---------------------------+  arena_offset[1]
 //        | arena of second           |
-//        +---------------------------+  total_bytes = size of the file, reserved and touched at creation
+//        +---------------------------+  total_bytes = size of the file, reserved and touched at creation; or,
+//        if
+//                                       it was made sparse, object by object when they are added, and of the
+//                                       chunks of rings (below) what is used, when it is first used
 //
 // Not in the bytes, but on them: three byte-range locks (OFD) on the file. Byte 0 is held for life by first,
 // byte 1 by second, byte 2 while somebody creates, joins, leaves or removes. (liveness.hpp)
 //
 // Written under the assumption that the other side changes every byte at any time: sizes and offsets are
-// copied once, checked, and then only the copy is used. (The *size* of the file: whoever may write the file may
-// also truncate it, which ends its users by SIGBUS, unless they have called install_truncation_guard(), as
-// proxy/link does. Mode 0600 keeps that among processes of one user.)
+// copied once, checked, and then only the copy is used. (The *size* of the file: whoever may write the file
+// may also truncate it, which ends its users by SIGBUS, unless they have called install_truncation_guard(),
+// as proxy/link does. The same if it lends a chunk without memory from a sparse segment when /dev/shm is
+// full. Mode 0600 keeps that among processes of one user.)
 //
 // Words that change while both sides look are std::atomic; they stand on cache-line pairs of their own,
 // because the hardware fetches lines in pairs.

@@ -36,6 +36,14 @@ class Mapping {
 
     bool truncated() const; ///< The file is shorter than what was mapped. One system call.
 
+    /// Parts of the file have no memory yet (JoinOptions::sparse). Whoever adds an object reserves it first,
+    /// and each side touches it, so that the data path takes no page fault; both do nothing otherwise.
+    bool sparse() const { return sparse_; }
+    void touch(std::span<const std::byte> memory) const;
+    std::uint64_t place_in_file(const std::byte* memory) const {
+        return static_cast<std::uint64_t>(memory - static_cast<const std::byte*>(region_.get_address()));
+    }
+
   private:
     template <class T>
     T* at(std::size_t offset) const {
@@ -44,6 +52,7 @@ class Mapping {
 
     FileDescriptor file_;
     std::string path_;
+    bool sparse_;
     boost::interprocess::mapped_region region_;
     GuardedRange guarded_;
     std::span<std::byte> arena_[2];

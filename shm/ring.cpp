@@ -2,10 +2,12 @@
 #include "shm/ring.hpp"
 
 #include "shm/error.hpp"
+#include "shm/segment_file.hpp"
 
 #include <bit>
 #include <new>
 #include <stdexcept>
+#include <sys/mman.h>
 
 namespace tandem::shm {
 
@@ -38,9 +40,9 @@ struct Sizes {
     }
     std::uint64_t chunk_words_at() const { return sizeof(layout::RingHeader) + capacity; }
     /// One page more than the chunks need, so that they can begin at one wherever the ring lies.
-    std::uint64_t memory() const {
-        if (chunks == 0) return chunk_words_at();
-        return chunk_words_at() + chunks * (sizeof(layout::ChunkWords) + chunk_bytes) + layout::page;
+    RingMemory memory() const {
+        const std::uint64_t at_once = chunk_words_at() + chunks * sizeof(layout::ChunkWords);
+        return {chunks == 0 ? at_once : at_once + chunks * chunk_bytes + layout::page, at_once};
     }
 };
 
@@ -65,6 +67,13 @@ Sizes sizes_of(const std::string& name, const RingOptions& options) {
     return sizes;
 }
 
+/// The pages are made here, too, rather than one by one while the payload is written.
+bool back_chunk(const RingView<RealAtomics>& ring, std::uint32_t chunk, std::uint64_t bytes) {
+    if (!try_reserve(ring.file, ring.chunks_in_file + chunk * ring.chunk_bytes, bytes)) return false;
+    madvise(ring.chunk(chunk), bytes, MADV_POPULATE_WRITE); // a kernel before 5.14 makes them one by one
+    return true;
+}
+
 RingHandle handle_of(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                      const Sizes& sizes) {
     RingView<RealAtomics> view;
@@ -82,7 +91,11 @@ RingHandle handle_of(std::shared_ptr<const Mapping> mapping, std::span<std::byte
         view.chunk_words = reinterpret_cast<layout::ChunkWords*>(words);
         // The mapping begins at a page, so a page of the mapping is a page of the file.
         view.chunks = behind + (layout::page - reinterpret_cast<std::uintptr_t>(behind) % layout::page);
+        if (mapping->sparse()) view.back = back_chunk;
+        view.file = mapping->fd();
+        view.chunks_in_file = mapping->place_in_file(view.chunks);
     }
+    mapping->touch(memory.first(sizes.memory().at_once));
     return {std::move(mapping), view, static_cast<Side>(sizes.writer)};
 }
 
@@ -93,7 +106,7 @@ std::vector<std::uint64_t> scratch_of(const RingView<RealAtomics>& ring) {
 
 } // namespace
 
-std::uint64_t ring_memory(const std::string& name, const RingOptions& options) {
+RingMemory ring_memory(const std::string& name, const RingOptions& options) {
     return sizes_of(name, options).memory();
 }
 
@@ -116,7 +129,7 @@ RingHandle open_ring(std::shared_ptr<const Mapping> mapping, std::span<std::byte
     Sizes sizes{};
     static_assert(sizeof sizes == offsetof(layout::RingHeader, wait_ns) + 8);
     if (memory.size() >= sizeof(layout::RingHeader)) copy_from_shared(&sizes, memory.data(), sizeof sizes);
-    if (!sizes.sound() || memory.size() != sizes.memory())
+    if (!sizes.sound() || memory.size() != sizes.memory().all)
         throw Error(mapping->path() + ": ring '" + name + "' is damaged; restart the side that made it");
     return handle_of(std::move(mapping), memory, sizes);
 }

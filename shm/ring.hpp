@@ -22,6 +22,8 @@ struct RingOptions {
     std::chrono::nanoseconds wait = std::chrono::milliseconds(10); ///< of RingPolicy::wait; 10 s at most
     /// For payloads longer than max_record: written and read in place in one of that many chunks, of that
     /// many bytes. At least 2 of them, better 4: the reader holds one, the writer fills one, others wait.
+    /// In a sparse segment, the first payload of such a length in a chunk costs system calls and memory; if
+    /// there is none, it is refused.
     std::size_t chunk_bytes = 0;
     std::uint32_t chunks = 0;
 };
@@ -127,8 +129,11 @@ class RingReader {
 };
 
 // Used by Segment.
-std::uint64_t ring_memory(const std::string& name,
-                          const RingOptions& options); ///< Bytes it takes. Throws Error for bad options.
+struct RingMemory {
+    std::uint64_t all, at_once; ///< bytes; at once: without its chunks
+};
+RingMemory ring_memory(const std::string& name,
+                       const RingOptions& options); ///< What it takes. Throws Error for bad options.
 RingHandle create_ring(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                        const RingOptions& options);
 RingHandle open_ring(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,

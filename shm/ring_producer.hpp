@@ -79,6 +79,7 @@ class alignas(layout::line_pair) RingProducer {
     bool chunk_is_free(std::uint32_t index) const;
     bool find_chunk();
     bool claim_chunk();
+    bool back_chunk(std::uint64_t bytes);
     bool refuse();
     bool write_slowly(const void* bytes, std::size_t count, std::uint64_t stamp, std::uint8_t tag);
     void end_at(std::uint64_t end);
@@ -96,12 +97,14 @@ class alignas(layout::line_pair) RingProducer {
     Place place_ = Place::refused;
     std::size_t reserved_ = 0;
     std::uint32_t chunk_ = 0;
-    std::vector<std::uint64_t> loans_; // per chunk: sequence of the record that holds it, 0 = none
+    std::vector<std::uint64_t> loans_;  // per chunk: sequence of the record that holds it, 0 = none
+    std::vector<std::uint64_t> backed_; // per chunk: bytes that have memory, if the ring gives it bit by bit
     bool corrupt_ = false;
 };
 
 template <class A>
-RingProducer<A>::RingProducer(const RingView<A>& ring) : ring_(ring), loans_(ring.chunk_count) {
+RingProducer<A>::RingProducer(const RingView<A>& ring)
+    : ring_(ring), loans_(ring.chunk_count), backed_(ring.back != nullptr ? ring.chunk_count : 0) {
     auto& shared = *ring_.shared;
     head_ = ended_at_ = shared.head.load(std::memory_order_acquire);
     tail_ = 0;
@@ -217,6 +220,16 @@ bool RingProducer<A>::claim_chunk() {
 }
 
 template <class A>
+bool RingProducer<A>::back_chunk(std::uint64_t bytes) {
+    if (ring_.back == nullptr || bytes <= backed_[chunk_]) return true;
+    constexpr std::uint64_t step = std::uint64_t{1} << 20; // so that growing messages do not ask each time
+    const std::uint64_t wanted = std::min(round_up(bytes, step), ring_.chunk_bytes);
+    if (!ring_.back(ring_, chunk_, wanted)) return false;
+    backed_[chunk_] = wanted;
+    return true;
+}
+
+template <class A>
 bool RingProducer<A>::refuse() {
     ring_.shared->sent.store(++sent_, std::memory_order_relaxed);
     ring_.shared->refused.store(++refused_, std::memory_order_relaxed);
@@ -232,7 +245,7 @@ typename RingProducer<A>::Place RingProducer<A>::reserve(std::size_t bytes) {
             place_ = ring_.lossy() || bytes <= ring_.longest_burst ? Place::elsewhere : Place::ring;
         if (place_ == Place::ring) ended_at_ = nowhere; // the user may write over it, and abandon
     } else if (bytes <= ring_.chunk_bytes && make_room(need(record_bytes(sizeof(LoanRecord))))) {
-        if (claim_chunk()) place_ = Place::chunk;
+        if (claim_chunk() && back_chunk(bytes)) place_ = Place::chunk;
     }
     if (place_ == Place::refused) refuse();
     return place_;

@@ -25,6 +25,10 @@ struct RingView {
     // A payload up to this is made elsewhere and copied in at one go: written piece by piece to the line that
     // the reader looks at, it would cost a transfer of that line for every look.
     std::size_t longest_burst = 4096;
+    // In a sparse segment: gives memory to the first bytes of a chunk, or says that there is none left.
+    bool (*back)(const RingView&, std::uint32_t chunk, std::uint64_t bytes) = nullptr;
+    int file = -1;
+    std::uint64_t chunks_in_file = 0;
 
     bool lossy() const { return policy == RingPolicy::latest_only || policy == RingPolicy::drop_oldest; }
     typename A::Cell* cell(std::uint64_t position) const {

@@ -38,17 +38,19 @@ bool Segment::superseded() const {
 }
 
 RingHandle Segment::add_ring(const std::string& name, const RingOptions& options) {
-    const std::uint64_t bytes = ring_memory(name, options);
-    return create_ring(mapping_, directory_.add(name, layout::ObjectKind::ring, bytes), options);
+    const RingMemory bytes = ring_memory(name, options);
+    return create_ring(mapping_, directory_.add(name, layout::ObjectKind::ring, bytes.all, bytes.at_once),
+                       options);
 }
 
 CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueueOptions& options) {
     const std::uint64_t bytes = call_queue_bytes(name, options);
-    return create_call_queue(mapping_, directory_.add(name, layout::ObjectKind::call_queue, bytes), options);
+    return create_call_queue(mapping_, directory_.add(name, layout::ObjectKind::call_queue, bytes, bytes),
+                             options);
 }
 
 std::span<std::byte> Segment::add_blob(const std::string& name, std::size_t bytes) {
-    return directory_.add(name, layout::ObjectKind::blob, bytes);
+    return directory_.add(name, layout::ObjectKind::blob, bytes, bytes);
 }
 
 void Segment::publish() {

@@ -12,8 +12,12 @@ namespace tandem::shm {
 struct JoinOptions {
     std::size_t arena_bytes = std::size_t{4}
                               << 20; ///< wanted at least for my half (and for the peer's, if I create)
-    std::uint64_t contract = 0;      ///< the caller's own version; a segment of another is refused
-    std::string group;               ///< if named: mode 0660, owned by that group
+    std::size_t loan_bytes = 0;      ///< wanted beside it in my half, for the chunks of rings
+    /// If I create: nothing of the arenas is reserved in advance (only that there are arena_bytes for each is
+    /// checked), but every object when it is added, and of chunks what is used, when it is first used.
+    bool sparse = false;
+    std::uint64_t contract = 0; ///< the caller's own version; a segment of another is refused
+    std::string group;          ///< if named: mode 0660, owned by that group
     std::chrono::nanoseconds late_after =
         std::chrono::milliseconds(100); ///< age of heartbeat that makes a peer late
 };

@@ -45,12 +45,19 @@ void check_access(int fd, const std::string& path, const Access& access) {
 }
 
 [[noreturn]] void no_space(const std::string& path, std::uint64_t bytes, int code) {
-    struct statvfs disk {};
-    std::string available = "unknown";
-    if (statvfs(shm_directory, &disk) == 0) available = std::to_string(disk.f_bavail * disk.f_frsize);
-    throw Error(path + ": " + std::to_string(bytes) + " bytes needed, " + available + " available in " +
-                shm_directory + " (" + errno_text(code) +
-                "); free some, enlarge it, or ask for a smaller arena");
+    const auto available = available_bytes();
+    throw Error(path + ": " + std::to_string(bytes) + " bytes needed, " +
+                (available ? std::to_string(*available) : "unknown") + " available in " + shm_directory +
+                " (" + errno_text(code) + "); free some, enlarge it, or ask for a smaller arena");
+}
+
+/// posix_fallocate() that goes on when a signal interrupts it. Returns an errno value.
+int allocate(int fd, std::uint64_t offset, std::uint64_t bytes) {
+    int code = EINTR;
+    constexpr int interruptions = 1000;
+    for (int i = 0; i < interruptions && code == EINTR; ++i)
+        code = posix_fallocate(fd, static_cast<off_t>(offset), static_cast<off_t>(bytes));
+    return code;
 }
 
 std::optional<std::uint64_t> parse_generation(const std::string& text) {
@@ -123,18 +130,47 @@ Probe probe_segment(const std::string& path) {
                  held_by_other(file.get(), LockByte::hand_over)};
 }
 
-FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, const Access& access) {
+std::optional<std::uint64_t> available_bytes() {
+    struct statvfs disk {};
+    if (statvfs(shm_directory, &disk) != 0) return std::nullopt;
+    return disk.f_bavail * disk.f_frsize;
+}
+
+bool try_reserve(int fd, std::uint64_t offset, std::uint64_t bytes) {
+    return allocate(fd, offset, bytes) == 0;
+}
+
+void reserve(int fd, const std::string& path, std::uint64_t offset, std::uint64_t bytes) {
+    if (const int code = allocate(fd, offset, bytes); code != 0) no_space(path, bytes, code);
+}
+
+namespace {
+
+FileDescriptor unnamed_file(const std::string& path, std::uint64_t reserved, const Access& access) {
     FileDescriptor file(::open(shm_directory, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
     if (!file)
         throw Error(path + ": cannot be created (" + errno_text() + "); a writable tmpfs is expected at " +
                     shm_directory);
-    if (const int code = posix_fallocate(file.get(), 0, static_cast<off_t>(bytes)); code != 0)
-        no_space(path, bytes, code);
+    reserve(file.get(), path, 0, reserved);
     if (access.group && fchown(file.get(), static_cast<uid_t>(-1), *access.group) != 0)
         throw Error(path + ": cannot be given to group " + std::to_string(*access.group) + " (" +
                     errno_text() + "); this process must be a member of it");
     if (fchmod(file.get(), access.mode()) != 0)
         throw Error(path + ": cannot be given mode " + octal(access.mode()) + " (" + errno_text() + ")");
+    return file;
+}
+
+} // namespace
+
+FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, const Access& access) {
+    return unnamed_file(path, bytes, access);
+}
+
+FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t at_once,
+                             const Access& access) {
+    if (available_bytes().value_or(at_once) < at_once) no_space(path, at_once, ENOSPC);
+    FileDescriptor file = unnamed_file(path, layout::arenas_begin, access);
+    if (ftruncate(file.get(), static_cast<off_t>(bytes)) != 0) no_space(path, bytes, errno);
     return file;
 }
 

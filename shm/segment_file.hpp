@@ -41,8 +41,18 @@ struct Probe {
 };
 Probe probe_segment(const std::string& path);
 
-/// An unnamed file of that many bytes, reserved in full. Throws Error naming needed and available bytes.
+/// An unnamed file of that many bytes, reserved in full; or sparse: only its headers are reserved, after a
+/// look whether there is room for `at_once` bytes. Throws Error naming needed and available bytes.
 FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, const Access& access);
+FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t at_once,
+                             const Access& access);
+
+/// Gives memory to a part of the file that may have none yet: like create_unnamed(), or false if there is
+/// none.
+void reserve(int fd, const std::string& path, std::uint64_t offset, std::uint64_t bytes);
+bool try_reserve(int fd, std::uint64_t offset, std::uint64_t bytes);
+
+std::optional<std::uint64_t> available_bytes(); ///< in /dev/shm
 
 /// Gives an unnamed file its name. False: the name is taken.
 bool give_name(int fd, const std::string& path);

@@ -69,6 +69,37 @@ TEST_CASE("a /dev/shm of 1 MiB is an error that names both numbers and a segment
         CHECK(result == 0);
 }
 
+TEST_CASE(
+    "a chunk of a sparse segment that finds no memory is refused and counted and what is smaller passes") {
+    Child child([&] {
+        if (!enter_small_shm()) return not_permitted;
+        JoinOptions options = small(64 * 1024);
+        options.sparse = true;
+        Link link;
+        options.loan_bytes = std::size_t{64} << 20;
+        const auto first = join(link, Side::first, options);
+        options.loan_bytes = 0;
+        const auto second = join(link, Side::second, options);
+        RingWriter writer(first->add_ring(
+            "r", {.max_record = 1000, .capacity = 4096, .chunk_bytes = std::size_t{4} << 20, .chunks = 4}));
+        first->publish();
+        RingReader reader(*second->find_ring(Side::first, "r"));
+        const std::string fits(100'000, 'f'), not_at_all(3'000'000, 'n');
+        const auto sent = [&](const std::string& text) { return writer.write(bytes_of(text), 0, 0); };
+        if (sent(not_at_all) || sent(not_at_all)) return 1;
+        if (!sent("small") || text_of(reader.read()->bytes) != "small") return 2;
+        const auto counters = writer.counters();
+        if (counters.sent != 3 || counters.refused != 2 || counters.received != 1) return 3;
+        // What the file system has left is less than a step of a chunk's growth.
+        return sent(fits) ? 4 : 0;
+    });
+    const int result = child.wait();
+    if (result == not_permitted)
+        WARN("skipped: this process may not mount a file system of its own");
+    else
+        CHECK(result == 0);
+}
+
 TEST_CASE("a limit on the size of files is an error that names the bytes needed and why") {
     Link link;
     Child child([&] {
@@ -78,6 +109,33 @@ TEST_CASE("a limit on the size of files is an error that names the bytes needed 
         return fails_naming(link, std::size_t{4} << 20, "(File too large)");
     });
     CHECK(child.wait() == 0);
+}
+
+TEST_CASE("an object of a sparse segment that finds no memory is an error that names both numbers") {
+    Child child([&] {
+        if (!enter_small_shm()) return not_permitted;
+        JoinOptions options = small(256 * 1024);
+        options.sparse = true;
+        // Each finds room for its arena, which is not taken yet; for all of them there is none.
+        Link links[3];
+        std::vector<std::unique_ptr<Segment>> segments;
+        for (const auto& link : links) segments.push_back(join(link, Side::first, options));
+        try {
+            for (const auto& segment : segments) segment->add_blob("b", 250'000);
+            return 1;
+        } catch (const Error& error) {
+            const std::string text = error.what();
+            return text.find("bytes needed, ") != std::string::npos &&
+                           text.find(" available in /dev/shm") != std::string::npos
+                       ? 0
+                       : (fprintf(stderr, "%s\n", text.c_str()), 2);
+        }
+    });
+    const int result = child.wait();
+    if (result == not_permitted)
+        WARN("skipped: this process may not mount a file system of its own");
+    else
+        CHECK(result == 0);
 }
 
 TEST_CASE("another user is refused whichever side is free and cannot remove the segment") {

@@ -123,6 +123,36 @@ TEST_CASE("the data path makes no system call while the reader is awake") {
     }
 }
 
+TEST_CASE("loans allocate nothing and once each chunk was used make no system call") {
+    constexpr std::size_t large = 100'000;
+    constexpr std::uint32_t chunks = 4;
+    JoinOptions options = small();
+    options.sparse = true;
+    Link link;
+    options.loan_bytes = chunks * large * 2;
+    Child child([&] {
+        const auto first = join(link, Side::first, options);
+        RingWriter writer(first->add_ring(
+            "r", {.max_record = 100, .capacity = 512, .chunk_bytes = large, .chunks = chunks}));
+        first->publish();
+        const auto peer = join(link, Side::second, small());
+        RingReader reader(*peer->find_ring(Side::first, "r"));
+        const std::size_t before = allocations;
+        for (std::uint64_t i = 0; i < 10'000; ++i) {
+            if (i == chunks) forbid_system_calls();
+            const auto room = writer.reserve(large);
+            if (room.data() == nullptr) _exit(1);
+            std::memcpy(room.data(), &i, sizeof i);
+            writer.commit(large, i, 0);
+            const auto record = reader.read();
+            if (!record || std::memcmp(record->bytes.data(), &i, sizeof i) != 0) _exit(2);
+        }
+        _exit(allocations == before ? 42 : 3); // what is still open would need system calls
+        return 0;
+    });
+    CHECK(child.wait() == 42);
+}
+
 TEST_CASE("calls make no system call while both sides poll") {
     Pair pair;
     const WaitOptions how{.mode = WaitMode::spin_then_futex, .spin = 300s};
