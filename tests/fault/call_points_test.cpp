@@ -6,6 +6,7 @@
 #include "shm/call_client.hpp"
 #include "shm/call_server.hpp"
 #include "shm/call_worker.hpp"
+#include "tests/shm/view_as.hpp"
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
@@ -14,17 +15,6 @@ namespace {
 
 using Caller = CallCaller<PointedAtomics>;
 using Worker = CallWorker<PointedAtomics>;
-
-BasicCallView<PointedAtomics> pointed(const CallView& real) {
-    BasicCallView<PointedAtomics> view;
-    view.header = reinterpret_cast<layout::BasicCallQueueHeader<PointedAtomics>*>(real.header);
-    view.slots = reinterpret_cast<layout::BasicCallSlot<PointedAtomics>*>(real.slots);
-    view.overflow = real.overflow;
-    view.slot_count = real.slot_count;
-    view.max_bytes = real.max_bytes;
-    view.overflow_cells = real.overflow_cells;
-    return view;
-}
 
 constexpr CallQueueOptions two_slots{.callers = Side::first, .slots = 2, .max_bytes = 512};
 constexpr std::uint64_t second_ns = 1'000'000'000;
@@ -85,7 +75,7 @@ TEST_CASE("a worker killed behind any of its stores costs the caller an error at
             survivor->publish();
             CallClient client(queue, {.mode = scenario.sleeps ? WaitMode::futex : WaitMode::spin_then_futex});
             Doomed doomed(link, Side::second, k, [&](Segment& segment) {
-                serve(pointed(segment.find_call_queue(Side::first, "c")->view), scenario);
+                serve(view_as<PointedAtomics>(segment.find_call_queue(Side::first, "c")->view), scenario);
             });
             const auto arguments = payload(scenario.bytes);
             const auto began = now_ns();
@@ -181,7 +171,7 @@ TEST_CASE("a caller killed behind any of its stores costs the server nothing") {
             survivor->publish();
             CallServer server(queue, {.mode = mode});
             Doomed doomed(link, Side::first, k, [&](Segment& segment) {
-                Caller caller(pointed(segment.find_call_queue(Side::second, "c")->view));
+                Caller caller(view_as<PointedAtomics>(segment.find_call_queue(Side::second, "c")->view));
                 scenario.work(caller);
             });
             bool sound = true;

@@ -2,6 +2,8 @@
 // Writer and reader of a ring killed behind every one of their stores.
 #include "death.hpp"
 
+#include "tests/shm/view_as.hpp"
+
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 
@@ -11,23 +13,6 @@ using Producer = RingProducer<PointedAtomics>;
 using Consumer = RingConsumer<PointedAtomics>;
 
 constexpr std::size_t chunk_bytes = 4096;
-constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
-                               RingPolicy::wait};
-
-RingView<PointedAtomics> pointed(const RingView<RealAtomics>& real) {
-    RingView<PointedAtomics> view;
-    view.shared = reinterpret_cast<layout::BasicRingHeader<PointedAtomics>*>(real.shared);
-    view.cells = real.cells;
-    view.capacity = real.capacity;
-    view.max_record = real.max_record;
-    view.wait_ns = real.wait_ns;
-    view.policy = real.policy;
-    view.chunk_bytes = real.chunk_bytes;
-    view.chunk_count = real.chunk_count;
-    view.chunk_words = reinterpret_cast<layout::BasicChunkWords<PointedAtomics>*>(real.chunk_words);
-    view.chunks = real.chunks;
-    return view;
-}
 
 /// Every word of message n is n, so a torn one shows.
 std::vector<std::uint64_t> message(std::uint64_t number, std::size_t words) {
@@ -170,7 +155,7 @@ TEST_CASE("a writer killed behind any of its stores leaves whole records and a l
                 const bool lossy = ring.view.lossy();
                 const std::uint64_t number = prepare(ring.view, reader, scenario.before);
                 Doomed doomed(link, Side::second, k, [&](Segment& segment) {
-                    Producer producer(pointed(segment.find_ring(Side::first, "r")->view));
+                    Producer producer(view_as<PointedAtomics>(segment.find_ring(Side::first, "r")->view));
                     scenario.work(producer, number);
                 });
                 died = doomed.died() ? 1 : 0;
@@ -259,7 +244,7 @@ TEST_CASE("a reader killed behind any of its stores does not stop the writer and
                     }
                 }
                 Doomed doomed(link, Side::second, k, [&](Segment& segment) {
-                    Consumer consumer(pointed(segment.find_ring(Side::first, "r")->view));
+                    Consumer consumer(view_as<PointedAtomics>(segment.find_ring(Side::first, "r")->view));
                     scenario.work(consumer);
                 });
                 died = doomed.died() ? 1 : 0;

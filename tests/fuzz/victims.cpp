@@ -6,6 +6,8 @@
 #include "shm/call_server.hpp"
 #include "shm/call_worker.hpp"
 #include "shm/observer.hpp"
+#include "tests/shm/all_policies.hpp"
+#include "tests/shm/view_as.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -14,12 +16,12 @@ namespace tandem::shm::fuzz {
 namespace {
 
 using namespace std::chrono_literals;
+using test::all_policies;
+using test::view_as;
 
 constexpr std::size_t max_record = 100, chunk_bytes = 4096, max_call = 200, max_operations = 64;
 constexpr std::size_t arena_bytes = 192 * 1024;
 constexpr std::size_t slots_at = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
-constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
-                               RingPolicy::wait};
 
 void demand(bool holds, const char* what) {
     if (holds) return;
@@ -33,33 +35,6 @@ void touch(std::span<const std::byte> bytes) {
     for (const std::byte byte : bytes) sum += std::to_integer<unsigned>(byte);
     volatile unsigned sink = sum;
     static_cast<void>(sink);
-}
-
-template <class A>
-RingView<A> view_of(const RingView<RealAtomics>& real) {
-    RingView<A> view;
-    view.shared = reinterpret_cast<layout::BasicRingHeader<A>*>(real.shared);
-    view.cells = real.cells;
-    view.capacity = real.capacity;
-    view.max_record = real.max_record;
-    view.wait_ns = real.wait_ns;
-    view.policy = real.policy;
-    view.chunk_bytes = real.chunk_bytes;
-    view.chunk_count = real.chunk_count;
-    view.chunk_words = reinterpret_cast<layout::BasicChunkWords<A>*>(real.chunk_words);
-    view.chunks = real.chunks;
-    return view;
-}
-
-BasicCallView<MeddledAtomics> view_of(const CallView& real) {
-    BasicCallView<MeddledAtomics> view;
-    view.header = reinterpret_cast<layout::BasicCallQueueHeader<MeddledAtomics>*>(real.header);
-    view.slots = reinterpret_cast<layout::BasicCallSlot<MeddledAtomics>*>(real.slots);
-    view.overflow = real.overflow;
-    view.slot_count = real.slot_count;
-    view.max_bytes = real.max_bytes;
-    view.overflow_cells = real.overflow_cells;
-    return view;
 }
 
 /// In bounds: in the ring's own chunks or records, or in private memory of that size.
@@ -120,7 +95,7 @@ void Victims::consume(Input& input, const Object& object) {
     const RingHandle handle = ring(object);
     RingProducer<RealAtomics> honest(hostile_->find_ring(Side::first, object.name)->view);
     Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
-    RingConsumer<A> consumer(view_of<A>(handle.view));
+    RingConsumer<A> consumer(view_as<A>(handle.view));
     const std::vector<std::byte> payload(chunk_bytes, std::byte{7});
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
@@ -163,7 +138,7 @@ void Victims::produce(Input& input, const Object& object) {
     const auto same = hostile_->find_ring(Side::first, object.name)->view;
     RingConsumer<RealAtomics> honest(same);
     Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
-    RingProducer<A> producer(view_of<A>(handle.view));
+    RingProducer<A> producer(view_as<A>(handle.view));
     const std::vector<std::byte> payload(2 * chunk_bytes, std::byte{7});
     for (std::size_t i = 0; i < max_operations && !input.used_up() && !producer.corrupt(); ++i) {
         const std::uint8_t what = input.byte();
@@ -226,7 +201,8 @@ void Victims::write_with_shipping(Input& input, const Object& object) {
 
 void Victims::call(Input& input) {
     Meddler::unleash(input, queue_.hostile, slots_at);
-    CallCaller<MeddledAtomics> caller(view_of(victim_->find_call_queue(Side::first, "c")->view));
+    CallCaller<MeddledAtomics> caller(
+        view_as<MeddledAtomics>(victim_->find_call_queue(Side::first, "c")->view));
     const std::vector<std::byte> payload(max_call, std::byte{7});
     std::vector<std::byte> results(max_call);
     for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
@@ -257,7 +233,7 @@ void Victims::call(Input& input) {
 void Victims::serve(Input& input) {
     Meddler::unleash(input, queue_.hostile, slots_at);
     const auto view = victim_->find_call_queue(Side::first, "c")->view;
-    CallWorker<MeddledAtomics> worker(view_of(view));
+    CallWorker<MeddledAtomics> worker(view_as<MeddledAtomics>(view));
     CallCaller<RealAtomics> honest(view);
     const std::vector<std::byte> payload(max_call, std::byte{7});
     for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {

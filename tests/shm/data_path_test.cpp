@@ -33,8 +33,6 @@ using namespace tandem::shm::test;
 
 namespace {
 
-constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
-                               RingPolicy::wait};
 constexpr char text[] = "some bytes to carry";
 
 void one_message(RingWriter& writer, RingReader& reader, Doorbell& bell, Doorbell& mine) {

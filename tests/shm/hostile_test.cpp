@@ -21,8 +21,6 @@ const std::vector<unsigned> values = [] {
     std::iota(all.begin(), all.end(), 0U);
     return all;
 }();
-constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
-                               RingPolicy::wait};
 
 /// Runs the attempt once for each value of each of the bytes; an Error is a clean end, nothing else is.
 void overwrite_each(std::byte* memory, std::size_t from, std::size_t to,

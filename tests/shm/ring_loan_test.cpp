@@ -8,8 +8,6 @@ using namespace tandem::shm::test;
 namespace {
 
 constexpr std::size_t large = 20000;
-constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
-                               RingPolicy::wait};
 
 struct LoanPair : Pair {
     explicit LoanPair(RingPolicy policy, std::uint32_t chunks = 3)

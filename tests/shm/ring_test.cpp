@@ -20,9 +20,6 @@ void check_books(const RingCounters& c, std::uint64_t waiting) {
     CHECK(c.waiting() == waiting);
 }
 
-constexpr auto all_policies = {RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject,
-                               RingPolicy::wait};
-
 } // namespace
 
 TEST_CASE("a record arrives with its bytes sequence stamp and tag under every policy") {

@@ -76,9 +76,8 @@ bool is(const Finding& finding, Verdict verdict, const std::string& seen) {
 
 } // namespace
 
-TEST_CASE("a machine on which all is well gets nothing but ok") {
-    const Patient patient;
-    const auto findings = examine(patient.machine);
+TEST_CASE_METHOD(Patient, "a machine on which all is well gets nothing but ok") {
+    const auto findings = examine(machine);
     CHECK(findings.size() == 20);
     std::set<std::string> names;
     for (const auto& finding : findings) {
@@ -90,217 +89,198 @@ TEST_CASE("a machine on which all is well gets nothing but ok") {
     CHECK(names.size() == findings.size());
 }
 
-TEST_CASE("a machine without any of the files is examined all the same") {
-    Patient patient;
-    std::filesystem::remove_all(patient.machine.root);
-    CHECK(examine(patient.machine).size() == 20);
+TEST_CASE_METHOD(Patient, "a machine without any of the files is examined all the same") {
+    std::filesystem::remove_all(machine.root);
+    CHECK(examine(machine).size() == 20);
 }
 
-TEST_CASE("/dev/shm must be a tmpfs that can be written") {
-    Patient patient;
-    is(check_shm_mount(patient.machine), Verdict::ok, "tmpfs");
-    patient.mount("ext4", "rw");
-    is(check_shm_mount(patient.machine), Verdict::bad, "ext4");
-    patient.mount("tmpfs", "ro,relatime");
-    is(check_shm_mount(patient.machine), Verdict::bad, "read-only");
-    patient.no_file("/proc/self/mounts");
-    is(check_shm_mount(patient.machine), Verdict::bad, "nothing is mounted");
+TEST_CASE_METHOD(Patient, "/dev/shm must be a tmpfs that can be written") {
+    is(check_shm_mount(machine), Verdict::ok, "tmpfs");
+    mount("ext4", "rw");
+    is(check_shm_mount(machine), Verdict::bad, "ext4");
+    mount("tmpfs", "ro,relatime");
+    is(check_shm_mount(machine), Verdict::bad, "read-only");
+    no_file("/proc/self/mounts");
+    is(check_shm_mount(machine), Verdict::bad, "nothing is mounted");
 }
 
-TEST_CASE("/dev/shm must have room for a link and should have room for images") {
-    Patient patient;
-    is(check_shm_space(patient.machine), Verdict::ok, "1 GiB free");
-    patient.machine.answers.shm_free = std::uint64_t{64} << 20;
-    is(check_shm_space(patient.machine), Verdict::warn, "64 MiB free of 1 GiB");
-    patient.machine.answers.shm_free = std::uint64_t{1} << 20;
-    is(check_shm_space(patient.machine), Verdict::bad, "1 MiB free");
+TEST_CASE_METHOD(Patient, "/dev/shm must have room for a link and should have room for images") {
+    is(check_shm_space(machine), Verdict::ok, "1 GiB free");
+    machine.answers.shm_free = std::uint64_t{64} << 20;
+    is(check_shm_space(machine), Verdict::warn, "64 MiB free of 1 GiB");
+    machine.answers.shm_free = std::uint64_t{1} << 20;
+    is(check_shm_space(machine), Verdict::bad, "1 MiB free");
 }
 
-TEST_CASE("huge pages depend on the mount unless the kernel forces or denies them") {
-    Patient patient;
+TEST_CASE_METHOD(Patient, "huge pages depend on the mount unless the kernel forces or denies them") {
     const auto shmem = "/sys/kernel/mm/transparent_hugepage/shmem_enabled";
-    is(check_huge_pages(patient.machine), Verdict::ok, "huge=within_size");
-    patient.mount("tmpfs", "rw");
-    is(check_huge_pages(patient.machine), Verdict::warn, "huge=never");
-    patient.mount("tmpfs", "rw,huge=advise");
-    is(check_huge_pages(patient.machine), Verdict::warn, "huge=advise");
-    patient.file(shmem, "always within_size advise never deny [force]\n");
-    is(check_huge_pages(patient.machine), Verdict::ok, "forced");
-    patient.mount("tmpfs", "rw,huge=always");
-    patient.file(shmem, "always within_size advise never [deny] force\n");
-    is(check_huge_pages(patient.machine), Verdict::warn, "denied");
-    patient.no_file(shmem);
-    is(check_huge_pages(patient.machine), Verdict::warn, "not in this kernel");
+    is(check_huge_pages(machine), Verdict::ok, "huge=within_size");
+    mount("tmpfs", "rw");
+    is(check_huge_pages(machine), Verdict::warn, "huge=never");
+    mount("tmpfs", "rw,huge=advise");
+    is(check_huge_pages(machine), Verdict::warn, "huge=advise");
+    file(shmem, "always within_size advise never deny [force]\n");
+    is(check_huge_pages(machine), Verdict::ok, "forced");
+    mount("tmpfs", "rw,huge=always");
+    file(shmem, "always within_size advise never [deny] force\n");
+    is(check_huge_pages(machine), Verdict::warn, "denied");
+    no_file(shmem);
+    is(check_huge_pages(machine), Verdict::warn, "not in this kernel");
 }
 
-TEST_CASE("RemoveIPC is read as logind reads it") {
-    Patient patient;
-    is(check_remove_ipc(patient.machine), Verdict::ok, "no (/etc/systemd/logind.conf)");
+TEST_CASE_METHOD(Patient, "RemoveIPC is read as logind reads it") {
+    is(check_remove_ipc(machine), Verdict::ok, "no (/etc/systemd/logind.conf)");
     SECTION("a comment sets nothing and the default is yes") {
-        patient.file("/etc/systemd/logind.conf", "[Login]\n#RemoveIPC=no\n");
-        is(check_remove_ipc(patient.machine), Verdict::warn, "yes (the default)");
+        file("/etc/systemd/logind.conf", "[Login]\n#RemoveIPC=no\n");
+        is(check_remove_ipc(machine), Verdict::warn, "yes (the default)");
     }
     SECTION("only the section Login counts") {
-        patient.file("/etc/systemd/logind.conf", "[Other]\nRemoveIPC=no\n");
-        is(check_remove_ipc(patient.machine), Verdict::warn, "yes");
+        file("/etc/systemd/logind.conf", "[Other]\nRemoveIPC=no\n");
+        is(check_remove_ipc(machine), Verdict::warn, "yes");
     }
     SECTION("a drop-in overrules the main file") {
-        patient.file("/etc/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC = yes\n");
-        is(check_remove_ipc(patient.machine), Verdict::warn, "50-ipc.conf");
+        file("/etc/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC = yes\n");
+        is(check_remove_ipc(machine), Verdict::warn, "50-ipc.conf");
     }
     SECTION("the later name wins whatever its folder") {
-        patient.file("/etc/systemd/logind.conf.d/10-a.conf", "[Login]\nRemoveIPC=yes\n");
-        patient.file("/usr/lib/systemd/logind.conf.d/90-b.conf", "[Login]\nRemoveIPC=off\n");
-        is(check_remove_ipc(patient.machine), Verdict::ok, "off");
+        file("/etc/systemd/logind.conf.d/10-a.conf", "[Login]\nRemoveIPC=yes\n");
+        file("/usr/lib/systemd/logind.conf.d/90-b.conf", "[Login]\nRemoveIPC=off\n");
+        is(check_remove_ipc(machine), Verdict::ok, "off");
     }
     SECTION("a file hides those of its name in later folders") {
-        patient.file("/etc/systemd/logind.conf.d/50-ipc.conf", "");
-        patient.file("/usr/lib/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC=yes\n");
-        is(check_remove_ipc(patient.machine), Verdict::ok, "no");
+        file("/etc/systemd/logind.conf.d/50-ipc.conf", "");
+        file("/usr/lib/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC=yes\n");
+        is(check_remove_ipc(machine), Verdict::ok, "no");
     }
     SECTION("system users are exempt") {
-        patient.file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
-        is(check_remove_ipc(patient.machine), Verdict::warn, "yes");
-        patient.machine.answers.user = 120;
-        is(check_remove_ipc(patient.machine), Verdict::ok, "system user");
+        file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
+        is(check_remove_ipc(machine), Verdict::warn, "yes");
+        machine.answers.user = 120;
+        is(check_remove_ipc(machine), Verdict::ok, "system user");
     }
     SECTION("where systemd does not run nobody reads it") {
-        patient.file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
-        std::filesystem::remove_all(patient.machine.path("/run/systemd"));
-        is(check_remove_ipc(patient.machine), Verdict::ok, "does not run");
+        file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
+        std::filesystem::remove_all(machine.path("/run/systemd"));
+        is(check_remove_ipc(machine), Verdict::ok, "does not run");
     }
 }
 
-TEST_CASE("what is not permitted is a warning with its reason") {
-    Patient patient;
-    auto& answers = patient.machine.answers;
-    is(check_locking(patient.machine), Verdict::ok, "permitted");
-    is(check_fifo(patient.machine), Verdict::ok, "permitted");
-    answers.lock_error = ENOMEM;
-    answers.fifo_error = EPERM;
-    is(check_locking(patient.machine), Verdict::warn, "refused (Cannot allocate memory)");
-    is(check_fifo(patient.machine), Verdict::warn, "refused (Operation not permitted)");
+TEST_CASE_METHOD(Patient, "what is not permitted is a warning with its reason") {
+    is(check_locking(machine), Verdict::ok, "permitted");
+    is(check_fifo(machine), Verdict::ok, "permitted");
+    machine.answers.lock_error = ENOMEM;
+    machine.answers.fifo_error = EPERM;
+    is(check_locking(machine), Verdict::warn, "refused (Cannot allocate memory)");
+    is(check_fifo(machine), Verdict::warn, "refused (Operation not permitted)");
 }
 
-TEST_CASE("a low limit counts only for those whom it binds") {
-    Patient patient;
-    auto& answers = patient.machine.answers;
-    is(check_locked_limit(patient.machine), Verdict::ok, "unlimited");
-    is(check_realtime_limit(patient.machine), Verdict::ok, "90");
-    answers.locked_limit = 8 << 20;
-    answers.realtime_limit = 0;
-    is(check_locked_limit(patient.machine), Verdict::ok, "8 MiB, does not bind");
-    is(check_realtime_limit(patient.machine), Verdict::ok, "0, does not bind");
-    answers.lock_error = answers.fifo_error = EPERM;
-    is(check_locked_limit(patient.machine), Verdict::warn, "8 MiB");
-    is(check_realtime_limit(patient.machine), Verdict::warn, "0");
+TEST_CASE_METHOD(Patient, "a low limit counts only for those whom it binds") {
+    is(check_locked_limit(machine), Verdict::ok, "unlimited");
+    is(check_realtime_limit(machine), Verdict::ok, "90");
+    machine.answers.locked_limit = 8 << 20;
+    machine.answers.realtime_limit = 0;
+    is(check_locked_limit(machine), Verdict::ok, "8 MiB, does not bind");
+    is(check_realtime_limit(machine), Verdict::ok, "0, does not bind");
+    machine.answers.lock_error = machine.answers.fifo_error = EPERM;
+    is(check_locked_limit(machine), Verdict::warn, "8 MiB");
+    is(check_realtime_limit(machine), Verdict::warn, "0");
 }
 
-TEST_CASE("real-time throttling is off or a warning") {
-    Patient patient;
-    is(check_realtime_throttling(patient.machine), Verdict::ok, "off");
-    patient.file("/proc/sys/kernel/sched_rt_runtime_us", "950000\n");
-    is(check_realtime_throttling(patient.machine), Verdict::warn, "950000 of each 1000000 us");
-    patient.no_file("/proc/sys/kernel/sched_rt_runtime_us");
-    is(check_realtime_throttling(patient.machine), Verdict::ok, "not in this kernel");
+TEST_CASE_METHOD(Patient, "real-time throttling is off or a warning") {
+    is(check_realtime_throttling(machine), Verdict::ok, "off");
+    file("/proc/sys/kernel/sched_rt_runtime_us", "950000\n");
+    is(check_realtime_throttling(machine), Verdict::warn, "950000 of each 1000000 us");
+    no_file("/proc/sys/kernel/sched_rt_runtime_us");
+    is(check_realtime_throttling(machine), Verdict::ok, "not in this kernel");
 }
 
-TEST_CASE("a host needs files to open") {
-    Patient patient;
-    is(check_open_files(patient.machine), Verdict::ok, "1024");
-    patient.machine.answers.files_limit = 256;
-    is(check_open_files(patient.machine), Verdict::warn, "256");
-    patient.machine.answers.files_limit = 20;
-    is(check_open_files(patient.machine), Verdict::bad, "20");
-    patient.machine.answers.files_limit = unlimited;
-    is(check_open_files(patient.machine), Verdict::ok, "unlimited");
+TEST_CASE_METHOD(Patient, "a host needs files to open") {
+    is(check_open_files(machine), Verdict::ok, "1024");
+    machine.answers.files_limit = 256;
+    is(check_open_files(machine), Verdict::warn, "256");
+    machine.answers.files_limit = 20;
+    is(check_open_files(machine), Verdict::bad, "20");
+    machine.answers.files_limit = unlimited;
+    is(check_open_files(machine), Verdict::ok, "unlimited");
 }
 
-TEST_CASE("a link needs an inotify instance") {
-    Patient patient;
-    is(check_inotify(patient.machine), Verdict::ok, "128 instances");
-    patient.file("/proc/sys/fs/inotify/max_user_instances", "8\n");
-    is(check_inotify(patient.machine), Verdict::warn, "8 instances");
-    patient.file("/proc/sys/fs/inotify/max_user_instances", "many\n");
-    is(check_inotify(patient.machine), Verdict::warn, "unknown");
-    patient.machine.answers.inotify_error = EMFILE;
-    is(check_inotify(patient.machine), Verdict::bad, "Too many open files");
+TEST_CASE_METHOD(Patient, "a link needs an inotify instance") {
+    is(check_inotify(machine), Verdict::ok, "128 instances");
+    file("/proc/sys/fs/inotify/max_user_instances", "8\n");
+    is(check_inotify(machine), Verdict::warn, "8 instances");
+    file("/proc/sys/fs/inotify/max_user_instances", "many\n");
+    is(check_inotify(machine), Verdict::warn, "unknown");
+    machine.answers.inotify_error = EMFILE;
+    is(check_inotify(machine), Verdict::bad, "Too many open files");
 }
 
-TEST_CASE("two hosts want two cores and cores of their own") {
-    Patient patient;
-    is(check_cores(patient.machine), Verdict::ok, "4");
-    patient.machine.answers.cores = 1;
-    is(check_cores(patient.machine), Verdict::warn, "1");
-    is(check_isolation(patient.machine), Verdict::ok, "2-3");
-    is(check_nohz_full(patient.machine), Verdict::ok, "2-3");
-    patient.file("/sys/devices/system/cpu/isolated", "\n");
-    patient.file("/sys/devices/system/cpu/nohz_full", "  (null)\n");
-    is(check_isolation(patient.machine), Verdict::warn, "none");
-    is(check_nohz_full(patient.machine), Verdict::warn, "none");
+TEST_CASE_METHOD(Patient, "two hosts want two cores and cores of their own") {
+    is(check_cores(machine), Verdict::ok, "4");
+    machine.answers.cores = 1;
+    is(check_cores(machine), Verdict::warn, "1");
+    is(check_isolation(machine), Verdict::ok, "2-3");
+    is(check_nohz_full(machine), Verdict::ok, "2-3");
+    file("/sys/devices/system/cpu/isolated", "\n");
+    file("/sys/devices/system/cpu/nohz_full", "  (null)\n");
+    is(check_isolation(machine), Verdict::warn, "none");
+    is(check_nohz_full(machine), Verdict::warn, "none");
 }
 
-TEST_CASE("one core with another governor is enough for a warning") {
-    Patient patient;
-    is(check_governor(patient.machine), Verdict::ok, "performance");
-    patient.file("/sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "schedutil\n");
-    is(check_governor(patient.machine), Verdict::warn, "performance, schedutil");
-    std::filesystem::remove_all(patient.machine.path("/sys/devices/system/cpu"));
-    is(check_governor(patient.machine), Verdict::ok, "none");
+TEST_CASE_METHOD(Patient, "one core with another governor is enough for a warning") {
+    is(check_governor(machine), Verdict::ok, "performance");
+    file("/sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "schedutil\n");
+    is(check_governor(machine), Verdict::warn, "performance, schedutil");
+    std::filesystem::remove_all(machine.path("/sys/devices/system/cpu"));
+    is(check_governor(machine), Verdict::ok, "none");
 }
 
-TEST_CASE("low-latency-idle needs its device") {
-    Patient patient;
-    is(check_dma_latency(patient.machine), Verdict::ok, "writable");
-    patient.machine.answers.dma_latency_error = EACCES;
-    is(check_dma_latency(patient.machine), Verdict::warn, "not writable (Permission denied)");
-    patient.machine.answers.dma_latency_error = ENOENT;
-    is(check_dma_latency(patient.machine), Verdict::warn, "not there");
+TEST_CASE_METHOD(Patient, "low-latency-idle needs its device") {
+    is(check_dma_latency(machine), Verdict::ok, "writable");
+    machine.answers.dma_latency_error = EACCES;
+    is(check_dma_latency(machine), Verdict::warn, "not writable (Permission denied)");
+    machine.answers.dma_latency_error = ENOENT;
+    is(check_dma_latency(machine), Verdict::warn, "not there");
 }
 
-TEST_CASE("the preemption mode is found wherever the kernel shows it") {
-    Patient patient;
-    const auto version = [&](const std::string& text) { patient.file("/proc/sys/kernel/version", text); };
-    is(check_preemption(patient.machine), Verdict::ok, "PREEMPT_RT");
+TEST_CASE_METHOD(Patient, "the preemption mode is found wherever the kernel shows it") {
+    const auto version = [&](const std::string& text) { file("/proc/sys/kernel/version", text); };
+    is(check_preemption(machine), Verdict::ok, "PREEMPT_RT");
     version("#1 SMP PREEMPT Debian\n");
-    is(check_preemption(patient.machine), Verdict::ok, "full");
+    is(check_preemption(machine), Verdict::ok, "full");
     version("#1 SMP Debian\n");
-    is(check_preemption(patient.machine), Verdict::warn, "none or voluntary");
+    is(check_preemption(machine), Verdict::warn, "none or voluntary");
     version("#1 SMP PREEMPT_DYNAMIC Debian\n");
-    is(check_preemption(patient.machine), Verdict::warn, "not visible");
-    patient.file("/proc/cmdline", "quiet preempt=full root=/dev/sda\n");
-    is(check_preemption(patient.machine), Verdict::ok, "full");
-    patient.file("/sys/kernel/debug/sched/preempt", "none (voluntary) full\n");
-    is(check_preemption(patient.machine), Verdict::warn, "voluntary");
-    patient.file("/sys/kernel/realtime", "1\n");
-    is(check_preemption(patient.machine), Verdict::ok, "PREEMPT_RT");
+    is(check_preemption(machine), Verdict::warn, "not visible");
+    file("/proc/cmdline", "quiet preempt=full root=/dev/sda\n");
+    is(check_preemption(machine), Verdict::ok, "full");
+    file("/sys/kernel/debug/sched/preempt", "none (voluntary) full\n");
+    is(check_preemption(machine), Verdict::warn, "voluntary");
+    file("/sys/kernel/realtime", "1\n");
+    is(check_preemption(machine), Verdict::ok, "PREEMPT_RT");
 }
 
-TEST_CASE("a clock that takes a system call is a warning") {
-    Patient patient;
+TEST_CASE_METHOD(Patient, "a clock that takes a system call is a warning") {
     const auto source = "/sys/devices/system/clocksource/clocksource0/current_clocksource";
-    is(check_clock_source(patient.machine), Verdict::ok, "tsc");
-    patient.file(source, "hpet\n");
-    is(check_clock_source(patient.machine), Verdict::warn, "hpet");
-    patient.no_file(source);
-    is(check_clock_source(patient.machine), Verdict::warn, "unknown");
+    is(check_clock_source(machine), Verdict::ok, "tsc");
+    file(source, "hpet\n");
+    is(check_clock_source(machine), Verdict::warn, "hpet");
+    no_file(source);
+    is(check_clock_source(machine), Verdict::warn, "unknown");
 }
 
-TEST_CASE("a large timer slack is a warning") {
-    Patient patient;
-    is(check_timer_slack(patient.machine), Verdict::ok, "50 us");
-    patient.machine.answers.timer_slack_ns = 40'000'000;
-    is(check_timer_slack(patient.machine), Verdict::warn, "40 ms");
+TEST_CASE_METHOD(Patient, "a large timer slack is a warning") {
+    is(check_timer_slack(machine), Verdict::ok, "50 us");
+    machine.answers.timer_slack_ns = 40'000'000;
+    is(check_timer_slack(machine), Verdict::warn, "40 ms");
 }
 
-TEST_CASE("a guest is told so and of whom") {
-    Patient patient;
-    is(check_hypervisor(patient.machine), Verdict::ok, "none");
-    patient.file("/proc/cpuinfo", "processor\t: 0\nflags\t\t: fpu hypervisor tsc\nbugs\t: x\n");
-    is(check_hypervisor(patient.machine), Verdict::warn, "yes");
-    patient.file("/sys/class/dmi/id/sys_vendor", "QEMU\n");
-    patient.file("/sys/class/dmi/id/product_name", "Standard PC\n");
-    is(check_hypervisor(patient.machine), Verdict::warn, "QEMU Standard PC");
+TEST_CASE_METHOD(Patient, "a guest is told so and of whom") {
+    is(check_hypervisor(machine), Verdict::ok, "none");
+    file("/proc/cpuinfo", "processor\t: 0\nflags\t\t: fpu hypervisor tsc\nbugs\t: x\n");
+    is(check_hypervisor(machine), Verdict::warn, "yes");
+    file("/sys/class/dmi/id/sys_vendor", "QEMU\n");
+    file("/sys/class/dmi/id/product_name", "Standard PC\n");
+    is(check_hypervisor(machine), Verdict::warn, "QEMU Standard PC");
 }
 
 TEST_CASE("this machine answers every question") {
