@@ -7,9 +7,14 @@
 namespace tandem::plugin {
 
 enum class Reason {
-    not_found,      ///< no such file in any folder of the search path
-    not_loadable,   ///< the file is there, the dynamic linker refused it
-    missing_symbol, ///< the library is loaded and lacks a function that was asked for
+    not_found,          ///< no such file in any folder of the search path
+    not_a_library,      ///< no ELF file, or a program, an object file
+    damaged,            ///< ELF, but cut off or with contents that cannot be
+    wrong_architecture, ///< for another processor than this program
+    wrong_model,        ///< a library, but not of the kind that was asked for
+    not_loadable,       ///< the dynamic linker refused it
+    missing_symbol,     ///< the library is loaded and lacks a function that was asked for
+    failed_probe,       ///< tried in a child process, it crashed, hung or threw
 };
 
 /// what() is one line that names the file or the symbol.

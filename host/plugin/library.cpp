@@ -17,9 +17,8 @@ std::string linker_reason(std::string text) {
 
 } // namespace
 
-Library::Library(const std::filesystem::path& file) : path_(std::filesystem::absolute(file)) {
-    if (!std::filesystem::is_regular_file(path_))
-        throw Error(Reason::not_found, "library " + path_.string() + " is not a file");
+Library::Library(const std::filesystem::path& file)
+    : path_(std::filesystem::absolute(file)), contents_(read_contents(path_)) {
     try {
         library_.load(path_, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 // Shared libraries as both hosts load them: all symbols resolved at once, none exported to later libraries.
 #pragma once
 
+#include "host/plugin/contents.hpp"
 #include "host/plugin/error.hpp"
 
 #include <boost/dll/shared_library.hpp>
@@ -13,8 +14,8 @@ namespace tandem::plugin {
 
 class Library {
   public:
-    /// Loads the file; what an instance needs, keeps it: see own(). Throws Error with the dynamic linker's
-    /// reason.
+    /// Loads the file, after a look at what is in it; what an instance needs, keeps it: see own().
+    /// [any-thread] Throws Error: those of read_contents(), or not_loadable with the dynamic linker's reason.
     static std::shared_ptr<Library> load(const std::filesystem::path& file);
 
     bool has(const std::string& name) const { return library_.has(name); }
@@ -27,12 +28,14 @@ class Library {
     }
 
     const std::filesystem::path& path() const noexcept { return path_; }
+    const Contents& contents() const noexcept { return contents_; }
 
   private:
     explicit Library(const std::filesystem::path& file);
     void require(const std::string& name) const;
 
     std::filesystem::path path_;
+    Contents contents_;
     boost::dll::shared_library library_;
 };
 

@@ -112,7 +112,7 @@ TEST_CASE("a library that cannot be used is one line at the place of its name") 
     CHECK_THAT(library_error("missing.dll"), Catch::Contains("C.xml:3: library 'missing.dll' not found") &&
                                                  Catch::Contains("libmissing.dll.so"));
     CHECK_THAT(library_error("no_factory"),
-               Catch::Contains("C.xml:3:") && Catch::Contains("does not export getComponent"));
+               Catch::Contains("C.xml:3:") && Catch::Contains("expected an OPRoS component, which exports getComponent"));
     CHECK_THAT(library_error("throwing_factory"), Catch::Contains("threw an exception: out of arms"));
     CHECK_THAT(library_error("null_factory"), Catch::Contains("returned NULL"));
 }

@@ -57,7 +57,8 @@ TEST_CASE("a missing file, a file that is no library and an unresolved symbol gi
     const auto text =
         std::filesystem::temp_directory_path() / ("tandem_no_library_" + std::to_string(getpid()));
     std::ofstream(text) << "not a library";
-    CHECK(reason_of(text) == Reason::not_loadable);
+    CHECK(reason_of(text) == Reason::not_a_library);
     std::filesystem::remove(text);
+    CHECK(reason_of(UNDEFINED_LIBRARY) == Reason::not_loadable);
     CHECK_THROWS_WITH(Library::load(UNDEFINED_LIBRARY), Catch::Contains("nobody_defines_this"));
 }

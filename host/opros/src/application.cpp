@@ -37,7 +37,8 @@ void Application::load(const ApplicationProfile& profile) {
         const auto file = find_component_profile(profile, entry, options_.plugin_dirs);
         auto dirs = options_.plugin_dirs;
         dirs.insert(dirs.begin(), profile.place.file.parent_path());
-        components_.push_back(std::make_unique<ComponentHost>(entry, read_component_profile(file), dirs));
+        components_.push_back(
+            std::make_unique<ComponentHost>(entry, read_component_profile(file), dirs, options_.probe));
         libraries_.push_back(components_.back()->library());
     }
 }

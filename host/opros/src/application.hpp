@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace tandem::engine {
 
 struct ApplicationOptions {
     std::vector<std::filesystem::path> plugin_dirs;
+    std::optional<plugin::Probe> probe; ///< libraries are tried in a child process of this program first
     ExecutorOptions executors;
     std::size_t workers = 4;
     std::size_t jobs_per_worker = 1024;

@@ -21,9 +21,10 @@ bool is_worth_telling(std::uint64_t count) { return (count & (count - 1)) == 0; 
 } // namespace
 
 ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
-                             const std::vector<std::filesystem::path>& dirs)
+                             const std::vector<std::filesystem::path>& dirs,
+                             const std::optional<plugin::Probe>& probe)
     : name_(entry.name), profile_(std::move(profile)) {
-    auto loaded = load_component(profile_, dirs);
+    auto loaded = load_component(profile_, dirs, probe);
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
     component_->setId(name_);

@@ -5,6 +5,7 @@
 
 #include "host/opros/src/profile.hpp"
 #include "host/plugin/library.hpp"
+#include "host/plugin/probe.hpp"
 
 #include <Component.h>
 
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,8 @@ class ComponentHost {
   public:
     /// Loads the library and makes the instance. Throws SetupError.
     ComponentHost(const Subcomponent& entry, ComponentProfile profile,
-                  const std::vector<std::filesystem::path>& dirs);
+                  const std::vector<std::filesystem::path>& dirs,
+                  const std::optional<plugin::Probe>& probe = std::nullopt);
 
     const std::string& name() const { return name_; }
     const ComponentProfile& profile() const { return profile_; }

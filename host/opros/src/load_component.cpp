@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/load_component.hpp"
 
+#include "host/opros/src/probe_component.hpp"
 #include "host/plugin/find_library.hpp"
 #include "host/plugin/library.hpp"
 
@@ -37,16 +38,33 @@ Component* make(plugin::Library& library) {
 
 } // namespace
 
-LoadedComponent load_component(const ComponentProfile& profile,
-                               const std::vector<std::filesystem::path>& dirs) {
+LoadedComponent open_component(const std::filesystem::path& file) {
+    const auto library = plugin::Library::load(file);
+    check_version(*library);
+    void (*release)(Component*) = [](Component* dying) { delete dying; };
+    if (library->has("releaseComponent")) release = library->symbol<void(Component*)>("releaseComponent");
+    return {library, plugin::own(library, make(*library), release)};
+}
+
+std::filesystem::path find_component_library(const ComponentProfile& profile,
+                                             const std::vector<std::filesystem::path>& dirs) {
+    std::vector<std::filesystem::path> search{profile.place.file.parent_path()};
+    search.insert(search.end(), dirs.begin(), dirs.end());
     try {
-        std::vector<std::filesystem::path> search{profile.place.file.parent_path()};
-        search.insert(search.end(), dirs.begin(), dirs.end());
-        const auto library = plugin::Library::load(plugin::find_library(profile.library_name, search));
-        check_version(*library);
-        void (*release)(Component*) = [](Component* dying) { delete dying; };
-        if (library->has("releaseComponent")) release = library->symbol<void(Component*)>("releaseComponent");
-        return {library, plugin::own(library, make(*library), release)};
+        return plugin::find_library(profile.library_name, search);
+    } catch (const plugin::Error& error) {
+        throw SetupError(profile.library_place, error.what());
+    }
+}
+
+LoadedComponent load_component(const ComponentProfile& profile,
+                               const std::vector<std::filesystem::path>& dirs,
+                               const std::optional<plugin::Probe>& probe) {
+    const auto file = find_component_library(profile, dirs);
+    try {
+        plugin::require_kind(file, plugin::read_contents(file), plugin::Kind::opros_component);
+        if (probe) plugin::probe(*probe, probe_load, file);
+        return open_component(file);
     } catch (const std::runtime_error& error) {
         throw SetupError(profile.library_place, error.what());
     }

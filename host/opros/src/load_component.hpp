@@ -3,10 +3,12 @@
 
 #include "host/opros/src/profile.hpp"
 #include "host/plugin/library.hpp"
+#include "host/plugin/probe.hpp"
 
 #include <Component.h>
 
 #include <memory>
+#include <optional>
 
 namespace tandem::engine {
 
@@ -15,9 +17,18 @@ struct LoadedComponent {
     std::shared_ptr<Component> component; ///< keeps the library loaded, too
 };
 
-/// Finds the library beside the profile or in one of the folders, and makes a component. Throws SetupError
-/// with the place of the library's name.
+/// Loads the library and makes a component. Throws plugin::Error, or SetupError if getComponent() fails.
+LoadedComponent open_component(const std::filesystem::path& library);
+
+/// The library of the profile: beside it or in one of the folders. Throws SetupError with the place of its
+/// name.
+std::filesystem::path find_component_library(const ComponentProfile& profile,
+                                             const std::vector<std::filesystem::path>& dirs);
+
+/// Both, the library tried in a child process first if so wished. Throws SetupError with the place of the
+/// library's name.
 LoadedComponent load_component(const ComponentProfile& profile,
-                               const std::vector<std::filesystem::path>& dirs);
+                               const std::vector<std::filesystem::path>& dirs,
+                               const std::optional<plugin::Probe>& probe);
 
 } // namespace tandem::engine

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/src/application.hpp"
+#include "host/opros/src/probe_component.hpp"
+#include "host/plugin/probe_switches.hpp"
 #include "host/rt/switches.hpp"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +22,7 @@ struct Options {
     std::filesystem::path application;
     ApplicationOptions host;
     tandem::rt::Switches switches;
+    tandem::plugin::ProbeSwitches probe;
     bool keep_going = false;
 };
 
@@ -33,6 +36,7 @@ void declare(CLI::App& cli, Options& options) {
         ->check(CLI::Range(1, 64));
     cli.add_flag("--keep-going", options.keep_going,
                  "Run without components that fail to initialize or start");
+    tandem::plugin::declare(cli, options.probe);
     tandem::rt::declare(cli, options.switches);
 }
 
@@ -72,12 +76,14 @@ int run(const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
+    tandem::plugin::serve_probe(argc, argv, {{tandem::engine::probe_load, tandem::engine::try_component}});
     spdlog::set_default_logger(spdlog::stderr_logger_mt("opros_host"));
     spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
     Options options;
     CLI::App cli("Runs an OPRoS application: its components, from their libraries and profiles.");
     declare(cli, options);
     CLI11_PARSE(cli, argc, argv);
+    options.host.probe = options.probe.probe();
     options.host.strict = !options.keep_going;
     options.host.executors.cpu = options.switches.cpu;
     options.host.executors.spin = options.switches.tick_spin();

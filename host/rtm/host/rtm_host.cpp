@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names.
+#include "host/plugin/probe_switches.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rt/switches.hpp"
 #include "host/rtm/src/manager_options.hpp"
+#include "host/rtm/src/probe_module.hpp"
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
@@ -21,6 +23,7 @@ struct Arguments {
     std::vector<std::string> settings;
     std::vector<fs::path> plugin_path;
     bool daemon = false, ignored = false;
+    tandem::plugin::ProbeSwitches probe;
     tandem::rt::Switches switches;
 };
 
@@ -36,6 +39,7 @@ void describe(CLI::App& app, Arguments& a) {
                    "unix socket: cycles run when a conductor asks there, not on timers");
     app.add_option("--plugin-path", a.plugin_path, "further folder of component libraries (repeatable)")
         ->allow_extra_args(false);
+    tandem::plugin::declare(app, a.probe);
     tandem::rt::declare(app, a.switches);
 }
 
@@ -74,6 +78,7 @@ int run(const Arguments& a) {
     options.cpu = a.switches.cpu;
     options.tick_spin = a.switches.tick_spin();
     options.plugin_path = plugin_path(a);
+    options.probe = a.probe.probe();
     coil::Argv argv(manager_arguments(a));
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
     bool all_ended = true;
@@ -104,6 +109,7 @@ int run(const Arguments& a) {
 } // namespace
 
 int main(int argc, char** argv) {
+    tandem::plugin::serve_probe(argc, argv, {{RTC::probe_load, RTC::try_module}});
     spdlog::set_default_logger(
         std::make_shared<spdlog::logger>("rtm_host", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
     std::signal(SIGPIPE, SIG_IGN);

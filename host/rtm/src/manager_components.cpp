@@ -41,19 +41,22 @@ std::string listed(const std::vector<std::string>& names) {
 
 } // namespace
 
-namespace {
-
-RTObject_impl& made_by(FactoryBase& factory, Manager& manager, const std::string& type) {
-    const std::string failure = "component type " + type + " cannot be created";
+RTObject_impl& Manager::makeOrThrow(FactoryBase& factory) {
+    const std::string failure =
+        "component type " + factory.profile().getProperty("implementation_id") + " cannot be created";
     try {
-        if (RTObject_impl* component = factory.create(&manager)) return *component;
+        if (RTObject_impl* component = factory.create(this)) return *component;
     } catch (const std::exception& e) {
         throw ManagerError(failure + ": " + e.what());
     } catch (const CORBA::Exception& e) {
         throw ManagerError(failure + ": CORBA exception " + e._name());
+    } catch (...) {
+        throw ManagerError(failure + ": exception of unknown type");
     }
-    throw ManagerError(failure);
+    throw ManagerError(failure + ": its factory returned NULL");
 }
+
+namespace {
 
 // rtc.conf, the component's own files, then the arguments of its creation: the later win.
 void configure(Manager::Impl& impl, RTObject_impl& component, const coil::Properties& profile,
@@ -93,7 +96,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     if (factory == nullptr)
         throw ManagerError("there is no component type " + type + " (known: " +
                            listed(getModulesFactories()) + "); name its library in manager.modules.preload");
-    RTObject_impl& component = made_by(*factory, *this, type);
+    RTObject_impl& component = makeOrThrow(*factory);
     try {
         listeners.forEach([&](auto& listener) { listener.postCreate(&component); });
         const std::string name = wanted.properties.getProperty("instance_name", component.getInstanceName());

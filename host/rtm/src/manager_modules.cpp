@@ -2,6 +2,7 @@
 // Loading libraries of components, and the types they register.
 #include "host/plugin/find_library.hpp"
 #include "manager_impl.hpp"
+#include "probe_module.hpp"
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -26,14 +27,30 @@ std::string base_name(const std::string& file_name) {
     return name.substr(0, name.find('.'));
 }
 
-std::string init_symbol(tandem::plugin::Library& library, const std::string& base) {
+std::string init_symbol(const std::filesystem::path& file, const tandem::plugin::Contents& contents,
+                        const std::string& base) {
     std::vector<std::string> tried{base + "Init"};
     if (base.compare(0, 3, "lib") == 0) tried.push_back(base.substr(3) + "Init");
     tried.emplace_back("rtc_init"); // old components
     for (const auto& symbol : tried)
-        if (library.has(symbol)) return symbol;
-    throw ManagerError("module " + library.path().string() + " has no function " + tried[0] +
+        if (contents.exports.count(symbol)) return symbol;
+    if (contents.kind != tandem::plugin::Kind::rtc_module && contents.kind != tandem::plugin::Kind::other)
+        tandem::plugin::require_kind(file, contents, tandem::plugin::Kind::rtc_module);
+    throw ManagerError("module " + file.string() + " has no function " + tried[0] +
                        "; export it (extern \"C\"), or name another as file(function)");
+}
+
+// The module's own code: whatever it throws ends here.
+void call(const std::function<void()>& init, const std::string& what) {
+    try {
+        init();
+    } catch (const std::exception& e) {
+        throw ManagerError(what + " threw an exception: " + e.what());
+    } catch (const CORBA::Exception& e) {
+        throw ManagerError(what + " threw the CORBA exception " + e._name());
+    } catch (...) {
+        throw ManagerError(what + " threw an exception of unknown type");
+    }
 }
 
 } // namespace
@@ -41,16 +58,20 @@ std::string init_symbol(tandem::plugin::Library& library, const std::string& bas
 void Manager::loadOrThrow(const std::string& file_name, const std::string& init_function) {
     std::string name = file_name, function = init_function;
     m_impl->listeners.module_.forEach([&](auto& listener) { listener.preLoad(name, function); });
-    std::shared_ptr<tandem::plugin::Library> library;
     try {
-        library = tandem::plugin::Library::load(tandem::plugin::find_library(name, m_impl->module_dirs()));
-        const std::string symbol = function.empty() ? init_symbol(*library, base_name(name)) : function;
+        namespace plugin = tandem::plugin;
+        const auto file = plugin::find_library(name, m_impl->module_dirs());
+        const auto contents = plugin::read_contents(file);
+        const std::string symbol = function.empty() ? init_symbol(file, contents, base_name(name)) : function;
+        if (m_impl->options.probe) plugin::probe(*m_impl->options.probe, probe_load, file, {symbol});
+        const auto library = plugin::Library::load(file);
+        const auto init = library->symbol<void(Manager*)>(symbol);
         {
             // Kept for ever: objects and code of a component may be in use to the end of the process.
             std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
             m_impl->modules.push_back({name, library});
         }
-        library->symbol<void(Manager*)>(symbol)(this);
+        call([&] { init(this); }, symbol + "() of module " + file.string());
     } catch (const tandem::plugin::Error& e) {
         throw ManagerError(e.what());
     }

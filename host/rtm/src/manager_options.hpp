@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/plugin/probe.hpp"
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <rtm/Manager.h>
 #include <vector>
 
@@ -15,6 +17,7 @@ struct HostOptions {
     /// How long a context waits for a callback to return when it is stopped.
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
     std::vector<std::filesystem::path> plugin_path; ///< searched after manager.modules.load_path
+    std::optional<tandem::plugin::Probe> probe;     ///< modules are tried in a child process first
     bool strict = false;                            ///< rtc.conf must exist and be well-formed
 };
 

@@ -71,6 +71,9 @@ public:
     ReturnCode_t load(const std::string& file_name, const std::string& init_function);
     /// Ours: throws ManagerError. `init_function` empty: `<file base name>Init`.
     void loadOrThrow(const std::string& file_name, const std::string& init_function);
+    /// Ours: makes and deletes one component of each type, uninitialized; `before` is told each step. Throws
+    /// ManagerError.
+    void tryFactories(const std::function<void(const std::string&)>& before);
     void unload(const char*) {}
     void unloadAll() {}
     std::vector<coil::Properties> getLoadedModules();
@@ -134,6 +137,7 @@ public:
 
 private:
     explicit Manager(const Options& options);
+    RTObject_impl& makeOrThrow(FactoryBase& factory);
     std::unique_ptr<Impl> m_impl;
 };
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/plugin/contents.hpp"
+
+#include "host/plugin/elf_file.hpp"
+#include "host/plugin/error.hpp"
+
+#include <algorithm>
+
+namespace tandem::plugin {
+namespace {
+
+bool uses_rtc_manager(const DynamicSymbols& symbols) {
+    return std::any_of(symbols.undefined.begin(), symbols.undefined.end(), [](const std::string& name) {
+        return name.find("3RTC7Manager") != std::string::npos; // as RTC::Manager is mangled
+    });
+}
+
+// The init function is named after the library's file, which may have been renamed since: any one will do.
+std::string init_function(const std::set<std::string>& exports) {
+    if (exports.count("rtc_init")) return "rtc_init";
+    const auto is_init = [](const std::string& name) {
+        return name.size() > 4 && name.compare(name.size() - 4, 4, "Init") == 0 && name.rfind("_Z", 0) != 0;
+    };
+    const auto found = std::find_if(exports.begin(), exports.end(), is_init);
+    return found == exports.end() ? "" : *found;
+}
+
+const char* expected_text(Kind kind) {
+    switch (kind) {
+    case Kind::opros_component:
+        return "an OPRoS component, which exports getComponent (v1 sources do with -DMAKE_COMPONENT_DLL)";
+    case Kind::rtc_module:
+        return "an RTC module, which exports NAMEInit (extern \"C\")";
+    default:
+        return kind_text(kind);
+    }
+}
+
+const char* remedy(Kind kind) {
+    if (kind == Kind::rtc_module) return "; rtm_host runs it";
+    if (kind == Kind::opros_component) return "; opros_host runs it";
+    if (kind == Kind::device_api) return "; a component opens it, by its property APIName";
+    return "";
+}
+
+} // namespace
+
+const char* kind_text(Kind kind) {
+    switch (kind) {
+    case Kind::opros_component:
+        return "an OPRoS component";
+    case Kind::rtc_module:
+        return "an RTC module";
+    case Kind::device_api:
+        return "a device API";
+    case Kind::other:
+        break;
+    }
+    return "neither an OPRoS component nor an RTC module nor a device API";
+}
+
+Contents read_contents(const std::filesystem::path& library) {
+    DynamicSymbols symbols = read_dynamic_symbols(library);
+    Contents contents;
+    if (symbols.defined.count("getComponent")) {
+        contents.kind = Kind::opros_component;
+        contents.entry = "getComponent";
+    } else if (const std::string init = init_function(symbols.defined);
+               init == "rtc_init" || (!init.empty() && uses_rtc_manager(symbols))) {
+        contents.kind = Kind::rtc_module;
+        contents.entry = init;
+    } else if (symbols.defined.count("GetAPI")) {
+        contents.kind = Kind::device_api;
+        contents.entry = "GetAPI";
+    }
+    contents.exports = std::move(symbols.defined);
+    return contents;
+}
+
+void require_kind(const std::filesystem::path& library, const Contents& contents, Kind kind) {
+    if (contents.kind == kind) return;
+    const std::string entry = contents.entry.empty() ? "" : " (exports " + contents.entry + ")";
+    throw Error(Reason::wrong_model, "library " + library.string() + " is " + kind_text(contents.kind) +
+                                         entry + ", expected " + expected_text(kind) + remedy(contents.kind));
+}
+
+} // namespace tandem::plugin

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/plugin/elf_file.hpp"
+
+#include "host/plugin/error.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <gelf.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace tandem::plugin {
+namespace {
+
+/// An open ELF file. libelf reads it piece by piece and checks each against the file's size.
+class ElfFile {
+  public:
+    explicit ElfFile(const std::filesystem::path& file) : file_(file) {
+        static const bool version_known = elf_version(EV_CURRENT) != EV_NONE;
+        // Not blocking: a named pipe would wait for its writer for ever.
+        fd_ = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+        if (fd_ < 0) fail(Reason::not_found, std::string("cannot be opened: ") + std::strerror(errno));
+        struct stat status {};
+        if (fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) give_up(Reason::not_found, "is not a file");
+        size_ = static_cast<std::uint64_t>(status.st_size);
+        elf_ = version_known ? elf_begin(fd_, ELF_C_READ, nullptr) : nullptr;
+    }
+    ~ElfFile() {
+        elf_end(elf_);
+        close(fd_);
+    }
+    ElfFile(const ElfFile&) = delete;
+    ElfFile& operator=(const ElfFile&) = delete;
+
+    Elf* get() const { return elf_; }
+    bool holds(std::uint64_t offset, std::uint64_t bytes) const {
+        return offset <= size_ && bytes <= size_ - offset;
+    }
+    std::uint64_t size() const { return size_; }
+
+    GElf_Ehdr header() const {
+        if (size_ == 0) fail(Reason::damaged, "is empty");
+        if (elf_kind(elf_) != ELF_K_ELF) not_elf();
+        GElf_Ehdr header;
+        if (!gelf_getehdr(elf_, &header)) damaged("its ELF header cannot be read");
+        return header;
+    }
+    [[noreturn]] void fail(Reason reason, const std::string& why) const {
+        throw Error(reason, "library " + file_.string() + " " + why);
+    }
+    [[noreturn]] void damaged(const std::string& what) const {
+        fail(Reason::damaged, "is damaged: " + what + "; build or copy it again");
+    }
+
+  private:
+    // The destructor does not run when the constructor throws.
+    [[noreturn]] void give_up(Reason reason, const std::string& why) const {
+        close(fd_);
+        fail(reason, why);
+    }
+    [[noreturn]] void not_elf() const {
+        char start[2] = {};
+        if (pread(fd_, start, 2, 0) == 2 && start[0] == 'M' && start[1] == 'Z')
+            fail(Reason::not_a_library,
+                 "is for Windows; build the component from its source: tandem opros build");
+        fail(Reason::not_a_library, "is not a shared library (no ELF file)");
+    }
+
+    std::filesystem::path file_;
+    int fd_ = -1;
+    std::uint64_t size_ = 0;
+    Elf* elf_ = nullptr;
+};
+
+std::string machine_name(unsigned machine) {
+    switch (machine) {
+    case EM_386:
+        return "32-bit x86";
+    case EM_X86_64:
+        return "x86-64";
+    case EM_ARM:
+        return "32-bit ARM";
+    case EM_AARCH64:
+        return "64-bit ARM";
+    case EM_RISCV:
+        return "RISC-V";
+    default:
+        return "machine " + std::to_string(machine);
+    }
+}
+
+void check_machine(const ElfFile& elf, const GElf_Ehdr& header) {
+    const ElfFile own("/proc/self/exe");
+    const GElf_Ehdr ours = own.header();
+    const bool same = header.e_machine == ours.e_machine &&
+                      header.e_ident[EI_CLASS] == ours.e_ident[EI_CLASS] &&
+                      header.e_ident[EI_DATA] == ours.e_ident[EI_DATA];
+    if (!same)
+        elf.fail(Reason::wrong_architecture, "is for " + machine_name(header.e_machine) +
+                                                 ", this machine is " + machine_name(ours.e_machine) +
+                                                 "; build it here");
+}
+
+void check_type(const ElfFile& elf, const GElf_Ehdr& header) {
+    if (header.e_type == ET_DYN) return;
+    const char* what = header.e_type == ET_REL    ? "an object file"
+                       : header.e_type == ET_EXEC ? "a program"
+                                                  : "no library";
+    elf.fail(Reason::not_a_library,
+             std::string("is ") + what + ", expected a shared library (link it with -shared)");
+}
+
+// What the dynamic linker maps must be in the file.
+void check_segments(const ElfFile& elf) {
+    std::size_t count = 0;
+    if (elf_getphdrnum(elf.get(), &count) != 0) elf.damaged("its program headers cannot be read");
+    for (std::size_t i = 0; i < count; ++i) {
+        GElf_Phdr segment;
+        if (!gelf_getphdr(elf.get(), static_cast<int>(i), &segment))
+            elf.damaged("program header " + std::to_string(i) + " is not in the file");
+        if (segment.p_type == PT_LOAD && !elf.holds(segment.p_offset, segment.p_filesz))
+            elf.damaged("it ends at byte " + std::to_string(elf.size()) + ", before the " +
+                        std::to_string(segment.p_filesz) + " bytes at " + std::to_string(segment.p_offset) +
+                        " that are to be mapped");
+    }
+}
+
+void read_table(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header, DynamicSymbols& symbols) {
+    Elf_Data* data = elf_getdata(section, nullptr);
+    if (!data || header.sh_entsize == 0) elf.damaged("its dynamic symbols cannot be read");
+    const auto count = header.sh_size / header.sh_entsize;
+    for (std::size_t i = 1; i < count; ++i) { // the first one is nothing by definition
+        GElf_Sym symbol;
+        if (!gelf_getsym(data, static_cast<int>(i), &symbol)) elf.damaged("it lacks dynamic symbols");
+        const char* name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
+        if (!name) elf.damaged("a dynamic symbol's name is not in the file");
+        const bool local = GELF_ST_BIND(symbol.st_info) == STB_LOCAL;
+        if (!local && *name)
+            (symbol.st_shndx == SHN_UNDEF ? symbols.undefined : symbols.defined).insert(name);
+    }
+}
+
+} // namespace
+
+DynamicSymbols read_dynamic_symbols(const std::filesystem::path& library) {
+    const ElfFile elf(library);
+    const GElf_Ehdr header = elf.header();
+    check_machine(elf, header);
+    check_type(elf, header);
+    check_segments(elf);
+    if (header.e_shoff == 0)
+        elf.fail(Reason::damaged,
+                 "has no section headers, so that it cannot be looked at without running it; link it again");
+    DynamicSymbols symbols;
+    bool found = false;
+    for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section));) {
+        GElf_Shdr section_header;
+        if (!gelf_getshdr(section, &section_header)) elf.damaged("a section header is not in the file");
+        if (section_header.sh_type != SHT_DYNSYM) continue;
+        found = true;
+        read_table(elf, section, section_header, symbols);
+    }
+    if (!found) elf.damaged("it has no dynamic symbols, its end may be missing");
+    return symbols;
+}
+
+} // namespace tandem::plugin

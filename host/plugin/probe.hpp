@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// A library is tried in a child process first: whatever it does there, this process lives on and can say why
+// it was not loaded.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tandem::plugin {
+
+struct Probe {
+    /// Program whose main() hands over to a ProbedSide (probed_side.hpp): as a rule this program itself.
+    std::filesystem::path program = "/proc/self/exe";
+    std::chrono::milliseconds bound{10'000};
+};
+
+/// Tries the library with what the program does when it is probed; `task` and the arguments are told to it.
+/// What it has reported. Throws Error failed_probe: crash, hang, exit, exception, each in one line with the
+/// function in which it happened. [any-thread]
+std::string probe(const Probe& how, const std::string& task, const std::filesystem::path& library,
+                  const std::vector<std::string>& arguments = {});
+
+} // namespace tandem::plugin

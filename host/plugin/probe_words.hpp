@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words between the two sides of a probe: lines on report_descriptor, the result last.
+#pragma once
+
+namespace tandem::plugin {
+
+constexpr char probe_argument[] = "--probe-in-child"; ///< first argument; then task, library, arguments
+constexpr char stage_word[] = "stage ";
+constexpr char failed_word[] = "failed ";
+constexpr char result_word[] = "result "; ///< number of bytes, newline, that many bytes
+constexpr char done_word[] = "done\n";    ///< last; without it the process has ended half-way
+
+} // namespace tandem::plugin

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/plugin/probed_side.hpp"
+
+#include "host/plugin/bounded_child.hpp"
+#include "host/plugin/probe_words.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <string_view>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace tandem::plugin {
+namespace {
+
+// Without buffer: the next thing the process does may be its last.
+void tell(std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t sent = write(report_descriptor, text.data(), text.size());
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent <= 0) _exit(1); // nobody listens any more
+        text.remove_prefix(static_cast<std::size_t>(sent));
+    }
+}
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+[[noreturn]] void run(const ProbeTasks& tasks, int argc, char** argv) {
+    try {
+        ProbeReport report;
+        tasks.at(argv[2])({argv[3], {argv + 4, argv + argc}}, report);
+    } catch (const std::exception& error) {
+        tell(failed_word + one_line(error.what()) + "\n");
+        _exit(1);
+    }
+    tell(done_word);
+    _exit(0); // the library is gone; what else may run at exit is the program's own
+}
+
+} // namespace
+
+void ProbeReport::stage(const std::string& function) { tell(stage_word + one_line(function) + "\n"); }
+
+void ProbeReport::result(const std::string& text) {
+    tell(result_word + std::to_string(text.size()) + "\n" + text);
+}
+
+void serve_probe(int argc, char** argv, const ProbeTasks& tasks) {
+    if (argc < 4 || std::strcmp(argv[1], probe_argument) != 0) return;
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // the thread that waits for us
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_CORE, &none); // a crash is an answer here
+    run(tasks, argc, argv);
+}
+
+} // namespace tandem::plugin

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/plugin/contents.hpp"
+
+#include "host/plugin/error.hpp"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <elf.h>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <sys/stat.h>
+#include <unistd.h>
+
+using tandem::plugin::Error;
+using tandem::plugin::Kind;
+using tandem::plugin::read_contents;
+using tandem::plugin::Reason;
+
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A file of these bytes, for one test.
+struct File {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("tandem_contents_" + std::to_string(getpid()) + ".so");
+    explicit File(const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+    ~File() { std::filesystem::remove(path); }
+};
+
+struct Refusal {
+    Reason reason;
+    std::string text;
+};
+
+Refusal refusal(const std::filesystem::path& file) {
+    try {
+        read_contents(file);
+    } catch (const Error& error) {
+        CHECK(std::string(error.what()).find('\n') == std::string::npos);
+        return {error.reason(), error.what()};
+    }
+    throw std::logic_error(file.string() + " was taken");
+}
+
+Refusal refusal_of_bytes(const std::string& bytes) { return refusal(File(bytes).path); }
+
+bool mapped(const std::string& file) {
+    void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_NOLOAD);
+    if (handle) dlclose(handle);
+    return handle != nullptr;
+}
+
+} // namespace
+
+TEST_CASE("a library tells its component model without being mapped") {
+    CHECK(read_contents(OPROS_PLUGIN).kind == Kind::opros_component);
+    const auto module = read_contents(RTM_PLUGIN);
+    CHECK(module.kind == Kind::rtc_module);
+    CHECK(module.entry == "HWCompInit");
+    CHECK(read_contents(ZOO "/opros/device_api.so").kind == Kind::device_api);
+    CHECK(read_contents(ZOO "/opros/no_entry.so").kind == Kind::other);
+    CHECK(read_contents(GOOD_LIBRARY).exports.count("answer") == 1);
+    CHECK_FALSE(mapped(OPROS_PLUGIN));
+    CHECK_FALSE(mapped(RTM_PLUGIN));
+}
+
+TEST_CASE("a library of the wrong model is refused with what it is and which program takes it") {
+    const auto require = [](const char* file, Kind kind) {
+        tandem::plugin::require_kind(file, read_contents(file), kind);
+    };
+    CHECK_NOTHROW(require(OPROS_PLUGIN, Kind::opros_component));
+    CHECK_THROWS_WITH(require(RTM_PLUGIN, Kind::opros_component),
+                      Catch::Contains("is an RTC module (exports HWCompInit), expected an OPRoS component") &&
+                          Catch::Contains("rtm_host runs it"));
+    CHECK_THROWS_WITH(require(OPROS_PLUGIN, Kind::rtc_module),
+                      Catch::Contains("is an OPRoS component (exports getComponent)") &&
+                          Catch::Contains("opros_host runs it"));
+    CHECK_THROWS_WITH(require(ZOO "/opros/device_api.so", Kind::opros_component),
+                      Catch::Contains("a device API"));
+    CHECK_THROWS_WITH(require(ZOO "/opros/no_entry.so", Kind::opros_component), Catch::Contains("neither"));
+}
+
+TEST_CASE("what is no library of this machine is refused with its own reason") {
+    CHECK(refusal("/nowhere/X.so").reason == Reason::not_found);
+    CHECK(refusal("/tmp").reason == Reason::not_found);
+    CHECK(refusal("/dev/zero").reason == Reason::not_found);
+    CHECK(refusal_of_bytes("").reason == Reason::damaged);
+    CHECK(refusal_of_bytes("int main() {}\n").reason == Reason::not_a_library);
+    CHECK_THAT(refusal_of_bytes("MZ and so on").text, Catch::Contains("Windows"));
+    std::string bytes = bytes_of(GOOD_LIBRARY);
+    const auto with = [&](std::size_t at, char value) {
+        std::string changed = bytes;
+        changed.at(at) = value;
+        return refusal_of_bytes(changed);
+    };
+    CHECK(with(offsetof(Elf64_Ehdr, e_type), ET_REL).reason == Reason::not_a_library);
+    CHECK(with(offsetof(Elf64_Ehdr, e_type), ET_EXEC).reason == Reason::not_a_library);
+    const auto foreign =
+        with(offsetof(Elf64_Ehdr, e_machine), static_cast<char>(EM_AARCH64 == 183 ? 183 : 0));
+    CHECK(foreign.reason == Reason::wrong_architecture);
+    CHECK_THAT(foreign.text, Catch::Contains("64-bit ARM"));
+}
+
+TEST_CASE("a named pipe in place of a library does not hold up anybody") {
+    const auto path =
+        std::filesystem::temp_directory_path() / ("tandem_pipe_" + std::to_string(getpid()) + ".so");
+    REQUIRE(mkfifo(path.c_str(), 0600) == 0);
+    CHECK(refusal(path).reason == Reason::not_found);
+    std::filesystem::remove(path);
+}
+
+TEST_CASE("a library cut off anywhere is refused as damaged or was whole enough to be mapped") {
+    const std::string bytes = bytes_of(OPROS_PLUGIN);
+    REQUIRE(bytes.size() > 4096);
+    std::size_t refused = 0;
+    const std::size_t steps = 200;
+    for (std::size_t i = 1; i < steps; ++i) {
+        const File cut(bytes.substr(0, bytes.size() * i / steps));
+        try {
+            read_contents(cut.path);
+        } catch (const Error& error) {
+            CHECK((error.reason() == Reason::damaged || error.reason() == Reason::not_a_library));
+            ++refused;
+        }
+    }
+    CHECK(refused == steps - 1); // the section headers stand at the end
+}
+
+TEST_CASE("random damage to a library ends in an answer or an Error and nothing else") {
+    const std::string bytes = bytes_of(OPROS_PLUGIN);
+    const char* stress = std::getenv("TANDEM_STRESS");
+    const int rounds = 500 * std::max(1, stress ? std::atoi(stress) : 1);
+    std::mt19937 random(4);
+    int refused = 0;
+    for (int round = 0; round < rounds; ++round) {
+        std::string damaged = bytes;
+        const std::size_t region = round % 2 ? 1024 : bytes.size(); // half of it in the headers
+        for (int i = 0; i < 8; ++i) damaged[random() % region] = static_cast<char>(random());
+        const File file(damaged);
+        try {
+            read_contents(file.path);
+        } catch (const Error&) {
+            ++refused;
+        }
+    }
+    CHECK(refused > rounds / 10);
+}

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "entry.hpp"
+ZOO_ENTRY { throw 42; }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bad plugins among good ones, in the hosts as a user starts them.
+#include "host/plugin/bounded_child.hpp"
+#include "tests/opros/folder.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <sys/wait.h>
+
+namespace {
+
+struct Run {
+    int exit_code;
+    std::string errors;
+    long lines() const { return std::count(errors.begin(), errors.end(), '\n'); }
+};
+
+// What the host says to this; should it get ready, it is ended.
+Run run(const std::string& command) {
+    const std::string ready = "case $line in ready) kill -TERM $host;; esac";
+    const auto end =
+        tandem::plugin::run_bounded({"/bin/bash", "-c",
+                                     "coproc " + command + "; host=$COPROC_PID; while read -r line; do " +
+                                         ready + "; done <&${COPROC[0]}; wait $host"},
+                                    std::chrono::seconds(100));
+    REQUIRE_FALSE(end.timed_out);
+    return {WIFEXITED(end.status) ? WEXITSTATUS(end.status) : -1, end.errors};
+}
+
+const std::vector<std::string> bad_ones{"static_constructor_crashes",
+                                        "static_constructor_hangs",
+                                        "entry_throws",
+                                        "entry_hangs",
+                                        "entry_exits",
+                                        "symbol_missing",
+                                        "no_entry",
+                                        "device_api"};
+
+} // namespace
+
+TEST_CASE("opros_host refuses a bad plugin in one line at the library's name") {
+    const std::string bad = GENERATE(from_range(bad_ones));
+    const Folder folder;
+    folder.component("Bad", ZOO "/opros/" + bad + ".so");
+    const auto result = run(std::string(OPROS_HOST) + " --probe-timeout 1 " +
+                            folder.application(Folder::sub("Bad", "Bad.xml")).string());
+    INFO(result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.lines() == 1);
+    CHECK_THAT(result.errors,
+               Catch::Contains("Bad.xml:3: library ") || Catch::Contains("Bad.xml:3: getComponent()"));
+    CHECK_THAT(result.errors, Catch::Contains(bad));
+}
+
+TEST_CASE("rtm_host refuses a bad module in one line that names it") {
+    const std::string bad = GENERATE(
+        from_range(bad_ones), values<std::string>({"rtc_constructor_throws", "rtc_destructor_crashes"}));
+    const Folder folder;
+    const auto conf = folder.write("rtc.conf", "manager.modules.load_path: " ZOO "/rtm\n"
+                                               "manager.modules.preload: " +
+                                                   bad + ".so\n");
+    const auto result = run(std::string(RTM_HOST) + " --probe-timeout 1 -f " + conf.string());
+    INFO(result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.lines() == 1);
+    CHECK_THAT(result.errors,
+               Catch::StartsWith("rtm_host: ") && Catch::Contains("rtc.conf: manager.modules.preload: "));
+    CHECK_THAT(result.errors, Catch::Contains(bad));
+}
+
+TEST_CASE("a host takes a plugin of the wrong model for what it is") {
+    const Folder folder;
+    folder.component("Bad", RTM_PLUGIN);
+    const auto opros =
+        run(std::string(OPROS_HOST) + " " + folder.application(Folder::sub("Bad", "Bad.xml")).string());
+    CHECK_THAT(opros.errors, Catch::Contains("is an RTC module (exports HWCompInit)"));
+    const auto conf = folder.write("rtc.conf", "manager.modules.preload: " OPROS_PLUGIN "\n");
+    CHECK_THAT(run(std::string(RTM_HOST) + " -f " + conf.string()).errors,
+               Catch::Contains("is an OPRoS component (exports getComponent)"));
+}

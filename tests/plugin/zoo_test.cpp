@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each bad plugin of the zoo, tried by the program of either model: one line that says why, and the test
+// lives on.
+#include "host/plugin/error.hpp"
+#include "host/plugin/probe.hpp"
+
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct Species {
+    const char* name;
+    std::vector<std::string> reason; ///< parts of the line; INIT is the function of the model at hand
+    bool hangs = false;
+};
+
+const std::vector<Species> both_models{
+    {"static_constructor_crashes", {" in its static constructors"}},
+    {"static_constructor_aborts", {" in its static constructors", ": for this robot"}},
+    {"static_constructor_throws", {" in its static constructors", "no device"}},
+    {"static_constructor_hangs", {"did not return from its static constructors within 1 s"}, true},
+    {"static_constructor_exits", {"ended the process in its static constructors with exit code 0"}},
+    {"entry_throws", {"INIT", " threw an exception: no camera at port 3"}},
+    {"entry_throws_a_number", {"INIT", " threw an exception of unknown type"}},
+    {"entry_throws_its_own_type", {"INIT", " threw an exception: the arm is missing"}},
+    {"entry_hangs", {"did not return from INIT within 1 s"}, true},
+    {"entry_hangs_with_a_child", {"did not return from INIT within 1 s"}, true},
+    {"entry_crashes", {" in INIT"}},
+    {"entry_aborts", {" in INIT", "calibrated"}},
+    {"entry_overflows_the_stack", {" in INIT"}},
+    {"entry_exits", {"ended the process in INIT with exit code 3: usage: component DEVICE"}},
+    {"entry_is_no_function", {" in INIT"}},
+    {"symbol_missing", {"cannot be loaded", "nobody_defines_this"}},
+    {"library_missing", {"cannot be loaded", "libzoo_another_library.so"}},
+};
+const std::vector<Species> opros_only{
+    {"getcomponent_returns_null", {"getComponent()", "returned NULL"}},
+    {"destructor_crashes", {" in releaseComponent()"}},
+    {"static_destructor_crashes", {" in its static destructors"}},
+    {"no_entry", {"does not export getComponent"}},
+};
+const std::vector<Species> rtm_only{
+    {"rtc_constructor_throws", {"component type Thrower cannot be created: no gripper"}},
+    {"rtc_factory_returns_null", {"component type Nothing cannot be created", "NULL"}},
+    {"rtc_factory_hangs", {"did not return from the constructor of Waiter within 1 s"}, true},
+    {"rtc_destructor_crashes", {" in the destructor of Fragile"}},
+    {"no_entry", {"does not export no_entryInit"}},
+};
+
+std::string refusal(const Species& species, const std::string& model) {
+    const bool rtm = model == "rtm";
+    const std::string init = std::string(species.name) + "Init";
+    tandem::plugin::Probe how{rtm ? RTM_HOST : OPROS_HOST, std::chrono::seconds(species.hangs ? 1 : 60)};
+    const std::string file = ZOO "/" + model + "/" + species.name + ".so";
+    try {
+        tandem::plugin::probe(how, "load-" + model, file,
+                              rtm ? std::vector{init} : std::vector<std::string>{});
+    } catch (const tandem::plugin::Error& error) {
+        return error.what();
+    }
+    return "it was taken";
+}
+
+void check(const Species& species, const std::string& model) {
+    const std::string text = refusal(species, model);
+    INFO(text);
+    CHECK(text.find(species.name) != std::string::npos);
+    CHECK(text.find('\n') == std::string::npos);
+    CHECK(text.size() < 1000);
+    for (std::string part : species.reason) {
+        const std::string entry = model == "rtm" ? std::string(species.name) + "Init()" : "getComponent()";
+        if (const auto at = part.find("INIT"); at != std::string::npos) part.replace(at, 4, entry);
+        CHECK_THAT(text, Catch::Contains(part));
+    }
+}
+
+} // namespace
+
+TEST_CASE("a bad OPRoS component is refused in one line that says what it did and where") {
+    const auto all = GENERATE(both_models, opros_only);
+    for (const Species& species : all) check(species, "opros");
+}
+
+TEST_CASE("a bad RTC module is refused in one line that says what it did and where") {
+    const auto all = GENERATE(both_models, rtm_only);
+    for (const Species& species : all) check(species, "rtm");
+}
+
+TEST_CASE("a good plugin of either model passes its probe") {
+    CHECK_NOTHROW(tandem::plugin::probe({OPROS_HOST, std::chrono::seconds(60)}, "load-opros", OPROS_PLUGIN));
+    CHECK_NOTHROW(
+        tandem::plugin::probe({RTM_HOST, std::chrono::seconds(60)}, "load-rtm", RTM_PLUGIN, {"HWCompInit"}));
+}
