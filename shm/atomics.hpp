@@ -11,6 +11,8 @@
 
 namespace tandem::shm {
 
+class BoundedSleep; // futex.hpp
+
 struct RealAtomics {
     /// load, store, exchange, fetch_add, fetch_or, compare_exchange_strong, each with its order written out.
     template <class T>
@@ -68,6 +70,9 @@ struct RealAtomics {
     static void pause() { _mm_pause(); }
     static void yield() { sched_yield(); }
     static std::uint64_t now() { return now_ns(); }
+
+    /// Several sleeps of one wait.
+    using BoundedSleep = shm::BoundedSleep;
 
     /// Sleeps while `word` holds `expected`, until woken or now() reaches `deadline`; may return early.
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);

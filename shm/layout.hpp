@@ -79,11 +79,13 @@ enum class DoorbellOwner : std::uint32_t { listens, sleeps, looks };
 
 constexpr std::size_t doorbell_words = 7;
 
-struct alignas(line_pair) DoorbellWords {
-    Word64 ready[doorbell_words]; // bit i: something is ready at the user's port i
-    Word32 owner;                 // futex word: DoorbellOwner; in the same line
+template <class A>
+struct alignas(line_pair) BasicDoorbellWords {
+    typename A::template Atomic<std::uint64_t> ready[doorbell_words]; // bit i: something is ready at port i
+    typename A::template Atomic<std::uint32_t> owner; // futex word: DoorbellOwner; in the same line
     std::byte unused[68];
 };
+using DoorbellWords = BasicDoorbellWords<RealAtomics>;
 
 enum class ObjectKind : std::uint32_t { ring = 1, call_queue = 2, blob = 3 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The policy `A` of shm/atomics.hpp, for code that shall run in the model.
 #pragma once
+#include "shm/clock.hpp"
 #include "tests/shm/model/execution.hpp"
 
 #include <cstring>
@@ -133,6 +134,21 @@ struct ModelAtomics {
     static void pause(const Site& at = Site::current()) { Execution::current().pause(at); }
     static void yield(const Site& at = Site::current()) { Execution::current().pause(at); }
     static std::uint64_t now() { return Execution::current().now(); }
+
+    /// A bound of longest_wait does not come, so that a wake-up which is lost is a failure.
+    class BoundedSleep {
+      public:
+        explicit BoundedSleep(std::chrono::nanoseconds bound)
+            : deadline_(bound >= longest_wait ? Execution::never : now() + bounded_ns(bound)) {}
+        bool on(Atomic<std::uint32_t>& word, std::uint32_t expected, const Site& at = Site::current()) {
+            if (now() >= deadline_) return false;
+            futex_wait(word, expected, deadline_, at);
+            return true;
+        }
+
+      private:
+        std::uint64_t deadline_;
+    };
 
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline,
                            const Site& at = Site::current()) {
