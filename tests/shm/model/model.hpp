@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A model checker for the lock-free code of shm/. The ring and the call queue are templates over the struct
-// that touches shared memory (shm/atomics.hpp). Here they are instantiated with ModelAtomics, so that the
+// A model checker for the lock-free code of shm/. The ring, the call queue and the doorbell are templates over the
+// struct that touches shared memory (shm/atomics.hpp). Here they are instantiated with ModelAtomics, so that the
 // very lines that ship run as threads of a *scenario* on one OS thread: every access is a step of the
 // checker's scheduler, and what a load returns is the checker's choice among all that the C++ memory model
 // allows. explore() runs every execution of a scenario, or many random ones from a seed; a failure comes with
@@ -12,7 +12,7 @@
 //   search         reduction   what a search may leave out model_atomics   the policy for the code under test
 //
 //   case, explore_cases   scenarios with a name       mutants, mutation_check   all damage, one at a time
-//   ring_world, call_world   what scenarios of the ring and the call queue share
+//   ring_world, call_world, doorbell_world   what scenarios of each share
 //
 // The rules
 // - Each word has a modification order, which is the order in which its stores are executed. A load reads any
