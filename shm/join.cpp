@@ -37,6 +37,7 @@ class Joining {
         arena_bytes_[0] = arena_bytes_[1] = pages(std::max<std::uint64_t>(options_.arena_bytes, 1));
         at_once_ = layout::arenas_begin + arena_bytes_[0] + arena_bytes_[1];
         arena_bytes_[index_of(side_)] += pages(options_.loan_bytes);
+        arena_bytes_[index_of(other(side_))] += pages(options_.peer_loan_bytes);
         if (living != 0) {
             bool usable = true;
             auto joined = attach(segment_path(link_, living), usable);

@@ -68,6 +68,7 @@ class RingWriter {
         return producer_.write(bytes.data(), bytes.size(), stamp_ns, tag);
     }
 
+    std::size_t in_ring() const { return ring_.view.max_record; } ///< payload that needs no chunk, bytes
     std::size_t longest() const { return producer_.longest(); } ///< payload that ever fits, bytes
     bool corrupt() const {
         return producer_.corrupt();

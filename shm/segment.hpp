@@ -13,6 +13,7 @@ struct JoinOptions {
     std::size_t arena_bytes = std::size_t{4}
                               << 20; ///< wanted at least for my half (and for the peer's, if I create)
     std::size_t loan_bytes = 0;      ///< wanted beside it in my half, for the chunks of rings
+    std::size_t peer_loan_bytes = 0; ///< the same in the peer's half, if I create
     /// If I create: nothing of the arenas is reserved in advance (only that there are arena_bytes for each is
     /// checked), but every object when it is added, and of chunks what is used, when it is first used.
     bool sparse = false;
@@ -45,6 +46,7 @@ class Segment {
 
     /// [any-thread] One system call: cheap enough for every 5 ms, not for every message.
     PeerState peer() const { return mapping_->peer(); }
+    std::size_t arena_bytes(Side half) const { return mapping_->arena(half).size(); }
     std::uint32_t peer_pid() const; ///< As the peer wrote it: for messages to people only.
     void heartbeat();               ///< [any-thread] I am well. Call it more often than late_after.
 

@@ -46,6 +46,7 @@ ReturnType AdaptorComp::onInitialize() {
         settings_ = read_settings(getPropertyMap());
         link::LinkOptions options;
         options.name = settings_.link;
+        options.rings.large_bytes = settings_.large_bytes;
         options.segment_bytes = settings_.segment_bytes;
         options.wait = link::wait_options();
         link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},

@@ -61,7 +61,10 @@ void InterceptorComp::share_rtc() {
     const auto ports = survey(*rtc);
     link::PortTable table{settings_.rtc, {}};
     for (const auto& port : ports) table.ports.push_back(port.entry);
-    link::LinkOptions options{settings_.link, settings_.ring_bytes, settings_.segment_bytes};
+    link::LinkOptions options;
+    options.name = settings_.link;
+    options.rings = {settings_.ring_bytes, settings_.large_bytes};
+    options.segment_bytes = settings_.segment_bytes;
     options.wait = link::wait_options();
     link_ = std::make_unique<link::Link>(shm::Side::second, options, table, static_cast<LinkHandler&>(*this));
     driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,

@@ -14,6 +14,7 @@ struct Settings {
     std::string rtc;                               ///< `rtc`: instance name of the RTC whose ports are shared
     std::chrono::milliseconds call_timeout{1'000}; ///< `call_timeout` [ms]: of each call across the link
     std::size_t ring_bytes = 256 * 1024;           ///< `ring_kib`: of each data port
+    std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port, see README
     std::size_t segment_bytes = 4 * 1024 * 1024;   ///< `segment_mib`: that each half may lay out
 };
 

@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel.hpp"
 
+#include "shm/segment_file.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
 namespace tandem::link {
 
-void ChannelWriter::commit(std::size_t bytes, std::uint64_t stamp) {
-    if (bytes > room_) room_ = bytes;
-    bound_->end.commit(bytes, stamp, 0);
+/// Says why, for the ring has only counted it. A ring that drops the oldest has room for all but what is too
+/// long for it, and chunks for which /dev/shm has no memory.
+bool ChannelWriter::refused(std::size_t bytes) {
+    const std::size_t limit = bound_->end.longest();
+    if (bytes > limit) {
+        if (limit != std::exchange(told_limit_, limit))
+            spdlog::error(
+                "port '{}': a message of {} bytes is longer than {} and is dropped, as all such will be; "
+                "raise large_kib to {} or more",
+                port_, bytes, limit, (bytes + 1023) / 1024);
+    } else if (!bound_->end.corrupt() && no_memory_.now()) {
+        spdlog::error(
+            "port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} bytes "
+            "are available: free some or enlarge it",
+            port_, bytes, shm::shm_directory, no_memory_.count(), shm::available_bytes().value_or(0));
+    }
+    return false;
 }
 
 bool ChannelWriter::bound() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/link/rare.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "shm/segment.hpp"
 
@@ -8,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 namespace tandem::link {
 
@@ -22,22 +24,37 @@ struct Bound {
 /// get. The mutex is this process's own and is held by others only while the link is bound or unbound.
 class ChannelWriter {
   public:
-    /// Calls encode(CdrWriter&), twice if the message outgrew its room, and publishes what it wrote.
-    /// False: no partner, or the ring refused the message. [any-thread]
+    explicit ChannelWriter(std::string port) : port_(std::move(port)) {}
+
+    /// Publishes what encode(CdrWriter&) writes: where the partner will read it, if it is too long for the
+    /// ring itself. Then encode is called twice, the first time only to learn the length. `stamp` is read
+    /// afterwards: encode may set it. False: no partner, or the ring refused the message. [any-thread]
     template <class Encode>
-    bool write(std::uint64_t stamp, Encode&& encode) {
+    bool write(const std::uint64_t& stamp, Encode&& encode) {
         const std::lock_guard lock(mutex_);
         if (!bound_) return ++unlinked_, false;
+        std::size_t bytes = bound_->end.in_ring();
         for (int attempt = 0; attempt < 2; ++attempt) {
-            const auto room = bound_->end.reserve(room_);
-            if (room.data() == nullptr) return false;
+            const auto room = bound_->end.reserve(bytes);
+            if (room.data() == nullptr) return refused(bytes);
             wire::CdrWriter writer(room);
             encode(writer);
-            if (writer.fits()) return commit(writer.size(), stamp), !bound_->end.corrupt();
+            if (writer.fits()) return bound_->end.commit(writer.size(), stamp, 0);
             bound_->end.abandon();
-            room_ = writer.size();
+            bytes = writer.size();
         }
         return false;
+    }
+
+    /// The same for a message of known length: fill(std::span<std::byte>) writes all of it.
+    template <class Fill>
+    bool write_exactly(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
+        const std::lock_guard lock(mutex_);
+        if (!bound_) return ++unlinked_, false;
+        const auto room = bound_->end.reserve(bytes);
+        if (room.data() == nullptr) return refused(bytes);
+        fill(room);
+        return bound_->end.commit(bytes, stamp, 0);
     }
 
     bool bound() const;
@@ -50,12 +67,14 @@ class ChannelWriter {
     void unbind();
 
   private:
-    void commit(std::size_t bytes, std::uint64_t stamp);
+    bool refused(std::size_t bytes);
 
     mutable std::mutex mutex_;
     std::optional<Bound<shm::RingWriter>> bound_;
-    std::size_t room_ = 64; ///< as large as the largest message so far
+    const std::string port_;
     std::uint64_t unlinked_ = 0;
+    std::size_t told_limit_ = 0; ///< that a message was longer than has been said
+    Rare no_memory_;
 };
 
 /// Receiving end. What is read lies in the shared ring itself: no thread hands it over.

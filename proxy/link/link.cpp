@@ -15,12 +15,11 @@ namespace {
 using namespace std::chrono_literals;
 
 // Part of what both halves must agree on; raise it when the table, the requests or the records change.
-constexpr std::uint64_t contract = 0x7461'6e64'656d'0001; // "tandem", 1
+constexpr std::uint64_t contract = 0x7461'6e64'656d'0002; // "tandem", 2
 
 constexpr auto watch_up = 10ms; // also the beat of the heart
 constexpr auto watch_down =
     3ms; // a partner that comes is noticed by the watcher; this is for what it cannot see
-constexpr std::size_t ring_overhead = 128; // of the longest record, of which two fit
 constexpr auto retry_side = 1ms;
 constexpr auto retry_join = 10ms;
 
@@ -30,7 +29,7 @@ bool is_data(PortKind kind) { return kind == PortKind::data_out || kind == PortK
 
 Link::Link(shm::Side side, LinkOptions options, PortTable own, LinkHandler& handler)
     : side_(side), options_(std::move(options)), own_(std::move(own)), handler_(handler),
-      watcher_(options_.name) {}
+      watcher_(options_.name), large_bytes_(options_.rings.large_bytes) {}
 
 Link::~Link() { close(); }
 
@@ -74,7 +73,7 @@ std::shared_ptr<Session> Link::session() const {
 
 ChannelWriter& Link::writer(const std::string& port) {
     const std::lock_guard lock(mutex_);
-    return writers_[port];
+    return writers_.try_emplace(port, port).first->second;
 }
 
 ChannelReader& Link::reader(const std::string& port) {
@@ -85,25 +84,26 @@ ChannelReader& Link::reader(const std::string& port) {
 // ---- the link thread: joins, watches, brings up and takes down
 
 std::shared_ptr<Session> Link::join() const {
+    RingSizes sizes = options_.rings;
+    sizes.large_bytes = large_bytes_;
+    const PortRings plan = plan_rings(own_, side_, sizes);
+    check_room(plan, sizes);
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
+    join_options.loan_bytes = plan.loan_bytes;
+    join_options.peer_loan_bytes = peer_loan_bytes_;
+    join_options.sparse = true; // most ports whose messages may be long never send one that is
     join_options.contract = contract;
     std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
     const auto peer = shm::other(side_);
-    for (const Port& port : own_.ports) {
-        if (!is_data(port.kind)) continue;
-        shm::RingOptions ring;
-        ring.writer = port.kind == PortKind::data_out ? side_ : peer;
-        ring.capacity = options_.ring_bytes;
-        ring.max_record = options_.ring_bytes / 2 - ring_overhead;
-        ring.policy = shm::RingPolicy::drop_oldest;
-        segment->add_ring(ring_name(port.name), ring);
-    }
+    for (const auto& ring : plan.rings) segment->add_ring(ring_name(ring.port), ring.options);
     shm::CallQueueOptions queue;
     queue.callers = peer;
     const auto calls = segment->add_call_queue(calls_name, queue);
     const auto table = encode(own_);
     std::memcpy(segment->add_blob(table_name, table.size()).data(), table.data(), table.size());
+    const std::uint64_t wish = options_.rings.large_bytes;
+    std::memcpy(segment->add_blob(wish_name, sizeof wish).data(), &wish, sizeof wish);
     segment->publish();
     return std::make_shared<Session>(segment, calls, options_.wait);
 }
@@ -165,9 +165,21 @@ void Link::wait_to_rejoin(std::chrono::milliseconds bound, const std::string& wh
     changed_.wait_for(lock, bound, [this] { return stopping_.load(); });
 }
 
+/// Whether the partner asks for longer messages than this half has laid out chunks for.
+bool Link::outgrown(const Session& session) {
+    const auto wish = session.segment->copy_blob(shm::other(side_), wish_name);
+    if (!wish) return false;
+    const auto bytes = wire::CdrReader(*wish).get<std::uint64_t>();
+    if (bytes <= large_bytes_ || bytes > most_large) return false;
+    large_bytes_ = bytes;
+    return std::any_of(own_.ports.begin(), own_.ports.end(),
+                       [](const Port& port) { return is_data(port.kind); });
+}
+
 void Link::try_bring_up(const std::shared_ptr<Session>& session) {
     const auto peer = shm::other(side_);
     std::string refusal;
+    if (outgrown(*session)) return take_down(""); // and join anew, with chunks of that length
     try {
         const auto bytes = session->segment->copy_blob(peer, table_name);
         const auto calls = session->segment->find_call_queue(peer, calls_name);
@@ -185,6 +197,8 @@ void Link::try_bring_up(const std::shared_ptr<Session>& session) {
     }
     session->refused = !refusal.empty();
     if (!session->refused) {
+        const auto theirs = session->segment->arena_bytes(peer);
+        peer_loan_bytes_ = theirs - std::min(theirs, options_.segment_bytes);
         up_.store(true, std::memory_order_release);
         handler_.link_changed(true);
         post([this] { handler_.partner_came(); });
@@ -210,8 +224,8 @@ void Link::bind(Session& session, const PortTable& table, bool own) {
 }
 
 void Link::take_down(const std::string& why) {
-    if (!why.empty()) spdlog::warn("link '{}' is down: {}", options_.name, why);
     const bool was_up = up_.exchange(false);
+    if (was_up && !why.empty()) spdlog::warn("link '{}' is down: {}", options_.name, why);
     {
         const std::lock_guard lock(mutex_);
         for (auto& [name, writer] : writers_) writer.unbind();

@@ -4,6 +4,7 @@
 #include "proxy/link/channel.hpp"
 #include "proxy/link/error.hpp"
 #include "proxy/link/handler.hpp"
+#include "proxy/link/port_rings.hpp"
 #include "proxy/link/port_table.hpp"
 #include "proxy/link/request.hpp"
 
@@ -27,11 +28,12 @@ namespace tandem::link {
 struct Session;
 
 struct LinkOptions {
-    std::string name;                            ///< both halves give the same
-    std::size_t ring_bytes = 256 * 1024;         ///< of each data port
-    std::size_t segment_bytes = 4 * 1024 * 1024; ///< that each half may lay out
-    unsigned max_workers = 8;                    ///< calls of the partner that may run at once
-    shm::WaitOptions wait{};                       ///< of calls, theirs and ours
+    std::string name;  ///< both halves give the same
+    RingSizes rings{}; ///< of the data ports; of two large_bytes the larger counts
+    std::size_t segment_bytes =
+        4 * 1024 * 1024;      ///< that each half may lay out, beside the chunks of its rings
+    unsigned max_workers = 8; ///< calls of the partner that may run at once
+    shm::WaitOptions wait{};  ///< of calls, theirs and ours
 };
 
 /// One half of a link: shares its port table with the partner, moves data and calls, and survives the
@@ -72,6 +74,7 @@ class Link {
     void wait_to_rejoin(std::chrono::milliseconds bound, const std::string& why);
     std::string why_over(const Session&);
     bool damaged();
+    bool outgrown(const Session&);
     void try_bring_up(const std::shared_ptr<Session>&);
     void bind(Session&, const PortTable&, bool own);
     void take_down(const std::string& why);
@@ -100,7 +103,9 @@ class Link {
     std::thread link_thread_, task_thread_;
     std::vector<std::thread> workers_;
     unsigned idle_workers_ = 0;
-    unsigned refused_joins_ = 0; // [link-thread]
+    unsigned refused_joins_ = 0;      // [link-thread]
+    std::size_t large_bytes_;         // [link-thread] asked for by either half so far
+    std::size_t peer_loan_bytes_ = 0; // [link-thread] of the last partner, so that the next one finds them
 };
 
 } // namespace tandem::link

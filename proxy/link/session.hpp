@@ -27,6 +27,7 @@ struct Session {
 /// Names of a half's objects in the segment.
 inline const std::string table_name = "table";
 inline const std::string calls_name = "calls";
+inline const std::string wish_name = "large"; ///< bytes that its longest messages take, 0: as it comes
 inline std::string ring_name(const std::string& port) { return "port " + port; }
 
 } // namespace tandem::link

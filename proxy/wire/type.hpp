@@ -53,4 +53,8 @@ std::string to_signature(const Type& message);
 /// Bytes of a primitive in CDR, which is also its alignment; 0 for everything else.
 std::size_t primitive_size(Kind kind);
 
+/// Bytes that a value takes at most, padding included (rather too many than too few); infinity when the type
+/// sets no bound.
+double most_bytes(const Type& type);
+
 } // namespace tandem::wire

@@ -1,97 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both halves of a link in one process, and the partner as a process that is killed.
-#include "proxy/link/link.hpp"
-
-#include <catch2/catch.hpp>
-
-#include <fmt/format.h>
+#include "halves.hpp"
 
 #include <csignal>
-#include <filesystem>
-#include <functional>
 #include <sys/wait.h>
-#include <unistd.h>
 
 using namespace tandem;
 using namespace tandem::link;
-using namespace std::chrono_literals;
-
-namespace {
-
-/// Bounds that only a broken link reaches.
-constexpr auto soon = 10s;
-
-bool eventually(const std::function<bool()>& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + soon;
-    while (std::chrono::steady_clock::now() < deadline) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(1ms);
-    }
-    return false;
-}
-
-std::string unique_name(const std::string& what) { return fmt::format("test-{}-{}", what, getpid()); }
-
-std::size_t segments_of(const std::string& link) {
-    std::size_t count = 0;
-    for (const auto& file : std::filesystem::directory_iterator("/dev/shm"))
-        if (file.path().filename().string().find(link) != std::string::npos) ++count;
-    return count;
-}
-
-PortTable joystick_table() {
-    return {"Joystick0",
-            {{PortKind::data_out, "reference", "T", "ad", "", {}},
-             {PortKind::data_in, "position", "T", "ad", "", {}}}};
-}
-
-struct Half : LinkHandler {
-    Half(shm::Side side, const std::string& name, PortTable table)
-        : link(side, LinkOptions{name}, std::move(table), *this) {}
-    ~Half() override { link.close(); }
-
-    std::string accept(const PortTable& partner) override {
-        table = partner;
-        return refusal;
-    }
-    void link_changed(bool up) override { ++(up ? ups : downs); }
-    void partner_came() override { ++came; }
-    void partner_went() override { ++went; }
-    Answer serve(const Request& request) override { return on_call(request); }
-
-    PortTable table;
-    std::string refusal;
-    std::function<Answer(const Request&)> on_call = [](const Request& request) {
-        return Answer{CallStatus::ok, {request.arguments.begin(), request.arguments.end()}};
-    };
-    std::atomic<int> ups{0}, downs{0}, came{0}, went{0};
-    Link link;
-};
-
-std::unique_ptr<Half> adaptor(const std::string& name) {
-    return std::make_unique<Half>(shm::Side::first, name, PortTable{});
-}
-std::unique_ptr<Half> interceptor(const std::string& name) {
-    return std::make_unique<Half>(shm::Side::second, name, joystick_table());
-}
-
-bool send(ChannelWriter& writer, double value) {
-    return writer.write(7, [&](wire::CdrWriter& out) { out.put(value); });
-}
-std::optional<double> receive(ChannelReader& reader) {
-    std::optional<double> value;
-    reader.read(false,
-                [&](const shm::Record& record) { value = wire::CdrReader(record.bytes).get<double>(); });
-    return value;
-}
-
-std::vector<std::byte> bytes_of(std::string_view text) {
-    const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-    return {begin, begin + text.size()};
-}
-
-} // namespace
-
+using namespace tandem::link::test;
 TEST_CASE("data flow both ways whichever half opens first, and nothing is left behind") {
     const auto name = unique_name("flow");
     const bool adaptor_first = GENERATE(true, false);
@@ -204,7 +120,8 @@ TEST_CASE("a segment that is truncated while in use takes the link down and a ne
         a->link.wait_up(soon, "partner");
         b->link.wait_up(soon, "partner");
         REQUIRE(send(b->link.writer("reference"), 1));
-        REQUIRE(truncate(fmt::format("/dev/shm/tandem.{}.1", name).c_str(), bytes) == 0);
+        const auto generations = shm::list_generations(name);
+        REQUIRE(truncate(shm::segment_path(name, generations.at(0)).c_str(), bytes) == 0);
         // Every page is touched before the link looks, as a component in the middle of its tick would.
         send(b->link.writer("reference"), 2);
         receive(a->link.reader("reference"));

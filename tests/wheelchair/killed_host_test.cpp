@@ -15,6 +15,7 @@
 #include "plugins/wheelchair/core/records.hpp"
 #include "program.hpp"
 #include "scratch_dir.hpp"
+#include "shm/segment_file.hpp"
 
 using namespace tandem::wheelchair;
 using namespace std::chrono_literals;
@@ -44,7 +45,10 @@ class MixedRun {
 
     void truncate_when_driving() {
         wait_until_driving();
-        REQUIRE(truncate(("/dev/shm/tandem." + link() + ".1").c_str(), 4096) == 0);
+        const auto generations = tandem::shm::list_generations(link());
+        REQUIRE(generations.size() == 1);
+        truncated_ = tandem::shm::segment_path(link(), generations[0]);
+        REQUIRE(truncate(truncated_.c_str(), 4096) == 0);
     }
 
     nlohmann::json result() {
@@ -56,6 +60,7 @@ class MixedRun {
     }
 
     std::string link() const { return "wheelchair-" + std::to_string(process_->pid()); }
+    const std::string& truncated() const { return truncated_; }
     int exit_code = -1;
     std::string errors;
 
@@ -83,6 +88,7 @@ class MixedRun {
     ScratchDir dir_;
     Fd output_, errors_;
     std::optional<ChildProcess> process_;
+    std::string truncated_;
 };
 
 bool left_in_shared_memory(const std::string& link) {
@@ -156,7 +162,7 @@ TEST_CASE("when the segment is truncated the motors stop until the hosts have jo
     CHECK(result["complete"] == true);
     for (const auto* host : {"opros_host", "rtm_host"}) {
         INFO(run.host_log(host));
-        CHECK_THAT(run.host_log(host), Catch::Contains(run.link() + ".1 was truncated by another process"));
+        CHECK_THAT(run.host_log(host), Catch::Contains(run.truncated() + " was truncated by another process"));
     }
     const auto hw = run.hw();
     const auto down = [](const HWRecord& r) { return r.voltage_sequence > 0 && r.link_up == 0.0; };

@@ -50,6 +50,15 @@ TEST_CASE("a message is timed when more than the time is in it") {
     CHECK_FALSE(is_timed("ad"));
 }
 
+TEST_CASE("what a message takes at most is known unless its type sets no bound") {
+    const auto most = [](const char* signature) { return most_bytes(parse_signature(signature)); };
+    CHECK(most("(uu)d") >= 16);
+    CHECK(most("(uu)d") < 64);
+    CHECK(most("(uu)[1000]d") >= 8008);
+    CHECK(most("[16777216][16777216][16777216]y") > 1e21);
+    for (const char* unbounded : {"ad", "(uu)s", "[3](di(aq))", "w"}) CHECK(std::isinf(most(unbounded)));
+}
+
 TEST_CASE("an operation is arguments, colon, result") {
     CHECK(parse_operation("ss:d") == Operation{"ss", "d"});
     CHECK(parse_operation(":ad") == Operation{"", "ad"});

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/port_rings.hpp"
+
+#include "proxy/wire/type.hpp"
+#include "shm/error.hpp"
+#include "shm/segment_file.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::link {
+namespace {
+
+constexpr std::size_t ring_overhead = 128; // of the longest record, of which two fit
+constexpr std::uint32_t chunks = 4;        // the reader holds one, the writer fills one, two wait
+
+std::size_t large_of(const RingSizes& sizes) {
+    return sizes.large_bytes != 0 ? sizes.large_bytes : default_large;
+}
+
+} // namespace
+
+PortRings plan_rings(const PortTable& table, shm::Side own, const RingSizes& sizes) {
+    PortRings plan;
+    for (const Port& port : table.ports) {
+        if (port.kind != PortKind::data_out && port.kind != PortKind::data_in) continue;
+        shm::RingOptions ring;
+        ring.writer = port.kind == PortKind::data_out ? own : shm::other(own);
+        ring.capacity = sizes.ring_bytes;
+        ring.max_record = sizes.ring_bytes / 2 - ring_overhead;
+        ring.policy = shm::RingPolicy::drop_oldest;
+        const bool may_be_long =
+            wire::most_bytes(wire::parse_signature(port.signature)) > static_cast<double>(ring.max_record);
+        if (may_be_long && large_of(sizes) > ring.max_record) {
+            ring.chunk_bytes = large_of(sizes);
+            ring.chunks = chunks;
+        }
+        const auto memory = shm::ring_memory(port.name, ring);
+        plan.loan_bytes += memory.all - memory.at_once;
+        plan.rings.push_back({port.name, ring});
+    }
+    return plan;
+}
+
+void check_room(const PortRings& plan, const RingSizes& sizes) {
+    const std::size_t needed = chunks * sizes.large_bytes;
+    const auto available = shm::available_bytes();
+    if (plan.loan_bytes == 0 || !available || *available >= needed) return;
+    throw shm::Error(
+        fmt::format("{}: {} bytes needed for {} messages of large_kib = {}, {} available; enlarge it, "
+                    "free some, or lower large_kib",
+                    shm::shm_directory, needed, chunks, sizes.large_bytes / 1024, *available));
+}
+
+} // namespace tandem::link

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// Messages of megabytes across a link: by loan, both ways, and what happens to those that do not fit.
+#include "halves.hpp"
+
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+
+#include <numeric>
+#include <sstream>
+
+using namespace tandem;
+using namespace tandem::link;
+using namespace tandem::link::test;
+
+namespace {
+
+constexpr std::size_t mib = std::size_t{1} << 20;
+
+/// An image as it travels: its number, its size, its bytes.
+std::vector<std::byte> image(std::uint32_t number, std::size_t bytes) {
+    std::vector<std::byte> pixels(bytes);
+    for (std::size_t i = 0; i < bytes; ++i) pixels[i] = static_cast<std::byte>(number * 31 + i * 7 + i / 251);
+    return pixels;
+}
+
+bool send_image(ChannelWriter& writer, std::uint32_t number, const std::vector<std::byte>& pixels) {
+    return writer.write(number, [&](wire::CdrWriter& out) {
+        out.put(static_cast<std::uint32_t>(pixels.size()));
+        out.put_block(pixels.data(), pixels.size(), 1);
+    });
+}
+
+/// The image's number if it came whole; empty if none came.
+std::optional<std::uint64_t> receive_image(ChannelReader& reader) {
+    std::optional<std::uint64_t> number;
+    reader.read(false, [&](const shm::Record& record) {
+        wire::CdrReader in(record.bytes);
+        const auto pixels = in.get_block(in.get_count(1), 1);
+        const auto wanted = image(static_cast<std::uint32_t>(record.stamp_ns), pixels.size());
+        const bool whole = in.ok() && std::equal(pixels.begin(), pixels.end(), wanted.begin(), wanted.end());
+        number = whole ? record.stamp_ns : 0;
+    });
+    return number;
+}
+
+/// What is logged while this lives.
+class Log {
+  public:
+    Log() : before_(spdlog::default_logger()) {
+        spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+            "test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text_)));
+    }
+    ~Log() { spdlog::set_default_logger(before_); }
+    std::size_t lines_with(const std::string& text) const {
+        std::istringstream lines(text_.str());
+        std::size_t count = 0;
+        for (std::string line; std::getline(lines, line);) count += line.find(text) != std::string::npos;
+        return count;
+    }
+
+  private:
+    std::ostringstream text_;
+    std::shared_ptr<spdlog::logger> before_;
+};
+
+struct Linked {
+    explicit Linked(const std::string& what, LinkOptions first = {}, LinkOptions second = {})
+        : name(unique_name(what)) {
+        first.name = second.name = name;
+        a = std::make_unique<Half>(shm::Side::first, first, PortTable{});
+        b = std::make_unique<Half>(shm::Side::second, second, joystick_table());
+        a->link.open();
+        b->link.open();
+        a->link.wait_up(soon, "partner");
+        b->link.wait_up(soon, "partner");
+        REQUIRE(eventually([&] { return a->link.up() && b->link.up(); }));
+    }
+    std::string name;
+    std::unique_ptr<Half> a, b;
+};
+
+LinkOptions large(std::size_t bytes) {
+    LinkOptions options;
+    options.rings.large_bytes = bytes;
+    return options;
+}
+
+void check_books(const shm::RingCounters& c, std::uint64_t sent, std::uint64_t received) {
+    CHECK(c.sent == sent);
+    CHECK(c.received == received);
+    CHECK(c.sent == c.received + c.dropped() + c.waiting());
+}
+
+} // namespace
+
+TEST_CASE("images of 1 MiB and 1080p pass both ways without anybody asking for it") {
+    Linked link("image");
+    std::uint32_t number = 0;
+    for (const std::size_t bytes : {mib, 6 * mib, 1920 * 1080 * std::size_t{4}}) {
+        for (int i = 0; i < 3; ++i) {
+            const auto pixels = image(++number, bytes);
+            REQUIRE(send_image(link.b->link.writer("reference"), number, pixels));
+            REQUIRE(send_image(link.a->link.writer("position"), number, pixels));
+            CHECK(receive_image(link.a->link.reader("reference")) == number);
+            CHECK(receive_image(link.b->link.reader("position")) == number);
+        }
+    }
+    check_books(link.b->link.writer("reference").counters(), number, number);
+    check_books(link.a->link.writer("position").counters(), number, number);
+}
+
+TEST_CASE("64 MiB pass both ways whichever half asks for it") {
+    const bool adaptor_asks = GENERATE(true, false);
+    Linked link("huge", adaptor_asks ? large(65 * mib) : LinkOptions{},
+                adaptor_asks ? large(2 * mib) : large(65 * mib));
+    const auto pixels = image(9, 64 * mib);
+    REQUIRE(send_image(link.b->link.writer("reference"), 9, pixels));
+    CHECK(receive_image(link.a->link.reader("reference")) == 9);
+    REQUIRE(send_image(link.a->link.writer("position"), 9, pixels));
+    CHECK(receive_image(link.b->link.reader("position")) == 9);
+}
+
+TEST_CASE("a long message lies where the partner reads it") {
+    Linked link("place");
+    std::span<std::byte> room;
+    auto& writer = link.b->link.writer("reference");
+    REQUIRE(writer.write_exactly(mib, 5, [&](std::span<std::byte> bytes) {
+        room = bytes;
+        std::fill(room.begin(), room.end(), std::byte{'a'});
+    }));
+    link.a->link.reader("reference").read(false, [&](const shm::Record& record) {
+        CHECK(record.stamp_ns == 5);
+        REQUIRE(record.bytes.size() == mib);
+        CHECK(record.bytes[77] == std::byte{'a'});
+        room[77] = std::byte{'b'}; // this test has both ends: the same page of the same file
+        CHECK(record.bytes[77] == std::byte{'b'});
+    });
+}
+
+TEST_CASE("an image sequence that outruns its reader comes in order and the counts add up") {
+    Linked link("sequence");
+    auto& writer = link.b->link.writer("reference");
+    auto& reader = link.a->link.reader("reference");
+    constexpr std::uint32_t count = 60;
+    std::vector<std::vector<std::byte>> images;
+    for (std::uint32_t i = 1; i <= count; ++i) images.push_back(image(i, mib + i * 1000));
+    std::atomic<bool> done{false};
+    std::thread sender([&] {
+        for (std::uint32_t i = 1; i <= count; ++i) send_image(writer, i, images[i - 1]);
+        done = true;
+    });
+    std::uint64_t received = 0, last = 0;
+    bool in_order = true;
+    while (last != count) {
+        const auto number = receive_image(reader);
+        if (!number && done && reader.empty()) break;
+        if (!number) continue;
+        in_order = in_order && *number > last; // 0: not whole
+        last = *number;
+        ++received;
+    }
+    sender.join();
+    CHECK(in_order);
+    CHECK(last == count);
+    const auto c = writer.counters();
+    CHECK(c.sent == count);
+    CHECK(c.received == received);
+    CHECK(c.sent == c.received + c.dropped());
+}
+
+TEST_CASE("a message that is too long is refused and counted and logged once and later ones pass") {
+    const Log log;
+    Linked link("long", {}, large(mib));
+    auto& writer = link.b->link.writer("reference");
+    auto& reader = link.a->link.reader("reference");
+    const auto too_long = image(1, mib);
+    for (int i = 0; i < 3; ++i) CHECK_FALSE(send_image(writer, 1, too_long));
+    CHECK(log.lines_with(
+              "port 'reference': a message of 1048580 bytes is longer than 1048576 and is dropped") == 1);
+    CHECK(log.lines_with("raise large_kib to 1025 or more") == 1);
+    REQUIRE(send(writer, 2.5));
+    CHECK(receive(reader) == 2.5);
+    REQUIRE(send_image(writer, 2, image(2, mib / 2)));
+    CHECK(receive_image(reader) == 2);
+    check_books(writer.counters(), 5, 2);
+    CHECK(writer.counters().refused == 3);
+}
+
+TEST_CASE("small messages stay in the ring however long the last one was") {
+    Linked link("small");
+    auto& writer = link.b->link.writer("reference");
+    auto& reader = link.a->link.reader("reference");
+    REQUIRE(send_image(writer, 1, image(1, 2 * mib)));
+    REQUIRE(receive_image(reader) == 1);
+    // More than there are chunks: in chunks, only the last of them would be left.
+    for (int i = 0; i < 100; ++i) REQUIRE(send(writer, i));
+    for (int i = 0; i < 100; ++i) CHECK(receive(reader) == i);
+    CHECK(writer.counters().dropped() == 0);
+}
+
+TEST_CASE("a half that comes back finds chunks though the other one held one and others waited") {
+    Linked link("restart", large(2 * mib));
+    std::uint32_t number = 0;
+    for (int round = 0; round < 3; ++round) {
+        const bool reader_leaves = round == 1;
+        for (int i = 0; i < 3; ++i) {
+            ++number;
+            REQUIRE(send_image(link.b->link.writer("reference"), number, image(number, mib)));
+            REQUIRE(send_image(link.a->link.writer("position"), number, image(number, mib)));
+        }
+        CHECK(receive_image(link.a->link.reader("reference")) == number - 2); // held until the next read
+        CHECK(receive_image(link.b->link.reader("position")) == number - 2);
+        LinkOptions options = large(2 * mib);
+        options.name = link.name;
+        if (reader_leaves) {
+            link.a.reset();
+            link.a = std::make_unique<Half>(shm::Side::first, options, PortTable{});
+            link.a->link.open();
+        } else {
+            link.b.reset();
+            link.b = std::make_unique<Half>(shm::Side::second, options, joystick_table());
+            link.b->link.open();
+        }
+        // The one that stayed learns a moment later that its session is over.
+        REQUIRE(eventually([&] {
+            return link.a->link.up() && link.b->link.up() && send(link.b->link.writer("reference"), number) &&
+                   receive(link.a->link.reader("reference")) == number;
+        }));
+    }
+    CHECK(segments_of(link.name) == 1);
+    link.a.reset();
+    link.b.reset();
+    CHECK(segments_of(link.name) == 0);
+}
+
+TEST_CASE("ports whose type sets a bound below the ring's get no chunks") {
+    const PortTable table{"X",
+                          {{PortKind::data_out, "number", "T", "(uu)d", "", {}},
+                           {PortKind::data_out, "image", "T", "(uu)qqqsday", "", {}},
+                           {PortKind::service_provided, "service", "T", "", "s", {}},
+                           {PortKind::data_in, "matrix", "T", "[100000]d", "", {}}}};
+    const auto plan = plan_rings(table, shm::Side::second, {});
+    REQUIRE(plan.rings.size() == 3);
+    CHECK(plan.rings[0].options.chunks == 0);
+    CHECK(plan.rings[1].options.chunks == 4);
+    CHECK(plan.rings[1].options.chunk_bytes == default_large);
+    CHECK(plan.rings[1].options.writer == shm::Side::second);
+    CHECK(plan.rings[2].options.chunks == 4);
+    CHECK(plan.rings[2].options.writer == shm::Side::first);
+    CHECK(plan.loan_bytes >= 8 * default_large);
+    CHECK(plan_rings(table, shm::Side::second, {.large_bytes = 1000}).loan_bytes == 0);
+}
