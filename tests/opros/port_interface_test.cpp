@@ -48,18 +48,36 @@ TEST_CASE("a property that is not set is empty, whatever was done to the last on
     CHECK(component.getPropertyMap().size() == 1);
 }
 
-TEST_CASE("exported variables are read and written through the symbol port") {
+namespace {
+template <typename... Arguments>
+opros_params call(ProvidedServicePort& port, std::string method, const Arguments&... arguments) {
+    std::vector<opros_params> params{opros_params(arguments)...};
+    opros_params result;
+    REQUIRE(port.callService(method, params, result) == OPROS_SUCCESS);
+    return result;
+}
+} // namespace
+
+TEST_CASE("exported variables are read and written through the symbol port in either encoding") {
     Exporting component;
     auto* port = dynamic_cast<ProvidedServicePort*>(component.getPort("opros.symbol"));
     REQUIRE(port);
-    std::string method = "getSymbolValue";
-    std::vector<opros_params> name{opros_params(std::string("level"))};
-    opros_params value;
-    REQUIRE(port->callService(method, name, value) == OPROS_SUCCESS);
+    const std::string name = "level";
+    const auto value = [&] {
+        opros_params text = call(*port, "getSymbolValue", name);
+        return opros_params_cast<std::string>(text);
+    };
+    CHECK(value() == "I13;");
+    opros_params done = call(*port, "setSymbolvalue", name, std::string("I14;"));
+    CHECK(opros_params_cast<int>(done) == 0);
+    CHECK(component.level == 14);
+    done = call(*port, "setSymbolvalue", std::string("missing"), std::string("I14;"));
+    CHECK(opros_params_cast<int>(done) == -1);
+
+    call(*port, "setEncodingRule", OPROS_SYMBOL_ENCODING_BIN);
+    const std::string binary = value();
+    CHECK(binary == std::string("I\4\16\0\0\0", 6));
     component.level = 0;
-    std::vector<opros_params> both{name[0], value};
-    std::string setter = "setSymbolvalue";
-    opros_params done;
-    REQUIRE(port->callService(setter, both, done) == OPROS_SUCCESS);
-    CHECK(component.level == 13);
+    call(*port, "setSymbolvalue", name, binary);
+    CHECK(component.level == 14);
 }

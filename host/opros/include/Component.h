@@ -42,6 +42,11 @@ class Component : public PropertyInterface, public LifecycleInterface, public Po
     std::string m_compId;
 };
 
+// Sources of OPRoS v1 export their factory only with this, and have no other way to be loaded.
+#if !defined(MAKE_COMPONENT_DLL) && !defined(MAKE_STATIC_COMPONENT)
+#define MAKE_COMPONENT_DLL
+#endif
+
 /// The name by which components of OPRoS v1 know the class.
 typedef Component IComponent;
 

@@ -4,6 +4,7 @@
 #define OPROSTYPES_H_
 
 #include <AssertException.h>
+#include <BoostNames.h>
 #include <OPRoSAny.h>
 #include <ReturnType.h>
 

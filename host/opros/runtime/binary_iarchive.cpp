@@ -1,24 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/bytes_left.hpp"
+
 #include <archive/opros_binary_iarchive.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <cstring>
-#include <memory>
 
 namespace opros::archive {
-namespace {
-// Malformed counts must not make us allocate what the bytes cannot hold: each element takes at least one
-// byte.
-std::size_t bytes_left(std::istream& in) {
-    const auto here = in.tellg();
-    in.seekg(0, std::ios::end);
-    const auto end = in.tellg();
-    in.clear();
-    in.seekg(here);
-    return here < 0 || end < here ? 0 : static_cast<std::size_t>(end - here);
-}
-} // namespace
 
 template <typename T>
 T binary_iarchive::get_bytes() {
@@ -40,11 +27,6 @@ iarchive& binary_iarchive::get(char code, T& value) {
     }
     value = get_bytes<T>();
     return *this;
-}
-
-std::size_t binary_iarchive::checked(unsigned long count) {
-    if (count > bytes_left(*m_is)) throw archive_array_size_exception();
-    return count;
 }
 
 iarchive& binary_iarchive::load(bool& value) {
@@ -75,7 +57,7 @@ OPROS_LOAD_NUMBER(long double)
 void binary_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
     expect(static_cast<char>(sizeof(long)));
-    bytes.resize(checked(get_bytes<unsigned long>()));
+    bytes.resize(checked(*m_is, get_bytes<unsigned long>()));
     m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
 }
@@ -83,12 +65,7 @@ void binary_iarchive::get_blob(std::string& bytes) {
 iarchive& binary_iarchive::load_binary(char** p, long& size) {
     std::string bytes;
     get_blob(bytes);
-    if (*p == nullptr)
-        *p = new char[bytes.size()];
-    else if (static_cast<long>(bytes.size()) > size)
-        throw archive_array_size_exception();
-    std::memcpy(*p, bytes.data(), bytes.size());
-    size = static_cast<long>(bytes.size());
+    give_bytes(bytes, p, size);
     return *this;
 }
 
@@ -107,9 +84,7 @@ iarchive& binary_iarchive::load(std::wstring& value) {
     load(length);
     std::string bytes;
     get_blob(bytes);
-    if (bytes.size() != length * sizeof(wchar_t)) throw archive_format_exception();
-    value.resize(length);
-    std::memcpy(value.data(), bytes.data(), bytes.size());
+    value = to_wide(bytes, length);
     return *this;
 }
 
@@ -120,7 +95,7 @@ iarchive& binary_iarchive::read_class_head(const std::string& name) {
 
 iarchive& binary_iarchive::read_container_name(const std::string& name) {
     expect(CLASS_CODE);
-    std::string given(checked(get_bytes<std::uint16_t>()), '\0');
+    std::string given(checked(*m_is, get_bytes<std::uint16_t>()), '\0');
     m_is->read(given.data(), static_cast<std::streamsize>(given.size()));
     if (given != name) throw archive_type_exception();
     return *this;
@@ -129,7 +104,7 @@ iarchive& binary_iarchive::read_container_name(const std::string& name) {
 std::size_t binary_iarchive::read_sequence_head() {
     int count = 0;
     load(count);
-    return checked(static_cast<unsigned long>(count));
+    return checked(*m_is, static_cast<unsigned long>(count));
 }
 
 long binary_iarchive::read_array_head(long size, char code, char bytes) {

@@ -16,9 +16,15 @@ class SymbolPort : public ProvidedServicePort {
         addMethod("getSymbolList", makeProvidedMethod(&SymbolPort::getSymbolList, this, "getSymbolList"));
         addMethod("getSymbolValue", makeProvidedMethod(&SymbolPort::getSymbolValue, this, "getSymbolValue"));
         addMethod("setSymbolvalue", makeProvidedMethod(&SymbolPort::setSymbolvalue, this, "setSymbolvalue"));
+        addMethod("addSymbol", makeProvidedMethod(&SymbolPort::addSymbol, this, "addSymbol"));
+        addMethod("setEncodingRule", makeProvidedMethod(&SymbolPort::setEncodingRule, this, "setEncodingRule"));
+        addMethod("getEncodingRule", makeProvidedMethod(&SymbolPort::getEncodingRule, this, "getEncodingRule"));
     }
 
-    void add(const std::string& name, SymbolObject* object) { symbols_[name].reset(object); }
+    /// Takes the object.
+    void addSymbol(std::string name, SymbolObject* object) { symbols_[name].reset(object); }
+    void setEncodingRule(SymbolEncodingRule rule) { rule_ = rule; }
+    SymbolEncodingRule getEncodingRule() { return rule_; }
 
     std::vector<std::string> getSymbolList() {
         std::vector<std::string> names;
@@ -30,22 +36,34 @@ class SymbolPort : public ProvidedServicePort {
         const auto found = symbols_.find(name);
         if (found == symbols_.end()) return "";
         std::ostringstream bytes;
-        opros::archive::binary_oarchive archive(&bytes);
-        found->second->getValue(archive);
+        if (rule_ == OPROS_SYMBOL_ENCODING_STR) {
+            opros::archive::string_oarchive archive(&bytes);
+            found->second->getValue(archive);
+        } else {
+            opros::archive::binary_oarchive archive(&bytes);
+            found->second->getValue(archive);
+        }
         return bytes.str();
     }
 
-    bool setSymbolvalue(std::string name, std::string value) {
+    /// 0, or -1 when there is no such symbol.
+    int setSymbolvalue(std::string name, std::string value) {
         const auto found = symbols_.find(name);
-        if (found == symbols_.end()) return false;
+        if (found == symbols_.end()) return -1;
         std::istringstream bytes(value);
-        opros::archive::binary_iarchive archive(&bytes);
-        found->second->setValue(archive);
-        return true;
+        if (rule_ == OPROS_SYMBOL_ENCODING_STR) {
+            opros::archive::string_iarchive archive(&bytes);
+            found->second->setValue(archive);
+        } else {
+            opros::archive::binary_iarchive archive(&bytes);
+            found->second->setValue(archive);
+        }
+        return 0;
     }
 
   private:
     std::map<std::string, std::unique_ptr<SymbolObject>> symbols_;
+    SymbolEncodingRule rule_ = OPROS_SYMBOL_ENCODING_STR;
 };
 
 } // namespace
@@ -54,6 +72,6 @@ ReturnType symbolservice_exportSymbol(Component* comp, const std::string& name, 
     if (!comp || !p) return OPROS_BAD_INPUT_PARAMETER;
     auto* port = dynamic_cast<SymbolPort*>(comp->getPort(port_name));
     if (!port) comp->addPort(port_name, port = new SymbolPort);
-    port->add(name, p);
+    port->addSymbol(name, p);
     return OPROS_SUCCESS;
 }

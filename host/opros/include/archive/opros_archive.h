@@ -13,5 +13,9 @@
 
 #include <archive/opros_binary_iarchive.h>
 #include <archive/opros_binary_oarchive.h>
+#include <archive/opros_raw_iarchive.h>
+#include <archive/opros_raw_oarchive.h>
+#include <archive/opros_string_iarchive.h>
+#include <archive/opros_string_oarchive.h>
 
 #endif

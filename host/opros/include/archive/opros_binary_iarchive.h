@@ -33,7 +33,6 @@ class binary_iarchive : public iarchive {
     template <typename T> iarchive& get(char code, T& value);
     template <typename T> T get_bytes();
     void expect(char code);
-    std::size_t checked(unsigned long count);
     void get_blob(std::string& bytes);
 
     std::istream* m_is;

@@ -65,6 +65,10 @@ template <typename T, typename Way> iarchive& load_elements(iarchive& ar, T* p, 
 
 template <typename T> void load_class(iarchive& ar, T& value, by_members) { access::load(ar, value); }
 template <typename T> void load_class(iarchive& ar, T& value, by_free_functions) { load_this(ar, value); }
+template <typename T> void load_class(iarchive& ar, T& value, by_serialize how) { serialize_class(ar, value, how); }
+template <typename T> void load_class(iarchive& ar, T& value, by_private_serialize how) {
+    serialize_class(ar, value, how);
+}
 template <typename T> void load_class(iarchive&, T&, by_nothing) {
     static_assert(is_serializable<T>::value,
                   "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
@@ -121,6 +125,13 @@ template <typename T> iarchive& operator>>(iarchive& ar, T& value) { return ar.l
 template <typename T> iarchive& operator>>(iarchive& ar, const opros::nvp<T>& pair) { return ar.load(pair); }
 template <typename T> iarchive& operator&(iarchive& ar, T& value) { return ar.load(value); }
 template <typename T> iarchive& operator&(iarchive& ar, const opros::nvp<T>& pair) { return ar.load(pair); }
+
+template <typename T> iarchive& operator>>(iarchive& ar, const boost::serialization::nvp<T>& pair) {
+    return ar.load(makenvp(pair.name(), pair.value()));
+}
+template <typename T> iarchive& operator&(iarchive& ar, const boost::serialization::nvp<T>& pair) {
+    return ar >> pair;
+}
 
 } // namespace archive
 } // namespace opros

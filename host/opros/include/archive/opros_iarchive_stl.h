@@ -10,7 +10,9 @@ namespace opros {
 namespace archive {
 
 inline void load_this(iarchive& ar, std::string& t) { ar.load(t); }
-inline void load_this(iarchive& ar, std::wstring& t) { ar.load(t); }
+template <typename Traits, typename A> void load_this(iarchive& ar, std::basic_string<wchar_t, Traits, A>& t) {
+    ar.load(t);
+}
 
 namespace detail {
 

@@ -79,6 +79,10 @@ template <typename T, typename Way> oarchive& save_elements(oarchive& ar, const 
 
 template <typename T> void save_class(oarchive& ar, T& value, by_members) { access::save(ar, value); }
 template <typename T> void save_class(oarchive& ar, T& value, by_free_functions) { save_this(ar, value); }
+template <typename T> void save_class(oarchive& ar, T& value, by_serialize how) { serialize_class(ar, value, how); }
+template <typename T> void save_class(oarchive& ar, T& value, by_private_serialize how) {
+    serialize_class(ar, value, how);
+}
 template <typename T> void save_class(oarchive&, T&, by_nothing) {
     static_assert(is_serializable<T>::value,
                   "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
@@ -125,6 +129,12 @@ template <typename T> oarchive& oarchive::save(const T* p, long size) {
 }
 
 template <typename T> oarchive& operator<<(oarchive& ar, const T& value) { return ar.save(value); }
+template <typename T> oarchive& operator<<(oarchive& ar, const boost::serialization::nvp<T>& pair) {
+    return ar.save(makenvp(pair.name(), pair.value()));
+}
+template <typename T> oarchive& operator&(oarchive& ar, const boost::serialization::nvp<T>& pair) {
+    return ar << pair;
+}
 template <typename T> oarchive& operator&(oarchive& ar, const T& value) { return ar.save(value); }
 
 } // namespace archive

@@ -11,7 +11,10 @@ namespace archive {
 template <typename T> using if_serializable = typename std::enable_if<is_serializable<T>::value>::type;
 
 inline void save_this(oarchive& ar, const std::string& t) { ar.save(t); }
-inline void save_this(oarchive& ar, const std::wstring& t) { ar.save(t); }
+template <typename Traits, typename A> // see typeName()
+void save_this(oarchive& ar, const std::basic_string<wchar_t, Traits, A>& t) {
+    ar.save(t);
+}
 
 namespace detail {
 

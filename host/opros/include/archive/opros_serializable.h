@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which types can cross an archive, and by which of the three ways: their own save()/load(), free
-// save_this()/load_this() found beside the type, or as one of the kinds that the archive knows by itself.
+// Which types can cross an archive, and by which of the ways: their own save()/load(), free save_this()/load_this()
+// found beside the type, a serialize() for both directions, or as one of the kinds that the archive knows by itself.
 #ifndef OPROS_ARCHIVE_SERIALIZABLE_H
 #define OPROS_ARCHIVE_SERIALIZABLE_H
 
 #include <archive/opros_access.h>
+#include <archive/opros_boost_serialization.h>
 
 #include <deque>
 #include <list>
@@ -69,7 +70,10 @@ template <typename T, bool members> struct class_way {
     typedef by_members type;
 };
 template <typename T> struct class_way<T, false> {
-    typedef choose<has_free_functions<T>::value, by_free_functions, by_nothing> type;
+    typedef choose<has_free_functions<T>::value, by_free_functions,
+                   choose<has_public_serialize<T>::value, by_serialize,
+                          choose<has_private_serialize<T>::value, by_private_serialize, by_nothing>>>
+        type;
 };
 template <typename T> struct way {
     typedef choose<std::is_arithmetic<T>::value, by_primitive,

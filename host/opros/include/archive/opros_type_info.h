@@ -45,7 +45,10 @@ inline std::string typeName(signed char*) { return "signed char"; }
 inline std::string typeName(unsigned char*) { return "unsigned char"; }
 inline std::string typeName(wchar_t*) { return "w_char_t"; }
 inline std::string typeName(std::string*) { return "std::string"; }
-inline std::string typeName(std::wstring*) { return "std::wstring"; }
+// A template, because components have defined the function themselves when upstream did not.
+template <typename Traits, typename A> std::string typeName(std::basic_string<wchar_t, Traits, A>*) {
+    return "std::wstring";
+}
 
 #define OPROS_TYPE_NAME_OF_1(container)                                                                      \
     template <typename T> std::string typeName(std::container<T>*) {                                         \

@@ -7,6 +7,7 @@
 #include "../archive/opros_access.h"
 #include "../archive/opros_archive.h"
 #include "ApiMembers.h"
+#include "ApiTypesV1.h"
 #include "ApiValues.h"
 #include "OprosMath.h"
 
@@ -75,6 +76,11 @@ class ObjectRotation {
 };
 OPROS_API_TYPE_NAME(ObjectRotation)
 
+namespace OPRoS {
+/// The name it has in the gyroscope component of OPRoS v1.1.
+typedef ::ObjectRotation Rotation;
+} // namespace OPRoS
+
 class ObjectPosture {
   public:
     double pRate = 0, qRate = 0, rRate = 0;
@@ -119,6 +125,10 @@ class ObjectLocation {
 };
 OPROS_API_TYPE_NAME(ObjectLocation)
 
+inline ObjectLocation operator+(ObjectLocation a, const ObjectLocation& b) { return a += b; }
+inline ObjectLocation operator-(ObjectLocation a, const ObjectLocation& b) { return a -= b; }
+inline ObjectLocation operator*(ObjectLocation a, const ObjectLocation& b) { return a *= b; }
+inline ObjectLocation operator/(ObjectLocation a, const ObjectLocation& b) { return a /= b; }
 inline ObjectLocation diff(const ObjectLocation& a, const ObjectLocation& b) {
     return ObjectLocation(a.x - b.x, a.y - b.y, DeltaRad(a.theta, b.theta));
 }

@@ -3,6 +3,7 @@
 #ifndef DEVICE_OPROSMATH_H_
 #define DEVICE_OPROSMATH_H_
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <cstdlib>
@@ -26,6 +27,9 @@
 #define _RAD2DEG (180. / M_PI)
 #define _DEG2RAD (M_PI / 180.)
 
+using std::max; // components rely on it
+using std::min;
+
 const double NaN = std::numeric_limits<double>::quiet_NaN();
 
 inline double RAD2DEG(double x) { return x * _RAD2DEG; }
@@ -33,7 +37,8 @@ inline double DEG2RAD(double x) { return x * _DEG2RAD; }
 
 template <typename T> inline T min_val(T v1, T v2) { return v1 < v2 ? v1 : v2; }
 template <typename T> inline T max_val(T v1, T v2) { return v1 > v2 ? v1 : v2; }
-/// x, held between l and u.
+/// x, held between the two.
+inline double Limit(double x, double lo, double hi) { return x < lo ? lo : (x > hi ? hi : x); }
 template <typename T> inline T bound(T x, T l, T u) { return x <= l ? l : (x >= u ? u : x); }
 template <typename T> inline void Swap(T& v1, T& v2) {
     const T first = v1;

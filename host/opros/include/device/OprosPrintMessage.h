@@ -5,6 +5,10 @@
 #include <cstdarg>
 #include <cstdio>
 
+#ifndef _snprintf
+#define _snprintf snprintf // components know it from Windows
+#endif
+
 /// printf for a component's messages; says nothing unless the component is built for debugging.
 inline void PrintMessage(const char* format, ...) {
 #if defined(_OPROS_DEBUG_) || defined(_DEBUG) || defined(NDEBUG)

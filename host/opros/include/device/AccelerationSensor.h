@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_ACCELERATIONSENSOR_H_
+#define DEVICE_ACCELERATIONSENSOR_H_
+
+#include "Sensor.h"
+
+/// Accelerations, one per axis.
+class AccelerationSensor : public Sensor {
+  public:
+    AccelerationSensor() {}
+    virtual ~AccelerationSensor() {}
+    virtual int GetSensorValue(std::vector<double>&) { return API_NOT_SUPPORTED; }
+    /// The name it has in OPRoS v1.
+    virtual int GetAccelerationSensorData(std::vector<double>& values) { return GetSensorValue(values); }
+};
+
+#endif

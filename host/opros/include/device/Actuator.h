@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_ACTUATOR_H_
+#define DEVICE_ACTUATOR_H_
+
+#include "Device.h"
+
+class ActuatorProfile {
+  public:
+    ActuatorProfile() : maximumPower(0) {}
+    virtual ~ActuatorProfile() {}
+    double maximumPower;
+};
+
+/// A drive that takes power; times in milliseconds.
+class Actuator : public Device {
+  public:
+    Actuator() {}
+    virtual ~Actuator() {}
+    virtual int SetPower(double /*power*/, unsigned long /*time*/ = 0) { return API_NOT_SUPPORTED; }
+    virtual int GetPower(double&) { return API_NOT_SUPPORTED; }
+};
+
+#endif

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_ANALOGIO_V1_H_
+#define DEVICE_ANALOGIO_V1_H_
+
+#include "AnalogIo.h"
+
+/// The name it has in OPRoS v1.
+typedef AnalogIo AnalogIO;
+
+#endif

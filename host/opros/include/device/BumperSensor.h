@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_BUMPERSENSOR_H_
+#define DEVICE_BUMPERSENSOR_H_
+
+#include "Sensor.h"
+
+class BumperSensorProfile : public SensorProfile {};
+
+/// Bumpers: which of them touch something.
+class BumperSensor : public Sensor {
+  public:
+    BumperSensor() {}
+    virtual ~BumperSensor() {}
+    virtual int GetSensorValue(std::vector<bool>&) { return API_NOT_SUPPORTED; }
+    /// The name it has in OPRoS v1.
+    virtual int GetBumperSensorData(std::vector<bool>& values) { return GetSensorValue(values); }
+};
+
+#endif

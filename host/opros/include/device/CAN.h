@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_CAN_V1_H_
+#define DEVICE_CAN_V1_H_
+
+#include "Can.h"
+
+class CANProfile {
+  public:
+    CANProfile()
+        : timeOut(0), channel(-1), bitRate(0), acceptanceMask(0), acceptanceCode(0), isExtended(false) {}
+    virtual ~CANProfile() {}
+    unsigned long timeOut;
+    int channel;
+    unsigned long bitRate, acceptanceMask, acceptanceCode;
+    bool isExtended;
+};
+
+/// The name it has in OPRoS v1.
+typedef Can CAN;
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_CAMERA_H_
+#define DEVICE_CAMERA_H_
+
+#include "OprosApi.h"
+
+/// A camera: the caller has the room for an image of the size in its properties.
+class Camera : public OprosApi {
+  public:
+    Camera() {}
+    virtual ~Camera() {}
+    virtual int GetImage(unsigned char* /*image*/) { return API_NOT_SUPPORTED; }
+    virtual int StartPushImage(void* /*callback*/) { return API_NOT_SUPPORTED; }
+    virtual int EndPushImage() { return API_NOT_SUPPORTED; }
+};
+
+#endif

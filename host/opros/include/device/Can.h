@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_CAN_H_
+#define DEVICE_CAN_H_
+
+#include "Bus.h"
+
+/// A CAN bus.
+class Can : public Bus {
+  public:
+    Can() {}
+    virtual ~Can() {}
+    virtual int Write(long /*id*/, unsigned char* /*data*/, int /*size*/) { return API_NOT_SUPPORTED; }
+    virtual int Read(long& /*id*/, unsigned char* /*data*/, int /*size*/) { return API_NOT_SUPPORTED; }
+};
+
+#endif

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_GYROSENSOR_H_
+#define DEVICE_GYROSENSOR_H_
+
+#include "Sensor.h"
+
+/// Attitudes.
+class GyroSensor : public Sensor {
+  public:
+    GyroSensor() {}
+    virtual ~GyroSensor() {}
+    virtual int GetSensorValue(std::vector<ObjectRotation>&) { return API_NOT_SUPPORTED; }
+    /// The same in OPRoS v1: the heading as theta.
+    virtual int GetGyroSensorData(std::vector<ObjectLocation>&) { return API_NOT_SUPPORTED; }
+};
+
+#endif

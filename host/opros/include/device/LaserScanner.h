@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_LASERSCANNER_H_
+#define DEVICE_LASERSCANNER_H_
+
+#include "Sensor.h"
+
+/// Distances over one sweep.
+class LaserScanner : public Sensor {
+  public:
+    LaserScanner() {}
+    virtual ~LaserScanner() {}
+    virtual int GetSensorValue(std::vector<double>&) { return API_NOT_SUPPORTED; }
+    /// The name it has in OPRoS v1.
+    virtual int GetLaserScannerData(std::vector<double>& values) { return GetSensorValue(values); }
+};
+
+#endif

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_SERVOACTUATOR_H_
+#define DEVICE_SERVOACTUATOR_H_
+
+#include "Actuator.h"
+
+class ServoActuatorProfile : public ActuatorProfile {
+  public:
+    ServoActuatorProfile()
+        : linePerRevolution(0), reductionRatio(0), maximumVelocity(0), acceleration(0),
+          minimumPositionLimit(0), maximumPositionLimit(0) {}
+    double linePerRevolution, reductionRatio, maximumVelocity, acceleration;
+    double minimumPositionLimit, maximumPositionLimit;
+};
+
+/// A drive that holds a velocity or a position, which it reaches in the time given.
+class ServoActuator : public Actuator {
+  public:
+    ServoActuator() {}
+    virtual ~ServoActuator() {}
+    virtual int SetVelocity(double /*velocity*/, unsigned long /*time*/ = 0) { return API_NOT_SUPPORTED; }
+    virtual int GetVelocity(double&) { return API_NOT_SUPPORTED; }
+    virtual int SetPosition(double /*position*/, unsigned long /*time*/ = 0) { return API_NOT_SUPPORTED; }
+    virtual int GetPosition(double&) { return API_NOT_SUPPORTED; }
+};
+
+#endif

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_USB_V1_H_
+#define DEVICE_USB_V1_H_
+
+#include "Usb.h"
+
+/// The name it has in OPRoS v1.
+typedef Usb USB;
+
+#endif

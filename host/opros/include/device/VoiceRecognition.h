@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef DEVICE_VOICERECOGNITION_H_
+#define DEVICE_VOICERECOGNITION_H_
+
+#include "OprosApi.h"
+
+/// What was said: OPRoS v1.
+class VoiceRecognition : public OprosApi {
+  public:
+    VoiceRecognition() {}
+    virtual ~VoiceRecognition() {}
+    virtual int GetResult(std::string*) { return API_NOT_SUPPORTED; }
+};
+
+#endif

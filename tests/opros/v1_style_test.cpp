@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// What sources of OPRoS v1 take for granted: one serialize() for both directions, Boost's name for the value
+// of a port, images that share their pixels.
+#include <Component.h>
+#include <EventData.h>
+#include <InputDataPort.h>
+#include <OutputDataPort.h>
+#include <catch2/catch.hpp>
+#include <device/ApiTypes.h>
+#include <device/Property.h>
+#include <device/RawImage.h>
+#include <sstream>
+
+namespace {
+
+class Reading {
+  public:
+    int channel = 0;
+    std::vector<double> values;
+    template <class Archive>
+    void serialize(Archive& ar, const unsigned int) {
+        ar& BOOST_SERIALIZATION_NVP(channel) & values;
+    }
+};
+struct Unrelated {
+    std::string serialize() const { return "no archive"; }
+};
+
+template <typename T>
+T through_binary(T& value) {
+    std::stringstream bytes;
+    opros::archive::binary_oarchive out(&bytes);
+    out << value;
+    opros::archive::binary_iarchive in(&bytes);
+    T copy;
+    in >> copy;
+    return copy;
+}
+
+} // namespace
+
+TEST_CASE("a type with one serialize for both directions crosses an archive") {
+    CHECK(opros::archive::is_serializable<Reading>::value);
+    CHECK(opros::archive::is_serializable<std::vector<Reading>>::value);
+    CHECK_FALSE(opros::archive::is_serializable<Unrelated>::value);
+    Reading reading;
+    reading.channel = 3;
+    reading.values = {1, 2.5};
+    const Reading copy = through_binary(reading);
+    CHECK(copy.channel == 3);
+    CHECK(copy.values == std::vector<double>{1, 2.5});
+}
+
+TEST_CASE("the value of a port goes by the name it had in Boost") {
+    InputDataPort<std::vector<bool>> in;
+    const opros_any pushed(std::vector<bool>{true, false});
+    opros_any value(pushed);
+    REQUIRE(in.push(value) == OPROS_SUCCESS);
+    boost::any* popped = in.pop();
+    REQUIRE(popped);
+    std::vector<bool>* content = boost::unsafe_any_cast<std::vector<bool>>(popped);
+    CHECK(*content == std::vector<bool>{true, false});
+    CHECK(boost::any_cast<int>(popped) == nullptr);
+    delete popped;
+}
+
+TEST_CASE("sources export their factory without being told") {
+#ifdef MAKE_COMPONENT_DLL
+    SUCCEED();
+#else
+    FAIL("Component.h must define MAKE_COMPONENT_DLL");
+#endif
+    IComponent* component = new Component("c");
+    CHECK(component->getId() == "c");
+    delete component;
+}
+
+TEST_CASE("copies of an image share its pixels and an archive copies them") {
+    RawImage image;
+    image.getImage()->resize(4, 2, 3);
+    image.getImage()->getData()[5] = 9;
+    RawImage other = image;
+    CHECK(other.getImage() == image.getImage());
+    RawImage crossed = through_binary(image);
+    CHECK(crossed.getImage() != image.getImage());
+    CHECK(crossed.getImage()->getSize() == 24);
+    CHECK(crossed.getImage()->getData()[5] == 9);
+    RawImage empty;
+    CHECK(through_binary(empty).getImage()->getData() == nullptr);
+}
+
+TEST_CASE("an image whose sizes do not fit each other is refused") {
+    std::stringstream bytes;
+    opros::archive::raw_oarchive out(&bytes);
+    out << std::string("raw") << 1000 << 1000 << 3 << 12ul;
+    opros::archive::raw_iarchive in(&bytes);
+    RawImageData image;
+    CHECK_THROWS_AS(load_this(in, image), opros::archive::archive_format_exception);
+    CHECK(image.getSize() == 0);
+}
+
+TEST_CASE("data types of v1 have the names that its ports have") {
+    CHECK(getTypeName<GPSData>() == "GPSData");
+    CHECK(getTypeName<CANObject>() == "CANObject");
+    CHECK(getTypeName<WheelControlVelocity>() == "WheelControlVelocity");
+    CHECK(getTypeName<std::vector<OPRoS::Rotation>>() == "std::vector<ObjectRotation>");
+    const ObjectLocation sum = ObjectLocation(1, 2, 3) + ObjectLocation(1, 1, 1);
+    CHECK(sum.x == 2);
+    CHECK(sum.theta == 4);
+}
