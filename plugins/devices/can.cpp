@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/devices/simulated_device.hpp"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <device/Can.h>
+
+namespace {
+
+/// A bus that is looped back: frames of up to 8 bytes come out as they went in, the last 1000 of them.
+/// Without one, Read() gives frame 0 of zeros.
+class SimulatedCan : public tandem::devices::SimulatedDevice<Can> {
+  public:
+    int Write(long id, unsigned char* data, int size) override {
+        if (size < 0 || size > 8 || (!data && size > 0)) return API_ERROR;
+        return serve([&](double, double) {
+            Frame frame{id, {}};
+            std::copy_n(data, size, frame.data.begin());
+            frames_.push_back(frame);
+            if (frames_.size() > 1000) frames_.pop_front();
+        });
+    }
+    int Read(long& id, unsigned char* data, int size) override {
+        if (size < 0 || size > 8 || (!data && size > 0)) return API_ERROR;
+        return serve([&](double, double) {
+            const Frame frame = frames_.empty() ? Frame{0, {}} : frames_.front();
+            if (!frames_.empty()) frames_.pop_front();
+            id = frame.id;
+            std::copy_n(frame.data.begin(), size, data);
+        });
+    }
+
+  private:
+    struct Frame {
+        long id;
+        std::array<unsigned char, 8> data;
+    };
+    std::deque<Frame> frames_;
+};
+
+} // namespace
+
+TANDEM_DEVICE(SimulatedCan)

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/devices/simulated_device.hpp"
+
+#include <device/Joystick.h>
+
+namespace {
+
+/// A stick that is led round once in ten seconds, and `Buttons` buttons of which one at a time is held for a
+/// second.
+class SimulatedJoystick : public tandem::devices::SimulatedDevice<Joystick> {
+  public:
+    int GetJoystickData(JoystickData& data) override {
+        return serve([&](double seconds, double) {
+            data.x = std::cos(0.2 * M_PI * seconds);
+            data.y = std::sin(0.2 * M_PI * seconds);
+            data.z = 0;
+            data.button.assign(static_cast<std::size_t>(buttons_), false);
+            data.button[static_cast<std::size_t>(seconds) % data.button.size()] = true;
+        });
+    }
+
+  protected:
+    void configure() override { buttons_ = count("Buttons", 8); }
+
+  private:
+    int buttons_ = 8;
+};
+
+} // namespace
+
+TANDEM_DEVICE(SimulatedJoystick)
