@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem: one command with sub-commands. See --help.
 #include "apps/tandem/commands.hpp"
+#include "apps/tandem/opros/commands.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +9,12 @@
 #include <exception>
 
 int main(int argc, char** argv) {
+    tandem::plugin::serve_probe(argc, argv, tandem::command::opros_probe_tasks());
     CLI::App tandem{"Looks at, and looks after, a system of Tandem hosts on this machine.", "tandem"};
     tandem.require_subcommand(1);
     tandem.footer("tandem COMMAND --help says more about a command.");
     tandem::command::Run chosen;
+    tandem::command::add_opros(tandem, chosen);
     tandem::command::add_shm(tandem, chosen);
     try {
         tandem.parse(argc, argv);

@@ -79,12 +79,12 @@ std::string probe(const Probe& how, const std::string& task, const std::filesyst
         end = run_bounded(command, how.bound);
     } catch (const std::system_error& error) {
         throw Error(Reason::failed_probe,
-                    "library " + library.string() + " cannot be tried in a child process: " + error.what());
+                    how.subject + " " + library.string() + " cannot be tried in a child process: " + error.what());
     }
     const Report report = read_report(end.report);
     if (report.done && !end.timed_out) return report.result;
     if (!report.failure.empty()) throw Error(Reason::failed_probe, report.failure);
-    throw Error(Reason::failed_probe, "library " + library.string() + " " + reason(how, end, report) +
+    throw Error(Reason::failed_probe, how.subject + " " + library.string() + " " + reason(how, end, report) +
                                           " (tried in a child process)");
 }
 

@@ -14,6 +14,7 @@ struct Probe {
     /// Program whose main() hands over to a ProbedSide (probed_side.hpp): as a rule this program itself.
     std::filesystem::path program = "/proc/self/exe";
     std::chrono::milliseconds bound{10'000};
+    std::string subject = "library"; ///< what the file is, for messages
 };
 
 /// Tries the library with what the program does when it is probed; `task` and the arguments are told to it.

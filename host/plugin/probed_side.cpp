@@ -48,8 +48,9 @@ std::string one_line(std::string text) {
 
 void ProbeReport::stage(const std::string& function) { tell(stage_word + one_line(function) + "\n"); }
 
-void ProbeReport::result(const std::string& text) {
-    tell(result_word + std::to_string(text.size()) + "\n" + text);
+void ProbeReport::finish(const std::string& result) {
+    tell(result_word + std::to_string(result.size()) + "\n" + result + done_word);
+    _exit(0);
 }
 
 void serve_probe(int argc, char** argv, const ProbeTasks& tasks) {

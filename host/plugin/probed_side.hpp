@@ -15,8 +15,8 @@ class ProbeReport {
     /// Code of the library runs from now on, in this function ("getComponent()"): named if the process does
     /// not survive it.
     void stage(const std::string& function);
-    /// The parent's probe() returns this text.
-    void result(const std::string& text);
+    /// The parent's probe() returns this text. Ends the process: nothing of the library is released or unloaded.
+    [[noreturn]] void finish(const std::string& result);
 };
 
 struct ProbeTask {

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/src/application.hpp"
+#include "host/opros/src/plugin_path.hpp"
 #include "host/opros/src/probe_component.hpp"
 #include "host/plugin/probe_switches.hpp"
 #include "host/rt/switches.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <sstream>
 
 namespace {
 
@@ -38,17 +37,6 @@ void declare(CLI::App& cli, Options& options) {
                  "Run without components that fail to initialize or start");
     tandem::plugin::declare(cli, options.probe);
     tandem::rt::declare(cli, options.switches);
-}
-
-// The environment, then what lies beside the program: in the build tree, then as installed.
-void add_default_plugin_dirs(std::vector<std::filesystem::path>& dirs) {
-    const char* variable = std::getenv("TANDEM_PLUGIN_PATH");
-    std::istringstream listed(variable ? variable : "");
-    for (std::string dir; std::getline(listed, dir, ':');)
-        if (!dir.empty()) dirs.emplace_back(dir);
-    const auto prefix = std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
-    dirs.push_back(prefix / "plugins" / "opros");
-    dirs.push_back(prefix / TANDEM_INSTALLED_PLUGINS);
 }
 
 sigset_t ending_signals() {
@@ -88,7 +76,8 @@ int main(int argc, char** argv) {
     options.host.executors.cpu = options.switches.cpu;
     options.host.executors.spin = options.switches.tick_spin();
     try {
-        add_default_plugin_dirs(options.host.plugin_dirs);
+        const auto dirs = tandem::engine::default_plugin_dirs();
+        options.host.plugin_dirs.insert(options.host.plugin_dirs.end(), dirs.begin(), dirs.end());
         return run(options);
     } catch (const std::exception& error) {
         std::cerr << "opros_host: " << error.what() << std::endl;

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/opros/commands.hpp"
+#include "apps/tandem/opros/probe_tasks.hpp"
+#include "apps/tandem/text.hpp"
+#include "host/opros/src/load_component.hpp"
+#include "host/opros/src/start_order.hpp"
+
+#include <fmt/format.h>
+#include <functional>
+
+namespace tandem::command {
+namespace {
+
+using engine::ApplicationProfile;
+
+/// What has been found so far: one line each.
+class Faults {
+  public:
+    /// Whether the step went without an error; its line is kept otherwise.
+    bool passes(const std::function<void()>& step) {
+        try {
+            step();
+            return true;
+        } catch (const std::runtime_error& error) {
+            lines.emplace_back(error.what());
+            return false;
+        }
+    }
+    std::vector<std::string> lines;
+};
+
+void check_component(const ApplicationProfile& application, const engine::Subcomponent& entry,
+                     const LookOptions& options) {
+    auto dirs = options.plugin_dirs;
+    dirs.insert(dirs.begin(), application.place.file.parent_path());
+    const auto file = engine::find_component_profile(application, entry, options.plugin_dirs);
+    const auto profile = engine::read_component_profile(file);
+    const auto library = engine::find_component_library(profile, dirs);
+    try {
+        plugin::require_kind(library, plugin::read_contents(library), plugin::Kind::opros_component);
+        described(library, file, options);
+    } catch (const plugin::Error& error) {
+        throw engine::SetupError(profile.library_place, error.what());
+    }
+}
+
+int report(const ApplicationProfile& application, const Faults& faults, bool as_json) {
+    const int code = faults.lines.empty() ? 0 : 1;
+    if (as_json) {
+        print_json({{"application", application.name},
+                    {"components", application.subcomponents.size()},
+                    {"connections", application.connections.size()},
+                    {"faults", faults.lines}});
+        return code;
+    }
+    for (const std::string& line : faults.lines) print_text(line + "\n");
+    print_text(faults.lines.empty()
+                   ? fmt::format("{}: {} components and {} connections fit\n", application.name,
+                                 application.subcomponents.size(), application.connections.size())
+                   : fmt::format("{}: {} fault{}\n", application.name, faults.lines.size(),
+                                 faults.lines.size() == 1 ? "" : "s"));
+    return code;
+}
+
+} // namespace
+
+int opros_check(const LookOptions& options) {
+    const auto application = engine::read_application_profile(options.file);
+    Faults faults;
+    std::vector<std::string> without;
+    for (const auto& entry : application.subcomponents)
+        if (!faults.passes([&] { check_component(application, entry, options); }))
+            without.push_back(entry.name);
+    faults.passes([&] { engine::start_order(application); });
+    faults.passes([&] {
+        const auto unfit = connection_faults(without, options);
+        faults.lines.insert(faults.lines.end(), unfit.begin(), unfit.end());
+    });
+    return report(application, faults, options.json);
+}
+
+} // namespace tandem::command

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sub-commands of `tandem opros`. Each returns the exit code, and throws std::runtime_error with one
+// line.
+#pragma once
+
+#include "host/plugin/probed_side.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tandem::command {
+
+struct LookOptions {
+    std::filesystem::path file;
+    std::vector<std::filesystem::path> plugin_dirs;
+    bool initialize = false; ///< ports that onInitialize makes are wanted, too: it is run, in a child process
+    double seconds = 10;     ///< bound for the component's code
+    bool json = false;
+};
+int opros_info(const LookOptions& options);
+int opros_check(const LookOptions& options);
+
+int opros_new(const std::string& name, const std::filesystem::path& parent);
+
+struct BuildOptions {
+    std::filesystem::path folder;
+    std::string profile;          ///< which one, when the folder has several
+    std::filesystem::path output; ///< empty: beside the profile
+    std::filesystem::path build;  ///< empty: a temporary folder
+    std::vector<std::string> include_dirs, definitions, libraries;
+    int standard = 14;
+};
+int opros_build(const BuildOptions& options);
+
+/// What a child process of this program does for info and check.
+plugin::ProbeTasks opros_probe_tasks();
+
+} // namespace tandem::command

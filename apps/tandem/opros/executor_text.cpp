@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/opros/executor_text.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::command {
+
+std::string execution_word(engine::Execution execution) {
+    switch (execution) {
+    case engine::Execution::periodic:
+        return "periodic";
+    case engine::Execution::periodic_shared:
+        return "periodic-shared";
+    case engine::Execution::aperiodic:
+        return "aperiodic";
+    case engine::Execution::passive:
+        return "passive";
+    }
+    return "unknown";
+}
+
+std::string executor_text(const engine::ComponentProfile& profile) {
+    std::string text = execution_word(profile.execution);
+    const auto ms = [](std::chrono::nanoseconds time) {
+        return fmt::format("{} ms", static_cast<double>(time.count()) / 1e6);
+    };
+    if (profile.period.count() != 0) text += ", every " + ms(profile.period);
+    if (profile.phase.count() != 0) text += ", phase " + ms(profile.phase);
+    if (profile.priority != 0) text += fmt::format(", priority {}", profile.priority);
+    return text;
+}
+
+} // namespace tandem::command

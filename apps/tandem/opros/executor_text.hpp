@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/opros/src/profile.hpp"
+
+#include <string>
+
+namespace tandem::command {
+
+/// "periodic", "passive", ...
+std::string execution_word(engine::Execution execution);
+/// "periodic, 10 ms, priority 7"
+std::string executor_text(const engine::ComponentProfile& profile);
+
+} // namespace tandem::command

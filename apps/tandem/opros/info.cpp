@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/opros/commands.hpp"
+#include "apps/tandem/opros/executor_text.hpp"
+#include "apps/tandem/opros/probe_tasks.hpp"
+#include "apps/tandem/text.hpp"
+#include "host/opros/src/load_component.hpp"
+#include "host/plugin/find_library.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+namespace tandem::command {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+struct Found {
+    fs::path library;
+    std::optional<engine::ComponentProfile> profile;
+};
+
+bool names(const engine::ComponentProfile& profile, const fs::path& library) {
+    const auto candidates = plugin::library_file_names(profile.library_name);
+    return std::find(candidates.begin(), candidates.end(), library.filename().string()) != candidates.end();
+}
+
+// The component profile in the library's folder that names it, if there is one.
+std::optional<engine::ComponentProfile> profile_beside(const fs::path& library) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(fs::absolute(library).parent_path(), ignored)) {
+        if (entry.path().extension() != ".xml") continue;
+        try {
+            auto profile = engine::read_component_profile(entry.path());
+            if (names(profile, library)) return profile;
+        } catch (const engine::SetupError&) {
+            continue; // of another kind, or another component's: not what was asked about
+        }
+    }
+    return std::nullopt;
+}
+
+Found find(const LookOptions& options) {
+    if (options.file.extension() != ".xml") return {options.file, profile_beside(options.file)};
+    auto profile = engine::read_component_profile(options.file);
+    return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile)};
+}
+
+json executor_of(const engine::ComponentProfile& profile) {
+    return {{"type", execution_word(profile.execution)},
+            {"period_ms", static_cast<double>(profile.period.count()) / 1e6},
+            {"phase_ms", static_cast<double>(profile.phase.count()) / 1e6},
+            {"priority", profile.priority}};
+}
+
+json look(const Found& found, const LookOptions& options) {
+    plugin::require_kind(found.library, plugin::read_contents(found.library), plugin::Kind::opros_component);
+    json info = described(found.library, found.profile ? found.profile->place.file : fs::path(), options);
+    info["library"] = fs::absolute(found.library).lexically_normal().string();
+    info["name"] = found.profile ? found.profile->name : found.library.stem().string();
+    info["profile"] =
+        found.profile ? json(fs::absolute(found.profile->place.file).lexically_normal().string()) : json();
+    info["executor"] = found.profile ? executor_of(*found.profile) : json();
+    return info;
+}
+
+std::string ports_text(const json& ports) {
+    Table table({"kind", "direction", "name", "type"});
+    for (const json& port : ports) {
+        const bool service = port["kind"] == "service";
+        const std::string type = service                  ? ""
+                                 : port["type"].is_null() ? "any"
+                                                          : port["type"].get<std::string>();
+        table.add({port["kind"], port["direction"], port["name"], type});
+        if (!service || !port.contains("methods")) continue;
+        for (const json& method : port["methods"])
+            table.add({"", "", "",
+                       method["name"].get<std::string>() + ": " + method["signature"].get<std::string>() +
+                           (method["call"] == "nonblocking" ? ", nonblocking" : "")});
+    }
+    return table.empty() ? "no ports\n" : table.text();
+}
+
+std::string text_of(const json& info, const Found& found, const LookOptions& options) {
+    std::string text =
+        fmt::format("component  {}\nlibrary    {}, {}\n", info["name"].get<std::string>(),
+                    info["library"].get<std::string>(),
+                    info.contains("version") ? info["version"].get<std::string>() : "no version");
+    text += "profile    " + (found.profile ? info["profile"].get<std::string>() : "none beside the library") +
+            "\n";
+    if (found.profile) text += "executor   " + executor_text(*found.profile) + "\n";
+    text += "\n" + ports_text(info["ports"]);
+    if (info["ports"].empty() && !options.initialize)
+        text +=
+            "ports that onInitialize makes are shown with --initialize, which runs it in a child process\n";
+    if (!info["properties"].empty()) {
+        Table table({"property", "value"});
+        for (const auto& [name, value] : info["properties"].items()) table.add({name, value});
+        text += "\n" + table.text();
+    }
+    return text;
+}
+
+} // namespace
+
+int opros_info(const LookOptions& options) {
+    const Found found = find(options);
+    const json info = look(found, options);
+    if (options.json)
+        print_json(info);
+    else
+        print_text(text_of(info, found, options));
+    return 0;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `tandem opros`.
+#include "apps/tandem/commands.hpp"
+#include "apps/tandem/opros/commands.hpp"
+#include "host/opros/src/plugin_path.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+namespace {
+
+CLI::App* add(CLI::App& parent, const char* name, const char* brief, const char* details) {
+    CLI::App* command = parent.add_subcommand(name, brief);
+    command->footer(details);
+    return command;
+}
+
+void add_look(CLI::App* command, LookOptions& options, const char* what) {
+    command->add_option("FILE", options.file, what)->required();
+    command->add_option("--plugin-path", options.plugin_dirs, "folder with component libraries (repeatable)")
+        ->allow_extra_args(false);
+    command->add_flag("--initialize", options.initialize,
+                      "run onInitialize, in a child process: some components make their ports there");
+    command->add_option("--timeout", options.seconds, "seconds that the component's code may take (10)")
+        ->check(CLI::Range(0.1, 3600.));
+    command->add_flag("--json", options.json, "print JSON instead of text");
+}
+
+void with_default_dirs(LookOptions& options) {
+    const auto dirs = engine::default_plugin_dirs();
+    options.plugin_dirs.insert(options.plugin_dirs.end(), dirs.begin(), dirs.end());
+}
+
+void add_looks(CLI::App& opros, Run& chosen) {
+    auto options = std::make_shared<LookOptions>();
+    CLI::App* info =
+        add(opros, "info", "What a component is: ports with types, services, properties, executor",
+            "A component is made in a child process, which is given up if it crashes or hangs.\n"
+            "Exit code 1 if it cannot be made, or FILE is neither a library nor a component profile.");
+    add_look(info, *options, "component library (X.so) or component profile (X.xml)");
+    info->callback([=, &chosen] {
+        chosen = [options] {
+            with_default_dirs(*options);
+            return opros_info(*options);
+        };
+    });
+    CLI::App* check = add(opros, "check", "Whether an application's parts are there and fit together",
+                          "Every fault is a line: file, line, what does not fit, what was expected.\n"
+                          "Exit code 1 if there is a fault.");
+    add_look(check, *options, "application profile (XML)");
+    check->callback([=, &chosen] {
+        chosen = [options] {
+            with_default_dirs(*options);
+            return opros_check(*options);
+        };
+    });
+}
+
+void add_new(CLI::App& opros, Run& chosen) {
+    struct Options {
+        std::string name;
+        std::filesystem::path parent = ".";
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        add(opros, "new", "Writes a component that builds and runs as it stands",
+            "Makes the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
+            "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.");
+    command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
+    command->add_option("--in", options->parent, "folder in which to make it (.)");
+    command->callback(
+        [=, &chosen] { chosen = [options] { return opros_new(options->name, options->parent); }; });
+}
+
+void add_build(CLI::App& opros, Run& chosen) {
+    auto options = std::make_shared<BuildOptions>();
+    CLI::App* command =
+        add(opros, "build", "Builds a component from nothing but its folder",
+            "Takes the sources in DIR and DIR/src, and the component profile in DIR or DIR/profile, which\n"
+            "gives the plugin its name; the plugin comes to lie beside the profile. Nothing else is\n"
+            "changed. Exit code 1 if it cannot be built.");
+    const auto repeated = [&](const char* flag, std::vector<std::string>& values, const char* what) {
+        command->add_option(flag, values, what)->allow_extra_args(false);
+    };
+    command->add_option("DIR", options->folder, "folder of the component")->required();
+    command->add_option("--profile", options->profile, "component profile in DIR, when there are several");
+    repeated("-I,--include", options->include_dirs, "folder with headers of neighbours (repeatable)");
+    repeated("-D,--define", options->definitions, "preprocessor definition (repeatable)");
+    repeated("-l,--library", options->libraries, "library to link: a name or a file (repeatable)");
+    command->add_option("--standard", options->standard, "C++ standard (14)")
+        ->check(CLI::IsMember({11, 14, 17, 20}));
+    command->add_option("--output", options->output,
+                        "folder for plugin and profiles instead of the profile's");
+    command->add_option("--build-dir", options->build,
+                        "folder to keep, so that the next build takes less time");
+    command->callback([=, &chosen] { chosen = [options] { return opros_build(*options); }; });
+}
+
+} // namespace
+
+void add_opros(CLI::App& tandem, Run& chosen) {
+    CLI::App* opros =
+        tandem.add_subcommand("opros", "OPRoS components: look at them, check them, make and build them");
+    opros->require_subcommand(1);
+    add_looks(*opros, chosen);
+    add_new(*opros, chosen);
+    add_build(*opros, chosen);
+}
+
+} // namespace tandem::command

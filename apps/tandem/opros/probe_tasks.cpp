@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/opros/probe_tasks.hpp"
+
+#include "apps/tandem/opros/description.hpp"
+#include "host/opros/src/component_host.hpp"
+#include "host/opros/src/connect.hpp"
+#include "host/opros/src/load_component.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <memory>
+
+namespace tandem::command {
+namespace {
+
+using nlohmann::json;
+
+plugin::Probe self(const LookOptions& options, const char* subject) {
+    plugin::Probe probe;
+    probe.bound = std::chrono::milliseconds(static_cast<long>(options.seconds * 1000));
+    probe.subject = subject;
+    return probe;
+}
+
+void initialize(Component& component, const std::string& whose, plugin::ProbeReport& report) {
+    report.stage("onInitialize() of " + whose);
+    if (component.initialize() != OPROS_SUCCESS)
+        throw engine::SetupError("onInitialize() of " + whose + " failed with code " +
+                                 std::to_string(component.getErrorInfo()));
+}
+
+} // namespace
+
+json described(const std::filesystem::path& library, const std::filesystem::path& profile,
+               const LookOptions& options) {
+    std::vector<std::string> arguments{profile.string()};
+    if (options.initialize) arguments.emplace_back("--initialize");
+    return json::parse(plugin::probe(self(options, "library"), describe_task, library, arguments));
+}
+
+std::vector<std::string> connection_faults(const std::vector<std::string>& without,
+                                           const LookOptions& options) {
+    json request{{"initialize", options.initialize}, {"without", without}, {"plugin_dirs", json::array()}};
+    for (const auto& dir : options.plugin_dirs) request["plugin_dirs"].push_back(dir.string());
+    return json::parse(
+        plugin::probe(self(options, "application"), connect_task, options.file, {request.dump()}));
+}
+
+void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
+    report.stage("its static constructors");
+    const auto library = plugin::Library::load(task.library);
+    report.stage("getComponent()");
+    const auto loaded = engine::open_component(task.library);
+    if (!task.arguments.at(0).empty())
+        for (const auto& [name, value] : engine::read_component_profile(task.arguments[0]).properties)
+            loaded.component->setProperty(name, value);
+    if (task.arguments.size() > 1) initialize(*loaded.component, task.library, report);
+    report.stage("its ports");
+    json description = describe(*loaded.component);
+    if (library->has("getVersion")) {
+        report.stage("getVersion()");
+        description["version"] = library->symbol<const char*()>("getVersion")();
+    }
+    report.finish(description.dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
+    const json request = json::parse(task.arguments.at(0));
+    const auto without = request["without"].get<std::vector<std::string>>();
+    std::vector<std::filesystem::path> dirs;
+    for (const auto& dir : request["plugin_dirs"]) dirs.emplace_back(dir.get<std::string>());
+    const auto profile = engine::read_application_profile(task.library);
+    std::vector<std::string> faults;
+    std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
+    for (const auto& entry : profile.subcomponents) {
+        if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
+        report.stage("the making of component " + entry.name);
+        auto search = dirs;
+        search.insert(search.begin(), profile.place.file.parent_path());
+        auto component = std::make_unique<engine::ComponentHost>(
+            entry, engine::read_component_profile(engine::find_component_profile(profile, entry, dirs)),
+            search);
+        if (request["initialize"]) initialize(component->component(), entry.name, report);
+        components.emplace(entry.name, std::move(component));
+    }
+    engine::WorkerPool no_workers(0, 1);
+    std::vector<std::unique_ptr<engine::Link>> links;
+    for (const auto& connection : profile.connections) {
+        const auto source = components.find(connection.source.component),
+                   target = components.find(connection.target.component);
+        if (source == components.end() || target == components.end()) continue;
+        report.stage("the connection at line " + std::to_string(connection.place.line));
+        try {
+            links.push_back(
+                engine::connect(connection, *source->second, *target->second, no_workers, links.size()));
+        } catch (const engine::SetupError& error) {
+            faults.emplace_back(error.what());
+        }
+    }
+    report.finish(json(faults).dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
+plugin::ProbeTasks opros_probe_tasks() {
+    return {{describe_task, serve_describe}, {connect_task, serve_connect}};
+}
+
+} // namespace tandem::command

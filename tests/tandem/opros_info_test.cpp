@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "tests/opros/folder.hpp"
+
+#include <algorithm>
+
+using tandem::test::tandem_program;
+
+namespace {
+nlohmann::json port(const nlohmann::json& info, const std::string& name) {
+    for (const auto& each : info["ports"])
+        if (each["name"] == name) return each;
+    return nullptr;
+}
+} // namespace
+
+TEST_CASE("tandem opros info tells ports and services and executor and properties of a component") {
+    const auto result = tandem_program({"opros", "info", PLUGINS "/opros/HWComp.xml", "--json"});
+    REQUIRE(result.exit_code == 0);
+    const auto info = result.json();
+    CHECK(info["name"] == "HWComp");
+    CHECK(info["executor"]["type"] == "periodic");
+    CHECK(info["executor"]["period_ms"] == 10);
+    CHECK(info["properties"]["scenario"] == "step20");
+    CHECK(port(info, "wheelSpeed")["direction"] == "output");
+    CHECK(port(info, "refVoltage")["direction"] == "input");
+    CHECK(port(info, "refVoltage")["type"] == "std::vector<double>");
+    CHECK(port(info, "chair")["methods"][0]["signature"] == "bool ()");
+    const auto text = tandem_program({"opros", "info", PLUGINS "/opros/HWComp.xml"});
+    CHECK(text.says("executor   periodic, every 10 ms, phase 5 ms, priority 7"));
+    CHECK(text.says("emergency_stop: bool ()"));
+}
+
+TEST_CASE("tandem opros info takes a library with or without a profile and shows all kinds of ports") {
+    const auto beside = tandem_program({"opros", "info", PLUGINS "/opros/HWComp.so", "--json"}).json();
+    CHECK(beside["executor"]["period_ms"] == 10);
+    const auto info = tandem_program({"opros", "info", ALL_PORTS, "--json"}).json();
+    CHECK(info["executor"].is_null());
+    CHECK(port(info, "heard")["kind"] == "event");
+    CHECK(port(info, "heard")["type"] == "std::string");
+    CHECK(port(info, "said")["direction"] == "output");
+    CHECK(port(info, "required")["direction"] == "required");
+    CHECK(port(info, "provided")["methods"][0]["signature"] == "double (double)");
+}
+
+TEST_CASE("tandem opros info says in one line why it cannot show a component") {
+    const auto refused = [](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"opros", "info"});
+        const auto result = tandem_program(arguments);
+        INFO(result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        return result.errors;
+    };
+    CHECK_THAT(refused({"/nowhere/X.so"}), Catch::Contains("/nowhere/X.so"));
+    CHECK_THAT(refused({"/nowhere/X.xml"}), Catch::Contains("/nowhere/X.xml"));
+    CHECK_THAT(refused({PLUGINS "/rtm/HWComp.so"}), Catch::Contains("an RTC module"));
+    CHECK_THAT(refused({ZOO "/opros/entry_crashes.so"}), Catch::Contains(" in getComponent()"));
+    CHECK_THAT(refused({ZOO "/opros/entry_hangs.so", "--timeout", "1"}), Catch::Contains("within 1 s"));
+    CHECK_THAT(refused({ZOO "/opros/static_constructor_aborts.so"}), Catch::Contains("static constructors"));
+}
+
+TEST_CASE("tandem opros info runs onInitialize only when it is told to") {
+    const Folder folder;
+    folder.component("M", FIXTURES "/libmaker.so", "<type>passive</type>",
+                     "<property name=\"trouble\">initialize throws</property>");
+    const std::string profile = folder.path() / "M.xml";
+    CHECK(tandem_program({"opros", "info", profile}).exit_code == 0);
+    const auto initialized = tandem_program({"opros", "info", profile, "--initialize"});
+    CHECK(initialized.exit_code == 1);
+    CHECK_THAT(initialized.errors, Catch::Contains("no device"));
+}
