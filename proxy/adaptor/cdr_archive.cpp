@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/cdr_archive.hpp"
 
+#include "proxy/wire/time.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <type_traits>
@@ -58,9 +60,26 @@ void get_all(wire::CdrReader& in, T* p, long size) {
 
 } // namespace
 
+/// The time is the first thing that its value writes, as two unsigned ints: the signatures say so.
+template <class T>
+bool CdrOarchive::is_time(T value) {
+    if (!std::is_same_v<T, unsigned int> || time_left_ == 0) return false;
+    const bool seconds = time_left_-- == 2;
+    const auto word = static_cast<std::uint32_t>(value);
+    *time_ = seconds ? wire::pack_time(word, 0) : *time_ | wire::pack_time(0, word);
+    return true;
+}
+
+template <class T>
+bool CdrIarchive::is_time(T& value) {
+    if (!std::is_same_v<T, unsigned int> || time_left_ == 0) return false;
+    value = static_cast<T>(time_left_-- == 2 ? wire::seconds_of(time_) : wire::nanoseconds_of(time_));
+    return true;
+}
+
 #define TANDEM_SAVE(type)                                                                                    \
     oarchive& CdrOarchive::save(type value) {                                                                \
-        put(out_, value);                                                                                    \
+        if (!is_time(value)) put(out_, value);                                                               \
         return *this;                                                                                        \
     }                                                                                                        \
     oarchive& CdrOarchive::save_array(const type* p, long size) {                                            \
@@ -96,6 +115,7 @@ void CdrIarchive::check() const {
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& CdrIarchive::load(type& value) {                                                               \
+        if (is_time(value)) return *this;                                                                    \
         get(in_, value);                                                                                     \
         check();                                                                                             \
         return *this;                                                                                        \

@@ -13,6 +13,8 @@ namespace tandem::adaptor {
 class CdrOarchive final : public opros::archive::oarchive {
   public:
     explicit CdrOarchive(wire::CdrWriter& out) : out_(out) {}
+    /// For a value that begins with RTM's time, which travels in the message's header: it goes to `stamp`.
+    CdrOarchive(wire::CdrWriter& out, std::uint64_t& stamp) : out_(out), time_(&stamp), time_left_(2) {}
 
 #define TANDEM_SAVE(type)                                                                                    \
     oarchive& save(type value) override;                                                                     \
@@ -27,7 +29,12 @@ class CdrOarchive final : public opros::archive::oarchive {
     using oarchive::save;
 
   private:
+    template <class T>
+    bool is_time(T value);
+
     wire::CdrWriter& out_;
+    std::uint64_t* time_ = nullptr;
+    int time_left_ = 0; ///< of its two words
 };
 
 /// Lets a type's own serialization read CDR. Throws archive_type_exception when the bytes do not hold what it
@@ -35,6 +42,8 @@ class CdrOarchive final : public opros::archive::oarchive {
 class CdrIarchive final : public opros::archive::iarchive {
   public:
     explicit CdrIarchive(wire::CdrReader in) : in_(in) {}
+    /// For a value that begins with RTM's time, which `stamp` holds and the message does not.
+    CdrIarchive(wire::CdrReader in, std::uint64_t stamp) : in_(in), time_(stamp), time_left_(2) {}
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& load(type& value) override;                                                                    \
@@ -49,8 +58,13 @@ class CdrIarchive final : public opros::archive::iarchive {
     using iarchive::load;
 
   private:
+    template <class T>
+    bool is_time(T& value);
     void check() const;
+
     wire::CdrReader in_;
+    std::uint64_t time_ = 0;
+    int time_left_ = 0; ///< of its two words
 };
 
 } // namespace tandem::adaptor

@@ -20,30 +20,16 @@ bool MirroredInput::checkType(opros_any& sample) {
 }
 
 ReturnType MirroredInput::push(opros_any& value) {
+    std::uint64_t stamp = value_has_time_ ? 0 : wire::stamp_now();
     try {
-        const bool sent = value_has_time_ ? push_timed(value)
-                                          : channel_.write(wire::stamp_now(), [&](wire::CdrWriter& out) {
-                                                CdrOarchive archive(out);
-                                                value.encode(archive);
-                                            });
+        const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
+            CdrOarchive archive = value_has_time_ ? CdrOarchive(out, stamp) : CdrOarchive(out);
+            value.encode(archive);
+        });
         return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     } catch (const std::exception&) {
         return OPROS_BAD_INPUT_PARAMETER; // a value, not a type, that cannot cross: a string with a NUL in it
     }
-}
-
-/// The value brings RTM's time itself: on the wire that goes into the header, so it is encoded aside and
-/// split.
-bool MirroredInput::push_timed(opros_any& value) {
-    thread_local std::vector<std::byte> aside;
-    wire::CdrWriter writer(aside);
-    CdrOarchive archive(writer);
-    value.encode(archive);
-    wire::CdrReader time(aside);
-    const auto sec = time.get<std::uint32_t>(), nsec = time.get<std::uint32_t>();
-    const auto rest = std::span<const std::byte>(aside).subspan(time.position());
-    return channel_.write(wire::pack_time(sec, nsec),
-                          [&](wire::CdrWriter& out) { out.put_block(rest.data(), rest.size(), 1); });
 }
 
 } // namespace tandem::adaptor

@@ -26,8 +26,6 @@ class MirroredInput final : public InputDataPortInterface {
     std::string typeError() const override { return type_error_; }
 
   private:
-    bool push_timed(opros_any& value);
-
     const link::Port partner_;
     link::ChannelWriter& channel_;
     bool value_has_time_ = false;

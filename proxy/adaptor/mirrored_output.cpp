@@ -3,7 +3,6 @@
 
 #include "proxy/adaptor/type_check.hpp"
 #include "proxy/wire/match.hpp"
-#include "proxy/wire/time.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -49,16 +48,9 @@ opros::archive::iarchive* MirroredOutput::next() {
         held_.unlock();
         return nullptr;
     }
-    auto bytes = record->bytes;
-    record_bytes_ = bytes.size();
-    if (value_has_time_) {
-        wire::CdrWriter writer(timed_);
-        writer.put(wire::seconds_of(record->stamp_ns));
-        writer.put(wire::nanoseconds_of(record->stamp_ns));
-        writer.put_block(bytes.data(), bytes.size(), 1);
-        bytes = timed_;
-    }
-    return &archive_.emplace(wire::CdrReader(bytes));
+    record_bytes_ = record->bytes.size();
+    const wire::CdrReader reader(record->bytes);
+    return value_has_time_ ? &archive_.emplace(reader, record->stamp_ns) : &archive_.emplace(reader);
 }
 
 void MirroredOutput::done() {

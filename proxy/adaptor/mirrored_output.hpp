@@ -36,6 +36,7 @@ class MirroredOutput final : public OutputDataPortInterface, private DataPortSou
   private:
     opros::archive::iarchive* next() override;
     void done() override;
+    bool large() const override { return record_bytes_ > link::large_message; }
     void undecodable(const std::string& why) override;
     void detach();
 
@@ -48,7 +49,6 @@ class MirroredOutput final : public OutputDataPortInterface, private DataPortSou
     std::unique_lock<std::mutex> held_; ///< from next() to done(): the record must stay while it is read
     std::size_t record_bytes_ = 0;
     link::Rare undecodable_;
-    std::vector<std::byte> timed_; ///< time and payload, for targets whose type has the time
     std::optional<CdrIarchive> archive_;
 };
 

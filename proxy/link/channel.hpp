@@ -13,6 +13,9 @@
 
 namespace tandem::link {
 
+/// From here on, handing a message over without a copy is worth more than to do it as always.
+constexpr std::size_t large_message = std::size_t{64} * 1024;
+
 /// What an end of a channel is bound to: a ring, and the segment that keeps it mapped.
 template <class End>
 struct Bound {

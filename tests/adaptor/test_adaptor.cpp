@@ -3,6 +3,7 @@
 #include "chair_service.hpp"
 #include "proxy/adaptor/adaptor_comp.hpp"
 #include "proxy/link/control.hpp"
+#include "proxy/wire/time.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -86,11 +87,12 @@ struct Connector : ServicePortConnector {
 };
 
 struct Scene {
-    explicit Scene(const std::string& what)
+    explicit Scene(const std::string& what, const std::string& large_kib = "")
         : name(fmt::format("test-adaptor-{}-{}", what, getpid())), partner(name) {
         component.setId("Adaptor");
         component.setProperty("link", name);
         component.setProperty("call_timeout", "5000");
+        if (!large_kib.empty()) component.setProperty("large_kib", large_kib);
         REQUIRE(component.initialize() == OPROS_SUCCESS);
         partner.link.wait_up(soon, "adaptor"); // it may learn of the adaptor a little later
     }
@@ -112,6 +114,28 @@ bool eventually(const std::function<bool()>& condition) {
         std::this_thread::sleep_for(1ms);
     }
     return false;
+}
+
+/// A type with RTM's time of its own, as the OPRoS side may have it.
+struct Stamped {
+    unsigned int sec = 0, nsec = 0;
+    std::vector<double> data;
+    bool operator==(const Stamped&) const = default;
+};
+inline std::string typeName(Stamped*) { return "Stamped"; }
+struct Time {
+    Stamped* of;
+};
+inline std::string typeName(Time*) { return "Time"; }
+inline void save_this(opros::archive::oarchive& ar, Time& time) { ar << time.of->sec << time.of->nsec; }
+inline void load_this(opros::archive::iarchive& ar, Time& time) { ar >> time.of->sec >> time.of->nsec; }
+inline void save_this(opros::archive::oarchive& ar, Stamped& value) {
+    Time time{&value};
+    ar << time << value.data;
+}
+inline void load_this(opros::archive::iarchive& ar, Stamped& value) {
+    Time time{&value};
+    ar >> time >> value.data;
 }
 
 class Chair : public IChair {
@@ -170,6 +194,69 @@ TEST_CASE("a connected input port polls the ring itself") {
     }
     CHECK(input.pop() == nullptr);
     reference.clearConnection();
+}
+
+TEST_CASE("a value with the time in it has it in the header on the way and back again") {
+    Scene scene("stamped");
+    auto& position = scene.port<InputDataPortInterface>("position");
+    opros_any value{Stamped{1700000000, 999999999, {1, 2, 3}}};
+    REQUIRE(position.checkType(value));
+    REQUIRE(position.push(value) == OPROS_SUCCESS);
+    auto& reader = scene.partner.link.reader("position");
+    REQUIRE(eventually([&] { return !reader.empty(); }));
+    auto& writer = scene.partner.link.writer("reference");
+    reader.read(false, [&](const shm::Record& record) {
+        CHECK(record.stamp_ns == wire::pack_time(1700000000, 999999999));
+        CHECK(record.bytes.size() == 32); // count, padding, three doubles
+        REQUIRE(writer.write_exactly(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
+            std::copy(record.bytes.begin(), record.bytes.end(), room.begin());
+        }));
+    });
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    InputDataPort<Stamped> input;
+    REQUIRE(reference.checkType(&input));
+    std::unique_ptr<opros_any> back(input.pop());
+    REQUIRE(back);
+    CHECK(input.getContent(*back) == Stamped{1700000000, 999999999, {1, 2, 3}});
+    reference.clearConnection();
+}
+
+TEST_CASE("64 MiB of doubles pass through the mirrored ports with and without the time") {
+    Scene scene("large", "66000");
+    auto& position = scene.port<InputDataPortInterface>("position");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    auto& reader = scene.partner.link.reader("position");
+    auto& writer = scene.partner.link.writer("reference");
+    const auto echo = [&] {
+        REQUIRE(eventually([&] { return !reader.empty(); }));
+        reader.read(false, [&](const shm::Record& record) {
+            writer.write_exactly(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
+                std::copy(record.bytes.begin(), record.bytes.end(), room.begin());
+            });
+        });
+    };
+    std::vector<double> cloud(8 * 1024 * 1024);
+    for (std::size_t i = 0; i < cloud.size(); ++i) cloud[i] = static_cast<double>(i) / 3;
+    const bool stamped = GENERATE(false, true);
+    opros_any value = stamped ? opros_any(Stamped{7, 8, cloud}) : opros_any(cloud);
+    REQUIRE(position.checkType(value));
+    REQUIRE(position.push(value) == OPROS_SUCCESS);
+    echo();
+    if (stamped) {
+        InputDataPort<Stamped> input;
+        REQUIRE(reference.checkType(&input));
+        std::unique_ptr<opros_any> back(input.pop());
+        REQUIRE(back);
+        CHECK((*input.getContentPointer(*back) == Stamped{7, 8, cloud}));
+        reference.clearConnection();
+    } else {
+        InputDataPort<std::vector<double>> input;
+        REQUIRE(reference.checkType(&input));
+        std::unique_ptr<opros_any> back(input.pop());
+        REQUIRE(back);
+        CHECK((*input.getContentPointer(*back) == cloud));
+        reference.clearConnection();
+    }
 }
 
 TEST_CASE("types that do not fit are refused at connection, with both signatures") {

@@ -63,6 +63,45 @@ class Repeater : public DataPortSource {
     opros::archive::binary_iarchive archive_{&bytes_};
 };
 
+/// Counts how often its pixels are copied.
+struct Picture {
+    Picture() = default;
+    Picture(const Picture& other) : pixels(other.pixels) { copies += !pixels.empty(); }
+    Picture& operator=(const Picture& other) {
+        pixels = other.pixels;
+        copies += !pixels.empty();
+        return *this;
+    }
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << pixels; }
+    void load(opros::archive::iarchive& ar, const unsigned int) { ar >> pixels; }
+    std::vector<unsigned char> pixels;
+    static inline int copies = 0;
+};
+std::string typeName(Picture*) { return "Picture"; }
+
+/// Pictures that wait outside, and say that they are large.
+class Camera : public DataPortSource {
+  public:
+    void take(unsigned char shade) { waiting_.push_back(shade); }
+    opros::archive::iarchive* next() override {
+        if (waiting_.empty()) return nullptr;
+        Picture picture;
+        picture.pixels.assign(1000, waiting_.front());
+        BinaryPipe pipe;
+        pipe.out << picture;
+        bytes_ = std::istringstream(pipe.bytes.str());
+        archive_ = std::make_unique<opros::archive::binary_iarchive>(&bytes_);
+        return archive_.get();
+    }
+    void done() override { waiting_.pop_front(); }
+    bool large() const override { return true; }
+
+  private:
+    std::deque<unsigned char> waiting_;
+    std::istringstream bytes_;
+    std::unique_ptr<opros::archive::binary_iarchive> archive_;
+};
+
 double pop(InputDataPort<double>& port) {
     const std::unique_ptr<opros_any> any(port.pop());
     return any ? port.getContent(*any) : -1;
@@ -158,6 +197,27 @@ TEST_CASE("once warm, a waiting consumer gets a value without an allocation but 
         if (i > 0) CHECK(after - between == between - before);
         CHECK(port.getContent(*any) == values);
     }
+}
+
+TEST_CASE("a large value is decoded into what the consumer gets and never copied") {
+    const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO, OPROS_UFIFO);
+    InputDataPort<Picture> port(policy, 4);
+    Camera camera;
+    port.addSource(&camera);
+    Picture::copies = 0;
+    for (unsigned char round = 1; round <= 5; ++round) {
+        for (int i = 0; i < 3; ++i)
+            camera.take(round); // it waits for the first one, and lags behind with the rest
+        std::size_t popped = 0;
+        while (const std::unique_ptr<opros_any> any{port.pop()}) {
+            const auto* picture = port.getContentPointer(*any);
+            REQUIRE(picture);
+            CHECK(picture->pixels == std::vector<unsigned char>(1000, round));
+            ++popped;
+        }
+        CHECK(popped == (policy == OPROS_LAST ? 1 : 3));
+    }
+    CHECK(Picture::copies == 0);
 }
 
 TEST_CASE("pushed values and those of a source meet in one queue") {

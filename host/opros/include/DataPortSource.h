@@ -16,6 +16,8 @@ class DataPortSource {
     virtual opros::archive::iarchive* next() = 0;
     /// The value of the last next() has been read, or given up.
     virtual void done() = 0;
+    /// Whether the value of the last next() was so long that the port should not copy what it decoded.
+    virtual bool large() const { return false; }
     /// Comes before done() when the value could not be decoded and is dropped.
     virtual void undecodable(const std::string& /*why*/) {}
 };

@@ -88,7 +88,7 @@ class InputDataPortImpl {
             for (int i = 0; i < values_per_poll && !queue_.full(); ++i) {
                 const Read read = read_one(*source);
                 if (read == Read::nothing) break;
-                if (read == Read::value) queue_.push() = scratch_;
+                if (read == Read::value) queue_.push().swap(scratch_); // its storage goes round
             }
     }
 
@@ -108,14 +108,15 @@ class InputDataPortImpl {
     }
 
     /// While there is nothing to do: makes the next value to be handed out, with as much storage as the last
-    /// one had.
+    /// one had. Not of a large one: that would be a copy, and would cost more than it saves.
     opros_any* prepare() {
-        if (!spare_ && !scratch_.empty()) spare_ = std::make_unique<opros_any>(scratch_);
+        if (!spare_ && !scratch_.empty() && !large_) spare_ = std::make_unique<opros_any>(scratch_);
         return nullptr;
     }
 
     opros_any* hand_out(opros_any& value) {
-        if (!spare_) return new opros_any(value);
+        if (!spare_ && !large_) return new opros_any(value);
+        if (!spare_) spare_ = std::make_unique<opros_any>();
         spare_->swap(value); // and its storage takes the place of what leaves
         return spare_.release();
     }
@@ -131,6 +132,7 @@ class InputDataPortImpl {
         } catch (const std::exception& error) {
             source.undecodable(error.what());
         }
+        large_ = source.large();
         source.done();
         return read;
     }
@@ -142,6 +144,7 @@ class InputDataPortImpl {
     std::vector<DataPortSource*> sources_;
     std::unique_ptr<opros_any> spare_; // the next to be handed out
     bool caught_up_ = false;           // the last pop() found nothing
+    bool large_ = false;               // the last value of a source was
     std::atomic<bool> worth_a_look_{false};
 };
 
