@@ -44,6 +44,10 @@ void check_component(const ApplicationProfile& application, const engine::Subcom
     }
 }
 
+std::string counted(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 int report(const ApplicationProfile& application, const Faults& faults, bool as_json) {
     const int code = faults.lines.empty() ? 0 : 1;
     if (as_json) {
@@ -54,11 +58,11 @@ int report(const ApplicationProfile& application, const Faults& faults, bool as_
         return code;
     }
     for (const std::string& line : faults.lines) print_text(line + "\n");
-    print_text(faults.lines.empty()
-                   ? fmt::format("{}: {} components and {} connections fit\n", application.name,
-                                 application.subcomponents.size(), application.connections.size())
-                   : fmt::format("{}: {} fault{}\n", application.name, faults.lines.size(),
-                                 faults.lines.size() == 1 ? "" : "s"));
+    print_text(application.name + ": " +
+               (faults.lines.empty() ? counted(application.subcomponents.size(), "component") + " and " +
+                                           counted(application.connections.size(), "connection") + " fit"
+                                     : counted(faults.lines.size(), "fault")) +
+               "\n");
     return code;
 }
 
