@@ -36,6 +36,20 @@ TEST_CASE(
     CHECK(state(application, "Name") == OPROS_CS_READY);
 }
 
+TEST_CASE("a device library is found where a component library is and the rest is left as it is") {
+    const Folder folder;
+    folder.write("libLaserApi.so", "");
+    folder.component("M", "maker.dll", "<type>passive</type>",
+                     "<property name=\"ApiName\">LaserApi</property><property name=\"DllName\">nowhere</property>"
+                     "<property name=\"Name\">LaserApi</property>");
+    Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));
+    auto& component = application.find("M")->component();
+    CHECK(component.getProperty("ApiName") == (folder.path() / "libLaserApi.so").string());
+    CHECK(component.getProperty("DllName") == "nowhere");
+    CHECK(component.getProperty("Name") == "LaserApi");
+    CHECK(component.getProperty("opros.component.dir") == (folder.path() / "").string());
+}
+
 TEST_CASE("an application starts, is stepped and stops in order") {
     const Folder folder;
     Application application(maker_and_printer(folder), test_options(folder));

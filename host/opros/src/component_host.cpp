@@ -28,10 +28,15 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
     component_->setId(name_);
-    for (const auto& [key, value] : profile_.properties) component_->setProperty(key, value);
-    for (const auto& [key, value] : entry.properties) component_->setProperty(key, value);
-    const auto resources = std::filesystem::absolute(profile_.place.file).parent_path() / "res" / "";
-    component_->setProperty("_opros_xx_internal_xx_Component_Path", resources.string());
+    const auto folder = std::filesystem::absolute(profile_.place.file).parent_path();
+    component_->setProperty("_opros_xx_internal_xx_Component_Path", (folder / "res" / "").string());
+    component_->setProperty("opros.component.dir", (folder / "").string());
+    const auto set = [&](const Properties& properties) {
+        for (const auto& [key, value] : properties)
+            component_->setProperty(key, find_device_library(profile_, key, value, dirs));
+    };
+    set(profile_.properties);
+    set(entry.properties);
 }
 
 std::string ComponentHost::fail(const char* what, const std::string& why) {

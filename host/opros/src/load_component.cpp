@@ -5,6 +5,9 @@
 #include "host/plugin/find_library.hpp"
 #include "host/plugin/library.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 #define MAKE_STATIC_COMPONENT // the host is no component
 #include <ServiceUtils.h>
 #include <spdlog/spdlog.h>
@@ -36,6 +39,23 @@ Component* make(plugin::Library& library) {
     throw SetupError("getComponent() of " + library.path().string() + " " + why);
 }
 
+bool names_device_library(std::string property) {
+    std::transform(property.begin(), property.end(), property.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    const auto ends_with = [&](const std::string& end) {
+        return property.size() >= end.size() &&
+               property.compare(property.size() - end.size(), end.size(), end) == 0;
+    };
+    return ends_with("apiname") || ends_with("dllname");
+}
+
+std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
+                                               const std::vector<std::filesystem::path>& dirs) {
+    std::vector<std::filesystem::path> search{profile.place.file.parent_path()};
+    search.insert(search.end(), dirs.begin(), dirs.end());
+    return search;
+}
+
 } // namespace
 
 LoadedComponent open_component(const std::filesystem::path& file) {
@@ -48,12 +68,21 @@ LoadedComponent open_component(const std::filesystem::path& file) {
 
 std::filesystem::path find_component_library(const ComponentProfile& profile,
                                              const std::vector<std::filesystem::path>& dirs) {
-    std::vector<std::filesystem::path> search{profile.place.file.parent_path()};
-    search.insert(search.end(), dirs.begin(), dirs.end());
     try {
-        return plugin::find_library(profile.library_name, search);
+        return plugin::find_library(profile.library_name, search_dirs(profile, dirs));
     } catch (const plugin::Error& error) {
         throw SetupError(profile.library_place, error.what());
+    }
+}
+
+std::string find_device_library(const ComponentProfile& profile, const std::string& property,
+                                const std::string& value, const std::vector<std::filesystem::path>& dirs) {
+    if (value.empty() || !names_device_library(property)) return value;
+    try {
+        return std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, dirs))).string();
+    } catch (const plugin::Error& error) {
+        spdlog::info("{} {}: left to the component to find: {}", property, value, error.what());
+        return value;
     }
 }
 
