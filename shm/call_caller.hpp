@@ -10,8 +10,8 @@
 // the worker learns it by the word and answers nevertheless; until then the slot is parked, because that
 // worker still writes its results there.
 #pragma once
-#include "shm/call_sleep.hpp"
 #include "shm/call_view.hpp"
+#include "shm/futex.hpp"
 
 #include <vector>
 
@@ -100,7 +100,7 @@ class CallCaller {
             view_.header->sleepers.load(std::memory_order_seq_cst) != 0)
             ring();
         ticket.rung = false;
-        return sleep_on<A>(request.caller_sleeps, until, [&] { return over(ticket); });
+        return sleep_until<A>(request.caller_sleeps, until, [&] { return over(ticket); });
     }
 
     /// [any-thread] Ends a call whose reply has not come, and the wait for it. Does nothing to a later call
@@ -113,7 +113,7 @@ class CallCaller {
             (seen == with_state(ticket.word, layout::CallState::running) &&
              request.word.compare_exchange_strong(seen, with_state(seen, layout::CallState::abandoned),
                                                   std::memory_order_seq_cst)))
-            wake_sleeper<A>(request.caller_sleeps);
+            wake<A>(request.caller_sleeps);
     }
 
     /// Gives the slot back without a reply. False: there is one, or nothing but damage; collect() it.

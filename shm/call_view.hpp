@@ -48,6 +48,13 @@ struct BasicCallView {
     void expect_request(std::uint32_t slot) const { fetch(&slots[slot].request); }
     void expect_reply(std::uint32_t slot) const { fetch(&slots[slot].reply); }
 
+    // A worker asks to own both lines of the reply as soon as the call is its: they come while the call runs,
+    // and the reply then needs no transfer before it is seen (a tenth of a short call).
+    void own_reply(std::uint32_t slot) const {
+        __builtin_prefetch(&slots[slot].reply, 1);
+        __builtin_prefetch(reinterpret_cast<const std::byte*>(&slots[slot].reply) + line, 1);
+    }
+
     // All four are word-wise atomic copies: an honest side never writes what the other reads, but a caller
     // that gives up and calls again writes while a worker may still read the arguments of before (it finds
     // out by its compare-and-swap, call_worker.hpp), and a hostile one writes whenever it likes.

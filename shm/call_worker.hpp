@@ -11,8 +11,8 @@
 // Workers of one process keep off each other by `busy`, which the other side cannot reach: each slot has one
 // private copy of its arguments, and one worker in it at a time whatever the shared words say.
 #pragma once
-#include "shm/call_sleep.hpp"
 #include "shm/call_view.hpp"
+#include "shm/futex.hpp"
 
 #include <climits>
 #include <optional>
@@ -53,6 +53,7 @@ class CallWorker {
             view_.get_arguments(slot, &copies_[slot * words_per_slot_], taken.bytes());
             // release: the reads above stay above
             if (request.word.compare_exchange_strong(word, running, std::memory_order_acq_rel)) {
+                view_.own_reply(slot);
                 leave_watch(watches);
                 watches = false;
                 return taken;
@@ -73,7 +74,7 @@ class CallWorker {
         if (taken.watched) expect_back();
         // seq_cst: release for the caller that reads the results; and against its announcement of sleep
         slot.reply.word.store(call_word(status, sequence_of(taken.word), bytes), std::memory_order_seq_cst);
-        return wake_sleeper<A>(slot.request.caller_sleeps);
+        return wake<A>(slot.request.caller_sleeps);
     }
 
     /// Has the caller of a call that was taken given up?

@@ -12,7 +12,7 @@ namespace {
 constexpr auto order = Damage::weaker_order, failure = Damage::weaker_failure, no_store = Damage::no_store;
 constexpr const char* caller = "call_caller.hpp";
 constexpr const char* worker = "call_worker.hpp";
-constexpr const char* asleep = "call_sleep.hpp";
+constexpr const char* asleep = "futex.hpp";
 
 constexpr const char* plain =
     "hands over plain data inside of one process, which the model does not see (TSan does)";
