@@ -46,8 +46,18 @@ TEST_CASE("a device library is found where a component library is and the rest i
     auto& component = application.find("M")->component();
     CHECK(component.getProperty("ApiName") == (folder.path() / "libLaserApi.so").string());
     CHECK(component.getProperty("DllName") == "nowhere");
+    CHECK(component.getProperty("APIName") == component.getProperty("ApiName"));
     CHECK(component.getProperty("Name") == "LaserApi");
     CHECK(component.getProperty("opros.component.dir") == (folder.path() / "").string());
+}
+
+TEST_CASE("what the last call of the loader has left is not told to a component") {
+    const Folder folder;
+    folder.component("M", "maker.dll");
+    Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));
+    CHECK(dlopen("no such library", RTLD_NOW) == nullptr);
+    application.start();
+    CHECK(dlerror() == nullptr);
 }
 
 TEST_CASE("an application starts, is stepped and stops in order") {

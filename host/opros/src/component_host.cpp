@@ -4,6 +4,7 @@
 #include "host/opros/src/load_component.hpp"
 
 #include <MethodInvokeException.h>
+#include <dlfcn.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 
@@ -17,6 +18,16 @@ std::string code_text(ReturnType code) {
 
 // What repeats in every cycle is told ever more rarely: 1, 2, 4, 8, ...
 bool is_worth_telling(std::uint64_t count) { return (count & (count - 1)) == 0; }
+
+// Components of OPRoS v1 ask for APIName, and open DllName on Linux.
+void give_device_library_all_names(std::map<std::string, std::string>& properties) {
+    const char* const names[] = {"APIName", "ApiName", "DllName"};
+    std::string library;
+    for (const char* name : names)
+        if (library.empty() && properties.count(name) != 0) library = properties[name];
+    if (library.empty()) return;
+    for (const char* name : names) properties.emplace(name, library);
+}
 
 } // namespace
 
@@ -37,6 +48,7 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     };
     set(profile_.properties);
     set(entry.properties);
+    give_device_library_all_names(component_->getPropertyMap());
 }
 
 std::string ComponentHost::fail(const char* what, const std::string& why) {
@@ -72,6 +84,8 @@ std::string ComponentHost::guarded(const char* what, const std::function<void()>
 
 bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::*step)()) {
     ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
+    dlerror(); // device components ask it after their dlsym(), and would take what others have left there for
+               // theirs
     const std::string thrown = guarded(what, [&] { result = (component_.get()->*step)(); });
     if (thrown.empty() && result == OPROS_SUCCESS) return true;
     if (thrown.empty())
