@@ -117,4 +117,17 @@ ApplicationProfile without_composites(const ApplicationProfile& application,
     return Expansion(application, plugin_dirs).result();
 }
 
+bool has_composites(const ApplicationProfile& application,
+                    const std::vector<std::filesystem::path>& plugin_dirs) {
+    const auto is_composite = [&](const Subcomponent& entry) {
+        try {
+            return profile_kind(find_component_profile(application, entry, plugin_dirs)) ==
+                   ProfileKind::composite;
+        } catch (const SetupError&) { // told by whoever needs the profile
+            return false;
+        }
+    };
+    return std::any_of(application.subcomponents.begin(), application.subcomponents.end(), is_composite);
+}
+
 } // namespace tandem::engine

@@ -11,4 +11,8 @@ namespace tandem::engine {
 ApplicationProfile without_composites(const ApplicationProfile& application,
                                       const std::vector<std::filesystem::path>& plugin_dirs);
 
+/// Whether one of the application's own components is a composite; profiles that cannot be read are none.
+bool has_composites(const ApplicationProfile& application,
+                    const std::vector<std::filesystem::path>& plugin_dirs);
+
 } // namespace tandem::engine
