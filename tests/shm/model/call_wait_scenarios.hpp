@@ -187,6 +187,40 @@ inline std::vector<Case> call_wait_cases() {
                          },
                          Settings{.lapses = 1}});
 
+    // Who lies down while the poller leaves and nobody sleeps yet is told neither by the poller nor, later,
+    // by a caller who still believes in the poller.
+    for (const bool before : {true, false})
+        cases.push_back({before ? "the worker that has been watching leaves while its colleague lies down"
+                                : "the worker that watches leaves while its colleague lies down",
+                         [before](Execution& execution) {
+                             CallWorld world(execution);
+                             CallWorld::Ends ends;
+                             CallTicket first, second;
+                             world.begin(1, CallWorld::far(1), 0, false, first);
+                             bool watches = before && world.worker.watch();
+                             std::optional<TakenCall> held;
+                             execution.thread("worker 1", [&] {
+                                 watches = watches || world.worker.watch();
+                                 held = world.worker.take(watches);
+                                 if (watches) world.worker.stop_watching();
+                                 if (held && held->operation == 1) return; // for long
+                                 if (held) world.answer(*held);
+                                 held.reset();
+                                 world.serve(9);
+                             });
+                             execution.thread("worker 2", [&] { world.serve(9); });
+                             execution.thread("caller", [&] {
+                                 world.begin(2, CallWorld::far(2), 1, false, second);
+                                 ends[2] = world.wait(2, second, 0, true);
+                                 world.worker.interrupt();
+                             });
+                             execution.run();
+                             if (held) world.answer(*held);
+                             ends[1] = world.wait(1, first);
+                             expect_ends(execution, ends, {End::answered});
+                             world.check(ends);
+                         }});
+
     return cases;
 }
 
