@@ -186,8 +186,9 @@ void drift(Session& session) {
     const std::int64_t periods = record.last_ns / period_ns - record.first_ns / period_ns;
     const auto stats = components.application().stats().at(0);
     std::fprintf(stderr, "%s\n", stats.c_str());
-    session.result(static_cast<double>(record.last_ns - record.first_ns) / static_cast<double>(periods) -
-                   static_cast<double>(period_ns));
+    session.result(
+        std::abs(static_cast<double>(record.last_ns - record.first_ns) / static_cast<double>(periods) -
+                 static_cast<double>(period_ns)));
 }
 
 } // namespace
