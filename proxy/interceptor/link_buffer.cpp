@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/link_buffer.hpp"
 
+#include "proxy/interceptor/stamped_stream.hpp"
 #include "proxy/wire/time.hpp"
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 
@@ -57,27 +59,65 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
     } else {
         stamp = wire::stamp_now();
     }
-    const bool sent = channel_.writer->write(
-        stamp, [&](wire::CdrWriter& out) { out.put_block(bytes.data(), bytes.size(), 1); });
-    // Without a partner the message is gone and counted; the RTC goes on as with an unconnected port.
+    return sent(channel_.writer->write_exactly(bytes.size(), stamp, [&](std::span<std::byte> room) {
+        std::copy(bytes.begin(), bytes.end(), room.begin());
+        return true;
+    }));
+}
+
+/// Without a partner the message is gone and counted; the RTC goes on as with an unconnected port.
+BufferStatus LinkBuffer::sent(bool sent) const {
     return sent || !channel_.writer->bound() ? BufferStatus::OK : BufferStatus::FULL;
+}
+
+BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
+    if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
+    const cdrMemoryStream usual;
+    cdrCountingStream counter(usual.TCS_C(), usual.TCS_W());
+    if (!marshal(counter)) return BufferStatus::NOT_SUPPORTED;
+    const std::size_t head = channel_.timed ? time_bytes : 0;
+    if (counter.total() < head + longFrom()) return BufferStatus::NOT_SUPPORTED;
+    std::uint64_t stamp = wire::stamp_now();
+    bool whole = true;
+    const bool written =
+        channel_.writer->write_exactly(counter.total() - head, stamp, [&](std::span<std::byte> room) {
+            StampedOutStream out(room, channel_.timed);
+            whole = marshal(out) && out.full();
+            if (channel_.timed) stamp = out.stamp();
+            return whole;
+        });
+    return whole ? sent(written) : BufferStatus::BUFFER_ERROR;
 }
 
 BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
+    const bool found =
+        channel_.reader->read(false, [&](const shm::Record& record) { copy(record, message); });
+    return found ? BufferStatus::OK : BufferStatus::EMPTY;
+}
+
+BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& use, bool& used) {
+    if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     const bool found = channel_.reader->read(false, [&](const shm::Record& record) {
-        const std::size_t head = channel_.timed ? time_bytes : 0;
-        message.setDataLength(head + record.bytes.size());
-        message.isLittleEndian(true);
-        auto* out = reinterpret_cast<std::byte*>(message.getBuffer());
-        wire::CdrWriter writer(std::span(out, message.getDataLength()));
-        if (channel_.timed) {
-            writer.put(wire::seconds_of(record.stamp_ns));
-            writer.put(wire::nanoseconds_of(record.stamp_ns));
-        }
-        writer.put_block(record.bytes.data(), record.bytes.size(), 1);
+        used = record.bytes.size() >= longFrom();
+        if (!used) return copy(record, message);
+        StampedInStream in(record.bytes, channel_.timed, record.stamp_ns);
+        use(in);
     });
     return found ? BufferStatus::OK : BufferStatus::EMPTY;
+}
+
+void LinkBuffer::copy(const shm::Record& record, RTC::ByteData& message) const {
+    const std::size_t head = channel_.timed ? time_bytes : 0;
+    message.setDataLength(head + record.bytes.size());
+    message.isLittleEndian(true);
+    auto* out = reinterpret_cast<std::byte*>(message.getBuffer());
+    wire::CdrWriter writer(std::span(out, message.getDataLength()));
+    if (channel_.timed) {
+        writer.put(wire::seconds_of(record.stamp_ns));
+        writer.put(wire::nanoseconds_of(record.stamp_ns));
+    }
+    writer.put_block(record.bytes.data(), record.bytes.size(), 1);
 }
 
 std::size_t LinkBuffer::readable() const { return channel_.reader && !channel_.reader->empty() ? 1 : 0; }

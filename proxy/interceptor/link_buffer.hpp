@@ -4,6 +4,7 @@
 #include "proxy/link/channel.hpp"
 
 #include <rtm/CdrBufferBase.h>
+#include <rtm/InPlaceBuffer.h>
 
 #include <string>
 
@@ -18,7 +19,7 @@ struct LinkChannel {
 
 /// The buffer of a connector that ends in shared memory: an RTC's port writes to, or polls, the ring itself.
 /// RTM's time travels in the record's header. Made by the buffer factory under the name `tandem_link`.
-class LinkBuffer final : public RTC::CdrBufferBase {
+class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
   public:
     static constexpr const char* factory_name = "tandem_link";
     static void register_factory();
@@ -30,6 +31,10 @@ class LinkBuffer final : public RTC::CdrBufferBase {
 
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
+    /// What is too long to be worth a copy is made in the chunk that it crosses in, and read there.
+    std::size_t longFrom() const override { return link::large_message; }
+    RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
+    RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& use, bool& used) override;
     std::size_t readable() const override;
     bool empty() const override { return readable() == 0; }
     RTC::BufferStatus put(const RTC::ByteData& message) override { return write(message, {}); }
@@ -48,6 +53,9 @@ class LinkBuffer final : public RTC::CdrBufferBase {
     bool full() const override { return false; }
 
   private:
+    void copy(const shm::Record& record, RTC::ByteData& message) const;
+    RTC::BufferStatus sent(bool sent) const;
+
     LinkChannel channel_;
     RTC::ByteData last_;
 };

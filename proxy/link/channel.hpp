@@ -49,15 +49,17 @@ class ChannelWriter {
         return false;
     }
 
-    /// The same for a message of known length: fill(std::span<std::byte>) writes all of it.
+    /// The same for a message of known length: fill(std::span<std::byte>) writes all of it, or returns false
+    /// to send nothing after all.
     template <class Fill>
     bool write_exactly(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
         if (!bound_) return ++unlinked_, false;
         const auto room = bound_->end.reserve(bytes);
         if (room.data() == nullptr) return refused(bytes);
-        fill(room);
-        return bound_->end.commit(bytes, stamp, 0);
+        const bool filled = fill(room);
+        if (!filled) bound_->end.abandon();
+        return filled && bound_->end.commit(bytes, stamp, 0);
     }
 
     bool bound() const;

@@ -102,8 +102,8 @@ std::shared_ptr<Session> Link::join() const {
     const auto calls = segment->add_call_queue(calls_name, queue);
     const auto table = encode(own_);
     std::memcpy(segment->add_blob(table_name, table.size()).data(), table.data(), table.size());
-    const std::uint64_t wish = options_.rings.large_bytes;
-    std::memcpy(segment->add_blob(wish_name, sizeof wish).data(), &wish, sizeof wish);
+    const LargeMessages large{options_.rings.large_bytes, plan.rings.empty() ? most_large : large_bytes_};
+    std::memcpy(segment->add_blob(large_name, sizeof large).data(), &large, sizeof large);
     segment->publish();
     return std::make_shared<Session>(segment, calls, options_.wait);
 }
@@ -165,22 +165,26 @@ void Link::wait_to_rejoin(std::chrono::milliseconds bound, const std::string& wh
     changed_.wait_for(lock, bound, [this] { return stopping_.load(); });
 }
 
-/// Whether the partner asks for longer messages than this half has laid out chunks for.
+/// Whether a half asks for longer messages than the other one has laid out chunks for; that one then joins
+/// anew.
 bool Link::outgrown(const Session& session) {
-    const auto wish = session.segment->copy_blob(shm::other(side_), wish_name);
-    if (!wish) return false;
-    const auto bytes = wire::CdrReader(*wish).get<std::uint64_t>();
-    if (bytes <= large_bytes_ || bytes > most_large) return false;
-    large_bytes_ = bytes;
-    return std::any_of(own_.ports.begin(), own_.ports.end(),
-                       [](const Port& port) { return is_data(port.kind); });
+    const auto bytes = session.segment->copy_blob(shm::other(side_), large_name);
+    LargeMessages theirs{};
+    if (!bytes || bytes->size() != sizeof theirs) return false;
+    std::memcpy(&theirs, bytes->data(), sizeof theirs);
+    const bool more = theirs.asked > large_bytes_ && theirs.asked <= most_large;
+    if (more) large_bytes_ = theirs.asked;
+    const bool lays_out = std::any_of(own_.ports.begin(), own_.ports.end(),
+                                      [](const Port& port) { return is_data(port.kind); });
+    if (more && lays_out) take_down("");
+    return (more && lays_out) || theirs.laid_out < options_.rings.large_bytes;
 }
 
 void Link::try_bring_up(const std::shared_ptr<Session>& session) {
     const auto peer = shm::other(side_);
     std::string refusal;
-    if (outgrown(*session)) return take_down(""); // and join anew, with chunks of that length
     try {
+        if (outgrown(*session)) return;
         const auto bytes = session->segment->copy_blob(peer, table_name);
         const auto calls = session->segment->find_call_queue(peer, calls_name);
         if (!bytes || !calls) throw LinkError("the partner published no port table");

@@ -24,10 +24,16 @@ struct Session {
     bool refused = false;                    ///< the partner's table does not fit: wait for another partner
 };
 
+/// What a half says of long messages, under large_name: the bytes that were asked of it by large_kib, and
+/// those of its rings' chunks (0 if nobody has asked yet; as many as can be, if it has no rings).
+struct LargeMessages {
+    std::uint64_t asked, laid_out;
+};
+
 /// Names of a half's objects in the segment.
 inline const std::string table_name = "table";
 inline const std::string calls_name = "calls";
-inline const std::string wish_name = "large"; ///< bytes that its longest messages take, 0: as it comes
+inline const std::string large_name = "large";
 inline std::string ring_name(const std::string& port) { return "port " + port; }
 
 } // namespace tandem::link

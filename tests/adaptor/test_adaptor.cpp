@@ -210,6 +210,7 @@ TEST_CASE("a value with the time in it has it in the header on the way and back 
         CHECK(record.bytes.size() == 32); // count, padding, three doubles
         REQUIRE(writer.write_exactly(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
             std::copy(record.bytes.begin(), record.bytes.end(), room.begin());
+            return true;
         }));
     });
     auto& reference = scene.port<OutputDataPortInterface>("reference");
@@ -232,6 +233,7 @@ TEST_CASE("64 MiB of doubles pass through the mirrored ports with and without th
         reader.read(false, [&](const shm::Record& record) {
             writer.write_exactly(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
                 std::copy(record.bytes.begin(), record.bytes.end(), room.begin());
+                return true;
             });
         });
     };

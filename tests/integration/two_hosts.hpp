@@ -22,7 +22,8 @@ class TwoHosts {
         std::string name = (std::filesystem::temp_directory_path() / "tandem-bridge-XXXXXX").string();
         folder_ = mkdtemp(name.data());
         link_ = folder_.filename().string();
-        std::filesystem::copy_file(TEST_SOURCES "/opros/TalkerComp.xml", folder_ / "TalkerComp.xml");
+        for (const char* profile : {"TalkerComp.xml", "CameraComp.xml"})
+            std::filesystem::copy_file(std::string(TEST_SOURCES "/opros/") + profile, folder_ / profile);
         connections_ = connection("data", "Talker", "word", "Adaptor", "word") +
                        connection("data", "Adaptor", "reply", "Talker", "reply") +
                        connection("service", "Talker", "dictionary", "Adaptor", "dictionary");
@@ -42,6 +43,9 @@ class TwoHosts {
                to_port + "\"/></port_connection>\n";
     }
     void set_connections(const std::string& xml) { connections_ = xml; }
+    /// The OPRoS component that is there as Talker.
+    void set_talker(const std::string& component) { talker_ = component; }
+    void set_large_kib(const std::string& of_adaptor) { large_kib_ = of_adaptor; }
     void set_wait(const std::string& seconds) { wait_ = seconds; }
     void set_interceptor(const std::string& parameters) { interceptor_ = parameters; }
     void append_to_rtc_conf(const std::string& lines) { rtc_conf_more_ += lines; }
@@ -52,15 +56,17 @@ class TwoHosts {
     void start_opros() {
         std::ofstream(folder_ / "app.xml")
             << "<?xml version=\"1.0\"?>\n<package_profile><name>app</name>\n<subcomponents>\n"
-            << "<subcomponent><name>Talker</name><reference>TalkerComp.xml</reference></subcomponent>\n"
+            << "<subcomponent><name>Talker</name><reference>" << talker_
+            << ".xml</reference></subcomponent>\n"
             << "<subcomponent><name>Adaptor</name><reference>AdaptorComp.xml</reference><properties>"
             << "<property name=\"link\">" << link_ << "</property><property name=\"wait\">" << wait_
+            << "</property><property name=\"large_kib\">" << large_kib_
             << "</property></properties></subcomponent>\n</subcomponents>\n<port_connections>\n"
             << connections_ << "</port_connections></package_profile>\n";
         std::filesystem::copy_file(
             std::filesystem::path(OPROS_HOST).parent_path() / "../plugins/opros/AdaptorComp.xml",
             folder_ / "AdaptorComp.xml", std::filesystem::copy_options::overwrite_existing);
-        start("opros", {OPROS_HOST, (folder_ / "app.xml").string(), "--strict"});
+        start("opros", {OPROS_HOST, (folder_ / "app.xml").string()});
     }
     void start_rtm() {
         std::ofstream(folder_ / "rtc.conf")
@@ -119,7 +125,8 @@ class TwoHosts {
     }
 
     std::filesystem::path folder_;
-    std::string link_, connections_, wait_ = "30", interceptor_ = "rtc=EchoRtc0", rtc_conf_more_;
+    std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30",
+                                     interceptor_ = "rtc=EchoRtc0", rtc_conf_more_;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::wheelchair::ChildProcess> hosts_;
 };

@@ -127,6 +127,7 @@ TEST_CASE("a long message lies where the partner reads it") {
     REQUIRE(writer.write_exactly(mib, 5, [&](std::span<std::byte> bytes) {
         room = bytes;
         std::fill(room.begin(), room.end(), std::byte{'a'});
+        return true;
     }));
     link.a->link.reader("reference").read(false, [&](const shm::Record& record) {
         CHECK(record.stamp_ns == 5);

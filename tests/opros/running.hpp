@@ -37,10 +37,9 @@ bool eventually(Condition condition) {
     return false;
 }
 
-/// The message of the SetupError that making the application, strictly, ends in.
+/// The message of the SetupError that making the application ends in.
 inline std::string setup_error(const std::filesystem::path& file,
-                               tandem::engine::ApplicationOptions options) {
-    options.strict = true;
+                               const tandem::engine::ApplicationOptions& options) {
     try {
         tandem::engine::Application application(file, options);
     } catch (const tandem::engine::SetupError& error) {

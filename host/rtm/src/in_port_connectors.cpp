@@ -22,6 +22,15 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream) {
 
 DataPortStatus InPortConnector::read(ByteData& bytes) { return report(m_buffer->read(bytes), bytes); }
 
+DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& use, bool& used) {
+    if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
+    const DataPortStatus status = report(m_inPlace->readInPlace(m_bytes, use, used), m_bytes);
+    if (status != DataPortStatus::PORT_OK || used) return status;
+    stream->isLittleEndian(m_bytes.getEndian());
+    stream->writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
+    return status;
+}
+
 DataPortStatus InPortConnector::report(BufferStatus status, ByteData& bytes) {
     switch (status) {
     case BufferStatus::OK:
@@ -48,6 +57,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
       inlet_(std::make_shared<DataInlet>(port, info, *buffer)),
       servant_(new InPortCdrServant(
           inlet_, info.properties.getProperty("serializer.cdr.endian", "little").compare(0, 3, "big") != 0)) {
+    m_inPlace = inlet_->inPlace();
 }
 
 InPortPushConnector::~InPortPushConnector() {

@@ -6,6 +6,7 @@ namespace RTC {
 
 DataInlet::DataInlet(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer)
     : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer),
+      in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
       timestamp_(timestampPolicy(info.properties)) {}
 
@@ -15,6 +16,18 @@ DataPortStatus DataInlet::receive(ByteData& bytes) {
     if (timestamp_ == TimestampPolicy::on_received) port_.stampReceived(bytes);
     listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);
     return store(bytes);
+}
+
+bool DataInlet::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
+    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    // Whoever wants to see or stamp the bytes needs them as ByteData.
+    if (!open_ || in_place_ == nullptr || timestamp_ == TimestampPolicy::on_received || listeners_.toData())
+        return false;
+    const BufferStatus written = in_place_->writeInPlace(marshal);
+    status = written == BufferStatus::OK     ? DataPortStatus::PORT_OK
+             : written == BufferStatus::FULL ? DataPortStatus::BUFFER_FULL
+                                             : DataPortStatus::PORT_ERROR;
+    return written != BufferStatus::NOT_SUPPORTED;
 }
 
 DataPortStatus DataInlet::store(ByteData& bytes) {

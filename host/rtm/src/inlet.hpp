@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <rtm/ConnectorListener.h>
+#include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
 #include <shared_mutex>
 
@@ -15,6 +16,9 @@ class DataInlet {
 
     /// ON_RECEIVED listeners, then the buffer, then ON_BUFFER_WRITE (or what came of it).
     DataPortStatus receive(ByteData& bytes);
+    /// The same for a message that is made in the buffer. False: it cannot be, and nothing has happened.
+    bool receiveInPlace(const Marshal& marshal, DataPortStatus& status);
+    InPlaceBuffer* inPlace() const { return in_place_; }
     /// Returns when no message is on its way through.
     void close();
 
@@ -27,6 +31,7 @@ class DataInlet {
     ConnectorListeners& listeners_;
     ConnectorInfo info_;
     CdrBufferBase& buffer_;
+    InPlaceBuffer* const in_place_; // the buffer, if it is one
     std::string marshaling_type_;
     TimestampPolicy timestamp_;
 };

@@ -19,18 +19,22 @@ DataPortStatus OutPortConnector::write(ByteDataStreamBase* stream) {
     return write(m_bytes);
 }
 
+bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return false; }
+
 bool OutPortConnector::sendsLike(const OutPortConnector& other) const {
     auto stamps = [](TimestampPolicy p) {
         return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
     };
-    return m_littleEndian == other.m_littleEndian && m_marshaling_type == other.m_marshaling_type &&
-           !stamps(m_timestamp) && !stamps(other.m_timestamp);
+    return !other.m_sentInPlace && m_littleEndian == other.m_littleEndian &&
+           m_marshaling_type == other.m_marshaling_type && !stamps(m_timestamp) && !stamps(other.m_timestamp);
 }
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::shared_ptr<DataInlet> local)
     : OutPortConnector(info, port.getListeners()), local_(std::move(local)),
-      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {}
+      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {
+    if (local_->inPlace() != nullptr && !publisher_) m_longFrom = local_->inPlace()->longFrom();
+}
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            OpenRTM::InPortCdr_ptr remote)
@@ -69,6 +73,10 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
         m_listeners->notify(Type::ON_RECEIVER_ERROR, m_profile, bytes, m_marshaling_type);
     }
     return status;
+}
+
+bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& status) {
+    return !m_listeners->toData() && local_->receiveInPlace(marshal, status);
 }
 
 DataPortStatus OutPortPushConnector::put(ByteData& bytes) {

@@ -17,6 +17,7 @@ class OutPortPushConnector : public OutPortConnector {
     ~OutPortPushConnector() override;
     using OutPortConnector::write;
     DataPortStatus write(ByteData& bytes) override;
+    bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override;
     DataPortStatus disconnect() override;
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
 

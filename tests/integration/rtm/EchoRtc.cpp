@@ -30,12 +30,15 @@ class EchoRtc : public RTC::DataFlowComponentBase {
   public:
     explicit EchoRtc(RTC::Manager* manager)
         : RTC::DataFlowComponentBase(manager), wordIn_("word", word_), numbersIn_("numbers", numbers_),
-          replyOut_("reply", reply_), dictionaryPort_("dictionary") {}
+          replyOut_("reply", reply_), pictureIn_("picture", picture_), pictureOut_("pictureBack", picture_),
+          dictionaryPort_("dictionary") {}
 
     RTC::ReturnCode_t onInitialize() override {
         addInPort("word", wordIn_);
         addInPort("numbers", numbersIn_);
         addOutPort("reply", replyOut_);
+        addInPort("picture", pictureIn_);
+        addOutPort("pictureBack", pictureOut_);
         dictionaryPort_.registerProvider("dictionary", "TestDictionary::Dictionary", dictionary_);
         addPort(dictionaryPort_);
         return RTC::RTC_OK;
@@ -48,6 +51,10 @@ class EchoRtc : public RTC::DataFlowComponentBase {
                 CORBA::string_dup((std::string(word_.data) + (word_.tm.sec ? " at a time" : "")).c_str());
             replyOut_.write();
         }
+        while (pictureIn_.isNew()) {
+            pictureIn_.read();
+            pictureOut_.write();
+        }
         return RTC::RTC_OK;
     }
 
@@ -57,6 +64,9 @@ class EchoRtc : public RTC::DataFlowComponentBase {
     RTC::InPort<RTC::TimedString> wordIn_;
     RTC::InPort<RTC::TimedDoubleSeq> numbersIn_;
     RTC::OutPort<RTC::TimedString> replyOut_;
+    RTC::TimedOctetSeq picture_;
+    RTC::InPort<RTC::TimedOctetSeq> pictureIn_;
+    RTC::OutPort<RTC::TimedOctetSeq> pictureOut_;
     RTC::CorbaPort dictionaryPort_;
     DictionaryService dictionary_;
 };

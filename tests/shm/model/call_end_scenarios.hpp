@@ -21,7 +21,9 @@ inline std::vector<Case> call_end_cases() {
                              world.worker.interrupt();
                          });
                          execution.thread("worker", [&] { world.serve(2); });
-                         world.run(ends, {End::answered, End::timeout, End::overload});
+                         execution.run();
+                         expect_ends(execution, ends, {End::answered, End::timeout, End::overload});
+                         world.check(ends);
                      },
                      Settings{.lapses = 1}});
 
@@ -34,8 +36,13 @@ inline std::vector<Case> call_end_cases() {
                          const CallTicket copy = ticket;
                          execution.thread("caller", [&] { ends[1] = world.wait(1, ticket); });
                          execution.thread("canceller", [&] { world.caller.cancel(copy); });
-                         execution.thread("worker", [&] { world.look(1); });
-                         world.run(ends, {End::answered, End::cancelled});
+                         execution.thread("worker", [&] {
+                             bool watches = false;
+                             if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                         });
+                         execution.run();
+                         expect_ends(execution, ends, {End::answered, End::cancelled});
+                         world.check(ends);
                      },
                      Settings{}, true});
 
@@ -46,10 +53,11 @@ inline std::vector<Case> call_end_cases() {
                          execution.thread("caller", [&] { ends[1] = world.call(1, CallWorld::far(1)); });
                          execution.thread("closer", [&] {
                              world.worker.close();
-                             world.look(1);
+                             bool watches = false;
+                             if (const auto taken = world.worker.take(watches)) world.answer(*taken);
                          });
                          execution.run();
-                         world.expect(ends, {End::answered, End::closed});
+                         expect_ends(execution, ends, {End::answered, End::closed});
                      },
                      Settings{}, true});
 
@@ -61,9 +69,11 @@ inline std::vector<Case> call_end_cases() {
                          execution.thread(
                              "caller 2", [&] { world.call(2, CallWorld::far(2)); }, 1, true);
                          execution.thread("worker", [&] {
-                             world.look(2);
+                             bool watches = false;
+                             for (int i = 0; i < 2; ++i)
+                                 if (const auto taken = world.worker.take(watches)) world.answer(*taken);
                              if (!execution.lives(1)) world.worker.drop_submitted();
-                             world.look(1);
+                             if (const auto taken = world.worker.take(watches)) world.answer(*taken);
                          });
                          execution.run();
                      },
@@ -79,7 +89,7 @@ inline std::vector<Case> call_end_cases() {
                              ends[2] = world.call(2, CallWorld::far(2), 0, 1);
                          });
                          execution.run();
-                         world.expect(ends, {End::answered, End::peer_died});
+                         expect_ends(execution, ends, {End::answered, End::peer_died});
                          world.check(ends, true);
                      }});
 
@@ -92,8 +102,14 @@ inline std::vector<Case> call_end_cases() {
                              ends[2] = world.call(2, second);
                          });
                          for (const char* name : {"worker 1", "worker 2"})
-                             execution.thread(name, [&] { world.look(3); });
-                         world.run(ends, {End::answered, End::timeout, End::overload});
+                             execution.thread(name, [&] {
+                                 bool watches = false;
+                                 for (int i = 0; i < 3; ++i)
+                                     if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                             });
+                         execution.run();
+                         expect_ends(execution, ends, {End::answered, End::timeout, End::overload});
+                         world.check(ends);
                      },
                      Settings{.lapses = 1}});
 
@@ -104,7 +120,11 @@ inline std::vector<Case> call_end_cases() {
                          CallTicket left;
                          world.begin(1, CallWorld::far(1), 0, false, left);
                          world.begin(2, CallWorld::far(2), 1, false, left);
-                         execution.thread("worker", [&] { world.look(3); });
+                         execution.thread("worker", [&] {
+                             bool watches = false;
+                             for (int i = 0; i < 3; ++i)
+                                 if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                         });
                          execution.thread("successor", [&] {
                              CallCaller<CallWorld::A> successor(world.view());
                              for (std::uint32_t id = 3; id < 5; ++id) {
@@ -132,9 +152,9 @@ inline std::vector<Case> call_end_cases() {
                          execution.thread("canceller", [&] { world.caller.cancel(copy); });
                          execution.thread("worker", [&] { world.serve(2); });
                          execution.run();
-                         world.expect({{1, ends[1]}}, {End::answered, End::cancelled});
+                         expect_ends(execution, {{1, ends[1]}}, {End::answered, End::cancelled});
                          // A slot that was given up while its call ran is not free until the worker is done.
-                         world.expect({{2, ends[2]}}, {End::answered, End::overload});
+                         expect_ends(execution, {{2, ends[2]}}, {End::answered, End::overload});
                          world.check(ends);
                      },
                      Settings{}, true});
@@ -155,7 +175,9 @@ inline std::vector<Case> call_end_cases() {
                              world.worker.interrupt();
                          });
                          execution.thread("worker 2", [&] { world.serve(1); });
-                         world.run(ends, {End::answered, End::overload});
+                         execution.run();
+                         expect_ends(execution, ends, {End::answered, End::overload});
+                         world.check(ends);
                      },
                      Settings{}, true});
 
@@ -166,15 +188,19 @@ inline std::vector<Case> call_end_cases() {
                          CallTicket ticket;
                          world.begin(1, CallWorld::far(1), 0, false, ticket);
                          for (const char* name : {"worker 1", "worker 2"})
-                             execution.thread(name, [&] { world.look(1); });
+                             execution.thread(name, [&] {
+                                 bool watches = false;
+                                 if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                             });
                          execution.thread("caller", [&] {
                              if (!world.caller.withdraw(ticket)) world.caller.done(ticket);
                              ends[2] = world.begin(2, CallWorld::far(2), 0, false, ticket);
                          });
                          execution.run();
-                         world.look(1);
+                         bool watches = false;
+                         if (const auto taken = world.worker.take(watches)) world.answer(*taken);
                          if (ends[2] == End::answered) ends[2] = world.wait(2, ticket, 0, true);
-                         world.expect(ends, {End::answered, End::overload});
+                         expect_ends(execution, ends, {End::answered, End::overload});
                          world.check(ends);
                      },
                      Settings{}, true});

@@ -2,6 +2,7 @@
 #ifndef RTC_CORBA_CDRMEMORYSTREAM_H
 #define RTC_CORBA_CDRMEMORYSTREAM_H
 #include <rtm/ByteDataStreamBase.h>
+#include <rtm/InPlaceBuffer.h>
 #include <rtm/RTC.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 #include <rtm/idl/DataPort_OpenRTMSkel.h>
@@ -57,6 +58,41 @@ public:
 
 protected:
     CORBA_CdrMemoryStream m_cdr;
+};
+
+/// One value for an InPlaceBuffer.
+template <class DataType>
+class CdrMarshal final : public Marshal {
+public:
+    explicit CdrMarshal(const DataType& data) : m_data(data) {}
+    bool operator()(cdrStream& out) const override {
+        try {
+            m_data >>= out;
+            return true;
+        } catch (const CORBA::SystemException&) {
+            return false;
+        }
+    }
+
+private:
+    const DataType& m_data;
+};
+
+template <class DataType>
+class CdrUnmarshal final : public Unmarshal {
+public:
+    explicit CdrUnmarshal(DataType& data) : m_data(data) {}
+    void operator()(cdrStream& in) override {
+        try {
+            m_data <<= in;
+        } catch (const CORBA::SystemException&) { // the bytes are not such a message
+            sound = false;
+        }
+    }
+    bool sound = true;
+
+private:
+    DataType& m_data;
 };
 
 } // namespace RTC

@@ -2,6 +2,7 @@
 // Callbacks of data connectors: kinds, base classes to derive from, and the table a port keeps them in.
 #ifndef RTC_CONNECTORLISTENER_H
 #define RTC_CONNECTORLISTENER_H
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <mutex>
@@ -158,6 +159,12 @@ public:
 
     bool has(ConnectorDataListenerType type) const { return data_[index(type)].count.load(std::memory_order_acquire) != 0; }
     bool has(ConnectorListenerType type) const { return info_[index(type)].count.load(std::memory_order_acquire) != 0; }
+
+    /// Is there a listener to any kind of data?
+    bool toData() const {
+        return std::any_of(data_.begin(), data_.end(),
+                           [](const auto& kind) { return kind.count.load(std::memory_order_acquire) != 0; });
+    }
 
     ConnectorListenerStatus::Enum notify(ConnectorDataListenerType type, ConnectorInfo& info, ByteData& data,
                                          const std::string& marshalingtype) {

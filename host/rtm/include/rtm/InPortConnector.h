@@ -2,6 +2,7 @@
 #ifndef RTC_INPORTCONNECTOR_H
 #define RTC_INPORTCONNECTOR_H
 #include <rtm/ConnectorListener.h>
+#include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
 #include <typeinfo>
 
@@ -29,9 +30,18 @@ public:
     DataPortStatus read(DataType& data) {
         auto* stream = serializer<DataType>();
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
-        DataPortStatus status = read(static_cast<ByteDataStreamBase*>(stream));
-        if (status != DataPortStatus::PORT_OK) return status;
-        if (!stream->deserialize(data)) return DataPortStatus::BUFFER_ERROR;
+        DataPortStatus status = DataPortStatus::PORT_OK;
+        if (m_inPlace != nullptr && m_plainCdr) {
+            CdrUnmarshal<DataType> use(data);
+            bool used = false;
+            status = read(stream, use, used);
+            if (status != DataPortStatus::PORT_OK) return status;
+            if (used ? !use.sound : !stream->deserialize(data)) return DataPortStatus::BUFFER_ERROR;
+        } else {
+            status = read(static_cast<ByteDataStreamBase*>(stream));
+            if (status != DataPortStatus::PORT_OK) return status;
+            if (!stream->deserialize(data)) return DataPortStatus::BUFFER_ERROR;
+        }
         if (m_timestamp == TimestampPolicy::on_read) stampIfPossible(data, 0);
         return status;
     }
@@ -50,12 +60,15 @@ protected:
             m_cdr = createSerializer<DataType>(m_marshaling_type);
             m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
             m_type = &typeid(DataType);
+            m_plainCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
             if (m_typed == nullptr)
                 RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(), m_marshaling_type.c_str()));
         }
         return static_cast<ByteDataStream<DataType>*>(m_typed);
     }
     DataPortStatus report(BufferStatus status, ByteData& bytes);
+    /// Ours: the oldest message, if it is long, to `use` where it lies, otherwise into `stream`.
+    DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& use, bool& used);
 
     Logger rtclog{"InPortConnector"};
     ConnectorInfo m_profile;
@@ -66,7 +79,10 @@ protected:
     TimestampPolicy m_timestamp;
     ByteDataStreamBase* m_cdr = nullptr;
 
+    InPlaceBuffer* m_inPlace = nullptr; // the buffer, if it is one
+
 private:
+    bool m_plainCdr = false; // the serializer does what any stream does
     ByteData m_bytes;
     void* m_typed = nullptr;
     const std::type_info* m_type = nullptr;

@@ -2,6 +2,7 @@
 #ifndef RTC_OUTPORTCONNECTOR_H
 #define RTC_OUTPORTCONNECTOR_H
 #include <rtm/ConnectorListener.h>
+#include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
 #include <typeinfo>
 
@@ -29,9 +30,16 @@ public:
     DataPortStatus write(DataType& data) {
         auto* stream = serializer<DataType>();
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
+        const bool stamps = m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;
+        m_sentInPlace = false;
+        if (m_bytes.getDataLength() >= m_longFrom && m_plainCdr && m_littleEndian && !stamps) {
+            DataPortStatus status = DataPortStatus::PORT_OK;
+            m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
+            if (m_sentInPlace) return status;
+        }
         stream->isLittleEndian(isLittleEndian());
         bool serialized = false;
-        if (m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send) {
+        if (stamps) {
             DataType stamped(data);
             stampIfPossible(stamped, 0);
             serialized = stream->serialize(stamped);
@@ -45,7 +53,7 @@ public:
     virtual bool isLittleEndian() { return m_littleEndian; }
     /// Ours: could this connector send the bytes another one has serialized?
     bool sendsLike(const OutPortConnector& other) const;
-    /// Ours: what the last write(stream) sent.
+    /// Ours: what the last write(stream) sent; nothing else has, if that is what sendsLike() was asked for.
     ByteData& lastBytes() { return m_bytes; }
 
 protected:
@@ -57,11 +65,16 @@ protected:
             m_cdr = createSerializer<DataType>(m_marshaling_type);
             m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
             m_type = &typeid(DataType);
+            m_plainCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
             if (m_typed == nullptr)
                 RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(), m_marshaling_type.c_str()));
         }
         return static_cast<ByteDataStream<DataType>*>(m_typed);
     }
+
+    /// Ours: a message that is probably long, as the last one was. False: it is not, or there is no place where
+    /// it could be made; nothing has happened.
+    virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
 
     Logger rtclog{"OutPortConnector"};
     ConnectorInfo m_profile;
@@ -71,7 +84,11 @@ protected:
     TimestampPolicy m_timestamp;
     ByteDataStreamBase* m_cdr = nullptr;
 
+    unsigned long m_longFrom = static_cast<unsigned long>(-1); // of the InPlaceBuffer, if there is one
+
 private:
+    bool m_plainCdr = false; // the serializer does what any stream does
+    bool m_sentInPlace = false;
     ByteData m_bytes;
     void* m_typed = nullptr;
     const std::type_info* m_type = nullptr;

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/stamped_stream.hpp"
+
+#include "proxy/wire/time.hpp"
+
+#include <cstring>
+
+namespace tandem::interceptor {
+namespace {
+
+std::byte* byte_at(const void* mark) { return const_cast<std::byte*>(static_cast<const std::byte*>(mark)); }
+
+std::size_t distance(const void* from, const void* to) {
+    return static_cast<std::size_t>(byte_at(to) - byte_at(from));
+}
+
+} // namespace
+
+StampedStream::StampedStream(std::span<std::byte> body) : body_(body) {
+    // As every stream that a serializer makes: the process's transmission code sets.
+    const cdrMemoryStream usual;
+    TCS_C(usual.TCS_C());
+    TCS_W(usual.TCS_W());
+    pd_marshal_byte_swap = pd_unmarshal_byte_swap = false;
+    pd_inb_mkr = pd_inb_end = pd_outb_mkr = pd_outb_end = nullptr;
+}
+
+void StampedStream::over() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
+
+// The time takes 8 bytes, so the body is aligned as if it followed them.
+std::byte* StampedStream::take(void*& mark, void*& end, std::size_t bytes, omni::alignment_t alignment) {
+    if (in_time_ && mark == end) {
+        in_time_ = false;
+        mark = body_.data();
+        end = body_.data() + body_.size();
+    }
+    const auto place = reinterpret_cast<omni::ptr_arith_t>(mark);
+    const auto padding = static_cast<std::size_t>(omni::align_to(place, alignment) - place);
+    const std::size_t left = distance(mark, end);
+    if (padding > left || bytes > left - padding) over();
+    std::byte* const begin = byte_at(mark) + padding;
+    mark = begin + bytes;
+    return begin;
+}
+
+// ---- out
+
+StampedOutStream::StampedOutStream(std::span<std::byte> body, bool timed) : StampedStream(body) {
+    in_time_ = timed;
+    pd_outb_mkr = timed ? time_ : body_.data();
+    pd_outb_end = timed ? time_ + sizeof time_ : body_.data() + body_.size();
+}
+
+bool StampedOutStream::full() const { return pd_outb_mkr == pd_outb_end && (!in_time_ || body_.empty()); }
+
+std::uint64_t StampedOutStream::stamp() const {
+    std::uint32_t words[2];
+    std::memcpy(words, time_, sizeof words);
+    return wire::pack_time(words[0], words[1]);
+}
+
+void StampedOutStream::put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) {
+    const auto bytes = static_cast<std::size_t>(size);
+    std::memcpy(take(pd_outb_mkr, pd_outb_end, bytes, alignment), from, bytes);
+}
+
+_CORBA_Boolean StampedOutStream::checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count,
+                                                    omni::alignment_t) {
+    const std::size_t behind = in_time_ ? body_.size() : 0;
+    return std::size_t{size} * count <= distance(pd_outb_mkr, pd_outb_end) + behind;
+}
+
+_CORBA_ULong StampedOutStream::currentOutputPtr() const {
+    return static_cast<_CORBA_ULong>(in_time_ ? distance(time_, pd_outb_mkr)
+                                              : sizeof time_ + distance(body_.data(), pd_outb_mkr));
+}
+
+_CORBA_Boolean StampedOutStream::reserveOutputSpaceForPrimitiveType(omni::alignment_t alignment,
+                                                                    std::size_t bytes) {
+    pd_outb_mkr = take(pd_outb_mkr, pd_outb_end, bytes, alignment);
+    return true;
+}
+
+_CORBA_Boolean StampedOutStream::maybeReserveOutputSpace(omni::alignment_t alignment, std::size_t bytes) {
+    return reserveOutputSpaceForPrimitiveType(alignment, bytes);
+}
+
+// ---- in
+
+StampedInStream::StampedInStream(std::span<const std::byte> body, bool timed, std::uint64_t stamp)
+    : StampedStream({byte_at(body.data()), body.size()}) {
+    const std::uint32_t words[2] = {wire::seconds_of(stamp), wire::nanoseconds_of(stamp)};
+    std::memcpy(time_, words, sizeof words);
+    in_time_ = timed;
+    pd_inb_mkr = timed ? time_ : body_.data();
+    pd_inb_end = timed ? time_ + sizeof time_ : body_.data() + body_.size();
+}
+
+void StampedInStream::get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) {
+    const auto bytes = static_cast<std::size_t>(size);
+    std::memcpy(to, take(pd_inb_mkr, pd_inb_end, bytes, alignment), bytes);
+}
+
+void StampedInStream::skipInput(_CORBA_ULong size) { take(pd_inb_mkr, pd_inb_end, size, omni::ALIGN_1); }
+
+_CORBA_Boolean StampedInStream::checkInputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) {
+    const std::size_t behind = in_time_ ? body_.size() : 0;
+    return std::size_t{size} * count <= distance(pd_inb_mkr, pd_inb_end) + behind;
+}
+
+_CORBA_ULong StampedInStream::currentInputPtr() const {
+    return static_cast<_CORBA_ULong>(in_time_ ? distance(time_, pd_inb_mkr)
+                                              : sizeof time_ + distance(body_.data(), pd_inb_mkr));
+}
+
+void StampedInStream::fetchInputData(omni::alignment_t alignment, std::size_t bytes) {
+    pd_inb_mkr = take(pd_inb_mkr, pd_inb_end, bytes, alignment);
+}
+
+} // namespace tandem::interceptor

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures to 64 MiB, from an OPRoS component to an RTC and back.
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+struct Pictures : TwoHosts {
+    Pictures() {
+        set_talker("CameraComp");
+        set_connections(connection("data", "Talker", "picture", "Adaptor", "picture") +
+                        connection("data", "Adaptor", "pictureBack", "Talker", "pictureBack"));
+    }
+    bool back_whole(std::size_t bytes, std::size_t from = 0) const {
+        return says("opros", "picture of " + std::to_string(bytes) + " bytes came back whole", from);
+    }
+    std::size_t said(const std::string& host, const std::string& text) const {
+        const auto all = output(host);
+        std::size_t count = 0;
+        for (auto at = all.find(text); at != all.npos; at = all.find(text, at + 1)) ++count;
+        return count;
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "pictures of 100 bytes to 64 MiB go to an RTC and come back whole whichever half asks for large_kib") {
+    Pictures hosts;
+    const bool adaptor_asks = GENERATE(true, false);
+    if (adaptor_asks)
+        hosts.set_large_kib("65537");
+    else
+        hosts.set_interceptor("rtc=EchoRtc0&large_kib=65537");
+    hosts.start_opros();
+    hosts.start_rtm();
+    for (const std::size_t bytes : {1 << 20, 6 << 20, 640 * 480 * 3, 100, 64 << 20}) {
+        CAPTURE(bytes);
+        CHECK(hosts.back_whole(bytes));
+    }
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    CHECK(hosts.said("opros", "broken") == 0);
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK(hosts.said("opros", "error") + hosts.said("rtm", "error") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("without large_kib a picture of 6 MiB passes and one of 64 MiB is named once and costs no other") {
+    Pictures hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "port 'picture': a message of 67108868 bytes is longer than 8388608"));
+    const auto from = hosts.output("opros").size();
+    CHECK(hosts.back_whole(6 << 20, from));
+    CHECK(hosts.says("opros", "came back", hosts.output("opros").size()));
+    CHECK(hosts.said("opros", "raise large_kib to 65537 or more") == 1);
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("a host killed with pictures under way is replaced and pictures pass again") {
+    Pictures hosts;
+    hosts.set_large_kib("65537");
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.back_whole(64 << 20));
+    hosts.kill("rtm");
+    CHECK(hosts.says("opros", "is down: the partner process has gone"));
+    const auto from = hosts.output("opros").size();
+    hosts.start_rtm();
+    CHECK(hosts.back_whole(6 << 20, from));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
