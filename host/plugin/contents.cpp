@@ -28,7 +28,7 @@ std::string init_function(const std::set<std::string>& exports) {
 const char* expected_text(Kind kind) {
     switch (kind) {
     case Kind::opros_component:
-        return "an OPRoS component, which exports getComponent (v1 sources do with -DMAKE_COMPONENT_DLL)";
+        return "an OPRoS component, which exports getComponent";
     case Kind::rtc_module:
         return "an RTC module, which exports NAMEInit (extern \"C\")";
     default:

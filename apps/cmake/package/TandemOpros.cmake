@@ -56,8 +56,8 @@ function(tandem_add_opros_component name)
   list(TRANSFORM api APPEND /device OUTPUT_VARIABLE device_api)
   target_include_directories(${name} PRIVATE ${include_dirs} ${arg_INCLUDE_DIRS} ${api} ${device_api})
   target_link_libraries(${name} PRIVATE Tandem::opros ${arg_LIBRARIES} ${CMAKE_DL_LIBS})
-  # v1 sources export getComponent with this definition only.
-  target_compile_definitions(${name} PRIVATE MAKE_COMPONENT_DLL ${arg_DEFINITIONS})
+  # What the components' own makefiles define; without it some sources take their Windows branch.
+  target_compile_definitions(${name} PRIVATE _OPROS_LINUX_ ${arg_DEFINITIONS})
   # Without symbols that are unique in the process the library can be unloaded and built anew; what is missing is told
   # when it is linked and not when it is loaded.
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
