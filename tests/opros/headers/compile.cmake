@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DCOMPILER=... -DSTANDARD=14 -DINCLUDE=dir -DSOURCE=file [-DEACH=1] -P compile.cmake
-# Compiles the source, and with EACH every header for itself, without a warning.
+# cmake -DCOMPILER=... -DSTANDARD=14 -DINCLUDE=dir (-DSOURCE=file | -DFOLDER=folder -DSCRATCH=file) -P compile.cmake
+# Compiles the source, or every header of the folder for itself, without a warning.
 set(command ${COMPILER} -std=c++${STANDARD} -Wall -Wextra -Werror -fsyntax-only -I${INCLUDE})
 function(compile)
   execute_process(COMMAND ${command} ${ARGN} RESULT_VARIABLE result ERROR_VARIABLE errors)
@@ -8,9 +8,13 @@ function(compile)
     message(FATAL_ERROR "${ARGN} does not compile with ${COMPILER} as C++${STANDARD}:\n${errors}")
   endif()
 endfunction()
-compile(${SOURCE})
-if(EACH)
-  file(GLOB headers RELATIVE ${INCLUDE} ${INCLUDE}/*.h ${INCLUDE}/archive/*.h ${INCLUDE}/device/*.h ${INCLUDE}/ext/*.h)
+if(SOURCE)
+  compile(${SOURCE})
+else()
+  file(GLOB headers RELATIVE ${INCLUDE} ${INCLUDE}/${FOLDER}/*.h)
+  if(NOT headers)
+    message(FATAL_ERROR "no header in ${INCLUDE}/${FOLDER}")
+  endif()
   file(WRITE ${SCRATCH} "")
   foreach(header ${headers})
     compile(-include ${header} -x c++ ${SCRATCH})
