@@ -175,8 +175,10 @@ Reply CallClient::call(std::uint32_t operation, std::span<const std::byte> argum
 
 CallStatus CallClient::call_into(std::uint32_t operation, std::span<const std::byte> arguments,
                                  std::chrono::nanoseconds timeout, std::vector<std::byte>& results) {
+    // Only who looks again before it sleeps may rely on a worker that is expected back.
+    const bool sleeps = state_->how.mode != WaitMode::spin;
     CallTicket ticket;
-    const CallStatus begun = state_->begin(operation, arguments, timeout, true, ticket, results);
+    const CallStatus begun = state_->begin(operation, arguments, timeout, sleeps, ticket, results);
     return begun == CallStatus::ok ? state_->finish(ticket, results) : begun;
 }
 

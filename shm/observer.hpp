@@ -63,12 +63,6 @@ struct ObservedRing : ObservedObject {
     std::uint32_t chunks = 0;
     RingCounters counters{};
     HistogramCounts age{}; ///< from published to read, a sample of the records
-
-    /// Not negative, although a record may be counted as received before it is counted as sent.
-    std::uint64_t waiting() const {
-        return static_cast<std::uint64_t>(
-            std::max<std::int64_t>(0, static_cast<std::int64_t>(counters.waiting())));
-    }
 };
 
 struct ObservedCallQueue : ObservedObject {

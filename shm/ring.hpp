@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages from one thread of one side to one thread of the other: variable length, in order, never blocking
-// unless asked to. Always, for every policy: sent = received + dropped + waiting.
+// unless asked to. Always, for every policy: sent = received + dropped + waiting (RingCounters).
 #pragma once
 #include "shm/mapping.hpp"
 #include "shm/ring_consumer.hpp"
@@ -41,7 +41,12 @@ struct RingHandle {
 struct RingCounters {
     std::uint64_t sent, refused, overwritten, skipped, received, bytes_sent, bytes_received;
     std::uint64_t dropped() const { return refused + overwritten + skipped; }
-    std::uint64_t waiting() const { return sent - dropped() - received; }
+    /// 0 also if less was counted as sent than is gone: the words are read one after the other, and a writer
+    /// killed between a record and its count leaves one more received than sent.
+    std::uint64_t waiting() const {
+        const std::uint64_t gone = dropped() + received;
+        return sent > gone ? sent - gone : 0;
+    }
 };
 RingCounters read_counters(const RingHandle& ring); ///< [any-process] Costs the running system nothing.
 
@@ -69,7 +74,7 @@ class RingWriter {
     }
 
     std::size_t in_ring() const { return ring_.view.max_record; } ///< payload that needs no chunk, bytes
-    std::size_t longest() const { return producer_.longest(); } ///< payload that ever fits, bytes
+    std::size_t longest() const { return producer_.longest(); }   ///< payload that ever fits, bytes
     bool corrupt() const {
         return producer_.corrupt();
     } ///< The shared words are impossible: nothing is sent any more.

@@ -56,6 +56,20 @@ void add_asleep_peers(std::vector<BarLine>& lines, const std::vector<std::string
         }
 }
 
+void add_opros(std::vector<BarLine>& lines) {
+    lines.push_back({"OPRoS push of a double, ns", Sense::at_most, 300, "ours/opros/push/8", ""});
+    lines.push_back(
+        {"OPRoS push of vector<double>(1000), ns", Sense::at_most, 1000, "ours/opros/push/8000", ""});
+    lines.push_back(
+        {"OPRoS blocking service call, ns", Sense::at_most, 200, "ours/opros/local-call/8", ""});
+    lines.push_back({"OPRoS event to call-back, low-latency-idle, ns", Sense::at_most, 10'000,
+                     "ours/opros/event/8/blocking/low-latency-idle", ""});
+    lines.push_back(
+        {"OPRoS 1 ms tick with tick-spin, late by ns", Sense::at_most, 1000, "ours/opros/tick/8/spin", ""});
+    lines.push_back({"OPRoS 1 ms tick / cyclictest", Sense::at_most, 1.5, "ours/opros/tick/8/blocking",
+                     "peer/cyclictest/tick/8/blocking"});
+}
+
 void add_rest(std::vector<BarLine>& lines) {
     lines.push_back({"call, polling / floor pair", Sense::at_most, 1.5, "ours/call-queue/call/64/spin",
                      "floor/ring-pair/call/64/spin"});
@@ -82,6 +96,7 @@ void add_rest(std::vector<BarLine>& lines) {
     lines.push_back({"one-way round 256 ports / one port", Sense::at_most, 1.2,
                      "ours/ring/ports/64/spin-then-futex/256 ports",
                      "ours/ring/ports/64/spin-then-futex/1 port"});
+    add_opros(lines);
     for (const std::string wake : {"spin", "spin-then-futex"}) {
         lines.push_back({"system calls per 100,000 publishes, " + wake, Sense::at_most, 0,
                          "ours/ring/publish-system-calls/64/" + wake, ""});

@@ -63,12 +63,14 @@ Registry all_cases() {
     Registry registry;
     add_floor_line_cases(registry);
     add_floor_ring_cases(registry);
+    add_floor_loop_cases(registry);
     add_floor_memory_cases(registry);
     add_our_ring_cases(registry);
     add_our_bridge_cases(registry);
     add_our_stream_cases(registry);
     add_our_call_cases(registry);
     add_our_port_cases(registry);
+    add_our_opros_cases(registry);
     add_our_publish_count_cases(registry);
     add_our_wheelchair_cases(registry);
     add_peer_cases(registry);

@@ -34,6 +34,7 @@ struct Case {
     Placement placement = Placement::processes;
     Unit unit = Unit::ns;
     double divisor = 1;                ///< samples are divided by it: 2 for one way by round trip
+    double extra_seconds = 0;          ///< a case that takes longer than the others by its nature
     std::string detail;                ///< what else tells it from its neighbours: "loan", "256 ports"
     std::string service;               ///< a program that must run meanwhile: "iox-roudi"
     std::function<void(Session&)> run; ///< [in each of the processes or threads]

@@ -182,7 +182,7 @@ Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores)
             if (measured.placement == Placement::processes)
                 start(children, [&] { stage.play_and_exit(Session::Role::b); });
         }
-        outcome.failure = children.wait(limits.bound_seconds);
+        outcome.failure = children.wait(limits.bound_seconds + measured.extra_seconds);
         if (measured.regime != Regime::loaded) outcome.foreign = load.foreign_share();
     }
     remove_left_overs(stage.name);

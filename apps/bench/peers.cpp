@@ -23,6 +23,7 @@ void add_peer_cases(Registry& registry) {
     skip(registry, "iceoryx", "libiceoryx-posh-dev");
 #endif
     add_boost_cases(registry);
+    add_cyclictest_cases(registry);
     add_mqueue_cases(registry);
     add_socket_cases(registry);
 #ifdef TANDEM_BENCH_ZEROMQ

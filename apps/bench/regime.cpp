@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <fcntl.h>
 #include <sched.h>
 #include <stdexcept>
@@ -34,6 +35,13 @@ void pin_to(int core) {
     CPU_SET(core, &set);
     if (sched_setaffinity(0, sizeof set, &set) != 0)
         throw std::system_error(errno, std::generic_category(), fmt::format("cannot pin to core {}", core));
+}
+
+void unpin() {
+    cpu_set_t set;
+    std::memset(&set, 0xff, sizeof set); // the kernel takes those that the process may use
+    if (sched_setaffinity(0, sizeof set, &set) != 0)
+        throw std::system_error(errno, std::generic_category(), "cannot unpin");
 }
 
 std::vector<int> allowed_cores() {

@@ -27,6 +27,7 @@ class RegimeHold {
 std::string obstacle(const Case& measured, const Cores& cores);
 
 void pin_to(int core); ///< [calling thread]
+void unpin();          ///< [calling thread] Any core.
 std::vector<int> allowed_cores();
 
 /// Forks a process that dies with this one.

@@ -42,7 +42,7 @@ std::optional<Rates> rates_between(const shm::Observation& before, const shm::Ob
             const auto &a = then->counters, &b = ring.counters;
             rates.rings.push_back({ring.name, ring.writer, rate(a.sent, b.sent), rate(a.received, b.received),
                                    rate(a.dropped(), b.dropped()), rate(a.bytes_sent, b.bytes_sent),
-                                   ring.waiting()});
+                                   ring.counters.waiting()});
         }
     for (const auto& queue : after.call_queues)
         if (const auto* then = earlier(before.call_queues, queue)) {

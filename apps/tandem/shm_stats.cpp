@@ -32,7 +32,7 @@ std::string rings_text(const shm::Observation& seen) {
         const auto& c = ring.counters;
         if (ring.damage.empty())
             table.add({printable(ring.name), name_of(ring.writer), number(c.sent), number(c.received),
-                       number(c.refused), number(c.overwritten), number(c.skipped), number(ring.waiting()),
+                       number(c.refused), number(c.overwritten), number(c.skipped), number(c.waiting()),
                        number(c.bytes_sent), number(c.bytes_received)});
         else
             table.add({printable(ring.name), "damaged"});
@@ -102,7 +102,7 @@ nlohmann::json json_of(const shm::ObservedRing& ring) {
             {"sent", c.sent},
             {"received", c.received},
             {"dropped", {{"refused", c.refused}, {"overwritten", c.overwritten}, {"skipped", c.skipped}}},
-            {"waiting", ring.waiting()},
+            {"waiting", ring.counters.waiting()},
             {"bytes_sent", c.bytes_sent},
             {"bytes_received", c.bytes_received},
             {"age", json_of(ring.age)}};

@@ -24,10 +24,11 @@ void set_name(const std::string& name) {
 std::optional<std::string> set_priority(const ThreadOptions& options) {
     sched_param parameters{};
     parameters.sched_priority = options.fifo_priority;
-    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+    const int error =
+        pthread_setschedparam(pthread_self(), options.round_robin ? SCHED_RR : SCHED_FIFO, &parameters);
     if (error == 0) return std::nullopt;
-    return "thread " + options.name + " runs without SCHED_FIFO priority " +
-           std::to_string(options.fifo_priority) + ": " + why(error) +
+    return "thread " + options.name + " runs without " + (options.round_robin ? "SCHED_RR" : "SCHED_FIFO") +
+           " priority " + std::to_string(options.fifo_priority) + ": " + why(error) +
            "; grant CAP_SYS_NICE or an rtprio limit";
 }
 

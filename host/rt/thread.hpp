@@ -10,9 +10,10 @@
 namespace tandem::rt {
 
 struct ThreadOptions {
-    std::string name;      ///< at most 15 characters are shown
-    int fifo_priority = 0; ///< 1..99: SCHED_FIFO; 0: leave the scheduling class alone
-    int cpu = -1;          ///< pin to this processor; -1: leave the affinity alone
+    std::string name;         ///< at most 15 characters are shown
+    int fifo_priority = 0;    ///< 1..99: SCHED_FIFO; 0: leave the scheduling class alone
+    int cpu = -1;             ///< pin to this processor; -1: leave the affinity alone
+    bool round_robin = false; ///< SCHED_RR in place of SCHED_FIFO
 };
 
 /// Applies the options to the calling thread, and a timer slack of 1 ns always. Returns a notice for each

@@ -66,7 +66,7 @@ class TwoHosts {
         std::filesystem::copy_file(
             std::filesystem::path(OPROS_HOST).parent_path() / "../plugins/opros/AdaptorComp.xml",
             folder_ / "AdaptorComp.xml", std::filesystem::copy_options::overwrite_existing);
-        start("opros", {OPROS_HOST, (folder_ / "app.xml").string()});
+        start("opros", {OPROS_HOST, (folder_ / "app.xml").string(), "--strict"});
     }
     void start_rtm() {
         std::ofstream(folder_ / "rtc.conf")

@@ -117,8 +117,92 @@ TEST_CASE("a component that cannot initialise or start is left out, with its con
         test_options(folder));
     application.start();
     CHECK(application.find("M")->failed());
-    CHECK(state(application, "M") != OPROS_CS_ACTIVE);
+    CHECK(state(application, "M") == OPROS_CS_ERROR);
     CHECK(state(application, "P") == OPROS_CS_ACTIVE);
+    // onError is for what has been initialised: it may have to switch something off.
+    CHECK((recorder(application, "M").calls.back() == "error") == (kind == "start fails"));
+}
+
+TEST_CASE("a component that cannot be loaded is left out and the others run") {
+    const Folder folder;
+    folder.component("B", GENERATE("missing.dll", "no_factory", "throwing_factory", "null_factory"));
+    folder.component("P", "printer");
+    const auto file = folder.application(Folder::sub("B", "B.xml") + Folder::sub("P", "P.xml"),
+                                         Folder::connect("data", "B", "numbers", "P", "numbers"),
+                                         "<coordination><depends source=\"P\" target=\"B\"/></coordination>");
+    Application application(file, test_options(folder));
+    application.start();
+    CHECK(application.find("B") == nullptr);
+    CHECK(state(application, "P") == OPROS_CS_ACTIVE);
+}
+
+TEST_CASE("a connection that cannot be made is left out and the others are made") {
+    const Folder folder;
+    const auto wrong = GENERATE(as<std::string>(), Folder::connect("data", "M", "numbers", "X", "numbers"),
+                                Folder::connect("data", "X", "numbers", "P", "numbers"),
+                                Folder::connect("data", "M", "nothing", "P", "numbers"),
+                                Folder::connect("data", "M", "words", "P", "numbers"),
+                                Folder::connect("event", "M", "numbers", "P", "news"));
+    const auto file =
+        maker_and_printer(folder, "", wrong + Folder::connect("data", "M", "numbers", "P", "numbers"));
+    Application application(file, test_options(folder));
+    application.start();
+    application.step("M");
+    application.step("P");
+    CHECK(recorder(application, "P").last_number == 1);
+    CHECK_THAT(setup_error(file, test_options(folder)), Catch::Contains("app.xml:7: "));
+}
+
+TEST_CASE("a connection of a component that is not there is named") {
+    const Folder folder;
+    CHECK_THAT(setup_error(maker_and_printer(folder, "", Folder::connect("data", "M", "o", "X", "i")),
+                           test_options(folder)),
+               Catch::Contains("app.xml:7: unknown component 'X', expected one of M, P"));
+}
+
+TEST_CASE("with strict a component that fails ends the application") {
+    const std::string kind = GENERATE("initialize fails", "initialize throws", "start fails");
+    const Folder folder;
+    auto options = test_options(folder);
+    options.strict = true;
+    const auto file = maker_and_printer(folder, trouble(kind));
+    const auto run = [&] { Application(file, options).start(); };
+    CHECK_THROWS_WITH(run(), Catch::Contains("component 'M' did not " + kind.substr(0, kind.find(' '))));
+    folder.component("M", "missing.dll");
+    CHECK_THROWS_WITH(run(), Catch::Contains("M.xml:3: library 'missing.dll' not found"));
+}
+
+TEST_CASE("an application of which nothing can start ends") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>", trouble("start fails"));
+    Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));
+    CHECK_THROWS_WITH(application.start(), Catch::Contains("no component has started"));
+}
+
+TEST_CASE("a component that does not come back is named and the others are stopped") {
+    const std::string kind = GENERATE("execute hangs", "stop hangs");
+    const Folder folder;
+    auto options = test_options(folder, false);
+    options.grace = std::chrono::milliseconds(50);
+    Application application(maker_and_printer(folder, trouble(kind)), options);
+    application.start();
+    Recorder& m = recorder(application, "M");
+    CHECK(eventually([&] { return m.executions > 0; }));
+    application.end();
+    CHECK(application.stuck() == std::vector<std::string>{"M"});
+    CHECK(state(application, "P") == OPROS_CS_DESTROYED);
+}
+
+TEST_CASE("a component that comes back from onExecute only when it is stopped is no trouble") {
+    const Folder folder;
+    auto options = test_options(folder, false);
+    options.grace = std::chrono::milliseconds(50);
+    Application application(maker_and_printer(folder, trouble("execute waits for stop")), options);
+    application.start();
+    CHECK(eventually([&] { return recorder(application, "M").executions > 0; }));
+    application.stop();
+    CHECK(application.stuck().empty());
+    CHECK(state(application, "M") == OPROS_CS_INACTIVE);
 }
 
 TEST_CASE("a failing service call and a returned error leave the component ACTIVE") {

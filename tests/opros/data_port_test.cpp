@@ -148,3 +148,33 @@ TEST_CASE("many threads may push while one pops") {
     for (auto& writer : writers) writer.join();
     CHECK(seen == 4000);
 }
+
+TEST_CASE("a queue can be set from outside unless the code has chosen one") {
+    InputDataPort<int> open, named("name"), chosen(OPROS_FIFO, 3);
+    CHECK(open.setQueue(OPROS_LAST, 1) == OPROS_SUCCESS);
+    CHECK(named.setQueue(OPROS_FIFO, 2) == OPROS_SUCCESS);
+    CHECK(chosen.setQueue(OPROS_LAST, 1) == OPROS_PRECONDITION_NOT_MET);
+    for (int i = 1; i <= 5; ++i)
+        for (InputDataPort<int>* port : {&open, &named, &chosen}) port->push(i);
+    CHECK(drain(open) == std::vector<int>{5});
+    CHECK(drain(named) == std::vector<int>{4, 5});
+    CHECK(drain(chosen) == std::vector<int>{3, 4, 5});
+}
+
+TEST_CASE("a listener is told of each value that comes in") {
+    struct Count : DataPortListener {
+        int arrivals = 0;
+        void arrived() override { ++arrivals; }
+    } count;
+    InputDataPort<int> port;
+    port.setListener(&count);
+    int value = 1;
+    port.push(value);
+    port.push(value);
+    opros_any wrong(1.5);
+    port.push(wrong);
+    CHECK(count.arrivals == 2);
+    port.setListener(nullptr);
+    port.push(value);
+    CHECK(count.arrivals == 2);
+}

@@ -278,3 +278,37 @@ TEST_CASE("a value can be pushed from an archive") {
     CHECK(static_cast<InputDataPortInterface&>(port).push(pipe.in) == OPROS_SUCCESS);
     CHECK(pop(port) == 2.5);
 }
+
+namespace {
+/// Its reading throws what is no std::exception.
+struct Moody {
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << mood; }
+    void load(opros::archive::iarchive& ar, const unsigned int) {
+        ar >> mood;
+        if (mood == 0) throw 42;
+    }
+    int mood = 1;
+};
+inline std::string typeName(Moody*) { return "Moody"; }
+} // namespace
+
+TEST_CASE("a value whose reading throws anything at all is dropped and its source goes on") {
+    class Moods : public Outside {
+      public:
+        void send(int mood) {
+            BinaryPipe pipe;
+            Moody value;
+            value.mood = mood;
+            pipe.out << value;
+            waiting.push_back(pipe.bytes.str());
+        }
+    } moods;
+    InputDataPort<Moody> port;
+    REQUIRE(port.addSource(&moods) == OPROS_SUCCESS);
+    for (int mood : {0, 7}) moods.send(mood);
+    const std::unique_ptr<opros_any> any(port.pop());
+    REQUIRE(any);
+    CHECK(port.getContent(*any).mood == 7);
+    CHECK(moods.finished == 2);
+    CHECK(moods.complaint == "an exception of unknown type");
+}

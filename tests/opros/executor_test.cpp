@@ -16,7 +16,7 @@ TEST_CASE("executors give cycles until the application is stopped, and none afte
     const std::string semantics =
         GENERATE("<type>periodic</type><period>1</period>", "<type>periodic-shared</type><period>1</period>",
                  "<type>periodic-exclusive</type><period>1</period><phase>0.5</phase><priority>5</priority>",
-                 "<type>aperiodic</type>");
+                 "<type>aperiodic-loop</type>");
     const Folder folder;
     Application application(maker_with(folder, semantics), test_options(folder, false));
     application.start();
@@ -29,6 +29,18 @@ TEST_CASE("executors give cycles until the application is stopped, and none afte
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
     CHECK(a.executions == executions);
     CHECK(a.calls.back() == "stop");
+}
+
+TEST_CASE("executors count what they did") {
+    const Folder folder;
+    Application application(maker_with(folder, "<type>periodic-shared</type><period>1</period>"),
+                            test_options(folder, false));
+    application.start();
+    CHECK(eventually([&] { return recorder(application, "A").executions > 3; }));
+    application.stop();
+    REQUIRE(application.stats().size() == 1);
+    CHECK_THAT(application.stats()[0], Catch::StartsWith("executor of B, A: every 1 ms, ") &&
+                                           Catch::Contains("overruns") && Catch::Contains("skipped"));
 }
 
 TEST_CASE("a passive component is started and stopped but never executed") {

@@ -65,8 +65,10 @@ class Process {
     int output_;
 };
 
-std::filesystem::path one_component(const Folder& folder, const std::string& library) {
-    folder.component("M", library, "<type>periodic</type><period>10</period>");
+std::filesystem::path one_component(const Folder& folder, const std::string& library,
+                                    const std::string& trouble = "") {
+    folder.component("M", library, "<type>periodic</type><period>10</period>",
+                     "<property name=\"trouble\">" + trouble + "</property>");
     return folder.application(Folder::sub("M", "M.xml"));
 }
 
@@ -101,4 +103,34 @@ TEST_CASE("bad input is one line on standard error and exit code 1") {
     Process missing({OPROS_HOST, "/nowhere/app.xml"});
     CHECK(missing.exit_code() == 1);
     CHECK_THAT(missing.said, Catch::Contains("/nowhere/app.xml"));
+}
+
+TEST_CASE("a host whose component hangs says which and ends") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  one_component(folder, "maker", "execute hangs")});
+    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.says("M hangs\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("component M does not come back from onExecute within 0.1 s"));
+}
+
+TEST_CASE("a host whose component hangs in the set-up can be ended") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  one_component(folder, "maker", "initialize hangs")});
+    REQUIRE(host.says("M hangs\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("does not come back from onInitialize or onStart"));
+}
+
+TEST_CASE("the host prints what its executors have counted when asked to") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--stats", one_component(folder, "maker")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.said, Catch::Contains("executor of M: every 10 ms, "));
 }

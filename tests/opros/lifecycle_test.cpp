@@ -120,3 +120,17 @@ TEST_CASE("a component that overrides nothing does not initialise") {
     CHECK(bare.initialize() == OPROS_PRECONDITION_NOT_MET);
     CHECK(bare.getErrorInfo() == OPROS_UNSUPPORTED_METHOD);
 }
+
+TEST_CASE("what fails is in ERROR whatever its state and is told unless there is nothing to stop yet") {
+    Subject created;
+    CHECK(created.fail() == OPROS_SUCCESS);
+    CHECK(created.getStatus() == OPROS_CS_ERROR);
+    CHECK(created.calls == "");
+    Subject ready;
+    ready.initialize();
+    CHECK(ready.fail() == OPROS_SUCCESS);
+    CHECK(ready.getStatus() == OPROS_CS_ERROR);
+    CHECK(ready.calls == "ie");
+    CHECK(ready.fail() == OPROS_SUCCESS);
+    CHECK(ready.calls == "ie");
+}

@@ -47,11 +47,16 @@ TEST_CASE("a component profile gives library, execution and properties") {
     CHECK(profile.properties == Properties{{"a", "1"}});
 }
 
-TEST_CASE("SCHED_OTHER in a profile means no real-time priority") {
+TEST_CASE("real time is only for a profile that asks for it") {
     const Folder folder;
-    folder.component("C", "C.dll",
-                     "<type>passive</type><period/><priority>7</priority><policy>SCHED_OTHER</policy>");
-    CHECK(read_component_profile(folder.path() / "C.xml").priority == 0);
+    const auto scheduling = [&](const std::string& policy) {
+        folder.component("C", "C.dll", "<type>passive</type><period/><priority>7</priority>" + policy);
+        return read_component_profile(folder.path() / "C.xml").scheduling;
+    };
+    CHECK(scheduling("") == Scheduling::other);
+    CHECK(scheduling("<policy>SCHED_OTHER</policy>") == Scheduling::other);
+    CHECK(scheduling("<policy>SCHED_FIFO</policy>") == Scheduling::fifo);
+    CHECK(scheduling("<policy>SCHED_RR</policy>") == Scheduling::round_robin);
 }
 
 TEST_CASE("a wrong component profile gets one line with file, line, what is wrong and what was expected") {
@@ -73,6 +78,60 @@ TEST_CASE("wrong execution semantics are named") {
     CHECK_THAT(semantics_error("<type>periodic</type>"), Catch::Contains("<period> above 0 ms"));
     CHECK_THAT(semantics_error("<type>periodic</type><period>-1</period>"), Catch::Contains("'-1'"));
     CHECK_THAT(semantics_error("<type>periodic</type><period>10ms</period>"),
+               Catch::Contains("expected a number"));
+    CHECK_THAT(semantics_error("<type>periodic</type><period>nan</period>"),
+               Catch::Contains("expected a number"));
+    CHECK_THAT(semantics_error("<type>periodic</type><period>1</period><phase>1e300</phase>"),
+               Catch::Contains("<phase> is '1e300'"));
+    CHECK_THAT(semantics_error("<type>passive</type><policy>SCHED_MINE</policy>"),
+               Catch::Contains("expected SCHED_OTHER, SCHED_FIFO or SCHED_RR"));
+}
+
+TEST_CASE("a component profile lists ports and the files of types") {
+    const Folder folder;
+    const auto file = folder.write(
+        "C.xml",
+        "<component_profile><name>C</name><execution_environment><library_name>C</library_name>"
+        "</execution_environment><execution_semantics><type>passive</type></execution_semantics>"
+        "<ports><data_port><name>a</name><usage>input</usage><data_type>double</data_type>"
+        "<queueing_policy>LIFO</queueing_policy><queue_size>4</queue_size></data_port>"
+        "<data_port><name>b</name><usage>output</usage></data_port>"
+        "<data_port><name>c</name><usage>output1</usage></data_port>"
+        "<event_port><name>e</name><usage>input</usage><data_type>string</data_type></event_port>"
+        "<service_port><name>s</name><type>Arm</type><usage>provided</usage>"
+        "<reference>Arm.xml</reference></service_port></ports><defined_data_types>"
+        "<defined_data_type>Point.xml</defined_data_type></defined_data_types><defined_service_types>"
+        "<defined_service_type>Arm.xml</defined_service_type></defined_service_types>"
+        "</component_profile>");
+    const auto profile = read_component_profile(file);
+    REQUIRE(profile.data_ports.size() == 2);
+    CHECK(profile.data_ports[0].input);
+    REQUIRE(profile.data_ports[0].queue);
+    CHECK(profile.data_ports[0].queue->policy == OPROS_LIFO);
+    CHECK(profile.data_ports[0].queue->size == 4);
+    CHECK_FALSE(profile.data_ports[1].queue);
+    REQUIRE(profile.event_ports.size() == 1);
+    CHECK(profile.event_ports[0].input);
+    REQUIRE(profile.service_ports.size() == 1);
+    CHECK(profile.service_ports[0].provided);
+    CHECK(profile.service_ports[0].reference == "Arm.xml");
+    CHECK(profile.data_types == std::vector<std::string>{"Point.xml"});
+    CHECK(profile.service_types == std::vector<std::string>{"Arm.xml"});
+}
+
+TEST_CASE("wrong queue settings are named") {
+    const auto queue_error = [](const std::string& queue) {
+        return component_error("<component_profile><name>C</name><execution_environment><library_name>C"
+                               "</library_name></execution_environment><execution_semantics>"
+                               "<type>passive</type></execution_semantics>\n<ports><data_port><name>a</name>"
+                               "<usage>input</usage>\n" +
+                               queue + "</data_port></ports></component_profile>");
+    };
+    CHECK_THAT(queue_error("<queueing_policy>SOME</queueing_policy>"),
+               Catch::Contains("c.xml:3: <queueing_policy> is 'SOME', expected FIFO, LIFO, UFIFO or LAST"));
+    CHECK_THAT(queue_error("<queue_size>0</queue_size>"), Catch::Contains("c.xml:3: a queue has 1 to"));
+    CHECK_THAT(queue_error("<queue_size>1e9</queue_size>"), Catch::Contains("c.xml:3: a queue has 1 to"));
+    CHECK_THAT(queue_error("<policy_param name=\"size\">many</policy_param>"),
                Catch::Contains("expected a number"));
 }
 
@@ -103,8 +162,6 @@ TEST_CASE("a wrong application profile gets one line with file and line") {
     const std::string a = Folder::sub("A", "A.xml");
     CHECK_THAT(read("", ""), Catch::Contains("lists no <subcomponent>"));
     CHECK_THAT(read(a + a, ""), Catch::Contains("app.xml:4: component 'A' is listed twice"));
-    CHECK_THAT(read(a, Folder::connect("data", "A", "o", "X", "i")),
-               Catch::Contains("app.xml:7: unknown component 'X', the application has A"));
     CHECK_THAT(read(a, Folder::connect("method", "A", "o", "A", "i")),
                Catch::Contains("app.xml:7: port_type is 'method'"));
     CHECK_THAT(read(a, "<port_connection port_type=\"data\"/>"),
@@ -113,7 +170,7 @@ TEST_CASE("a wrong application profile gets one line with file and line") {
 
 TEST_CASE("components start last listed first, but never before those they depend on") {
     ApplicationProfile profile;
-    for (const char* name : {"A", "B", "C"}) profile.subcomponents.push_back({{}, name, "", {}});
+    for (const char* name : {"A", "B", "C"}) profile.subcomponents.push_back({{}, name, "", {}, {}});
     CHECK(start_order(profile) == std::vector<std::string>{"C", "B", "A"});
     profile.dependencies = {{{}, "C", "A"}};
     CHECK(start_order(profile) == std::vector<std::string>{"B", "A", "C"});

@@ -37,9 +37,10 @@ bool eventually(Condition condition) {
     return false;
 }
 
-/// The message of the SetupError that making the application ends in.
+/// The message of the SetupError that making the application, strictly, ends in.
 inline std::string setup_error(const std::filesystem::path& file,
-                               const tandem::engine::ApplicationOptions& options) {
+                               tandem::engine::ApplicationOptions options) {
+    options.strict = true;
     try {
         tandem::engine::Application application(file, options);
     } catch (const tandem::engine::SetupError& error) {

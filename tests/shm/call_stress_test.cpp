@@ -64,6 +64,23 @@ TEST_CASE("no call waits while a worker sleeps") {
     CHECK(ran == 2 * stress(1500));
 }
 
+TEST_CASE("a caller that only polls has a worker woken though another was expected back") {
+    Pair pair;
+    CallClient client(pair.first->add_call_queue("c", {.slots = 2, .max_bytes = 64}), {WaitMode::spin});
+    pair.first->publish();
+    CallServer server(*pair.second->find_call_queue(Side::first, "c"), {WaitMode::spin_then_futex, 10s});
+    std::thread once([&] { // polls, answers, and does not come back
+        if (auto call = server.take(20s)) echo(*call);
+    });
+    std::this_thread::sleep_for(20ms); // so that it is this one that polls, and the other one that sleeps
+    Workers asleep(server, 1, echo);
+    std::this_thread::sleep_for(20ms);
+    CHECK(client.call(0, {}, 5s).status == CallStatus::ok);
+    CHECK(client.call(0, {}, 5s).status == CallStatus::ok);
+    server.interrupt();
+    once.join();
+}
+
 TEST_CASE("calls to a server with a polling worker wake nobody") {
     CallPair calls({.slots = 4, .max_bytes = 64}, {.spin = 60s});
     Workers workers(calls.server, 3, echo);

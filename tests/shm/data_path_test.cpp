@@ -115,7 +115,8 @@ TEST_CASE("the data path makes no system call while the reader is awake") {
                 one_message(writer, reader, pair.first->peer_doorbell(), pair.second->doorbell());
             for (int i = 0; i < 3; ++i) writer.write(std::as_bytes(std::span(text)), 0, 0);
             reader.read_newest();
-            return 42;
+            _exit(42); // counting what was covered would need system calls
+            return 0;
         });
         CHECK(child.wait() == 42);
     }

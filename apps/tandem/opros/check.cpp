@@ -2,6 +2,7 @@
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/text.hpp"
+#include "host/opros/src/composite.hpp"
 #include "host/opros/src/load_component.hpp"
 #include "host/opros/src/start_order.hpp"
 
@@ -33,7 +34,9 @@ void check_component(const ApplicationProfile& application, const engine::Subcom
                      const LookOptions& options) {
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.place.file.parent_path());
-    const auto file = engine::find_component_profile(application, entry, options.plugin_dirs);
+    const auto file = entry.file.empty()
+                          ? engine::find_component_profile(application, entry, options.plugin_dirs)
+                          : entry.file;
     const auto profile = engine::read_component_profile(file);
     const auto library = engine::find_component_library(profile, dirs);
     try {
@@ -69,8 +72,14 @@ int report(const ApplicationProfile& application, const Faults& faults, bool as_
 } // namespace
 
 int opros_check(const LookOptions& options) {
-    const auto application = engine::read_application_profile(options.file);
+    auto application = engine::read_application_profile(options.file);
     Faults faults;
+    // A profile that is missing is told below, one for each component.
+    if (engine::has_composites(application, options.plugin_dirs))
+        application = engine::without_composites(application, options.plugin_dirs);
+    for (const auto& connection : application.connections)
+        if (!connection.error.empty())
+            faults.lines.push_back(connection.place.text() + ": " + connection.error);
     std::vector<std::string> without;
     for (const auto& entry : application.subcomponents)
         if (!faults.passes([&] { check_component(application, entry, options); }))

@@ -13,6 +13,8 @@ std::string execution_word(engine::Execution execution) {
         return "periodic-shared";
     case engine::Execution::aperiodic:
         return "aperiodic";
+    case engine::Execution::aperiodic_loop:
+        return "aperiodic-loop";
     case engine::Execution::passive:
         return "passive";
     }
@@ -27,6 +29,8 @@ std::string executor_text(const engine::ComponentProfile& profile) {
     if (profile.period.count() != 0) text += ", every " + ms(profile.period);
     if (profile.phase.count() != 0) text += ", phase " + ms(profile.phase);
     if (profile.priority != 0) text += fmt::format(", priority {}", profile.priority);
+    if (profile.scheduling != engine::Scheduling::other)
+        text += profile.scheduling == engine::Scheduling::fifo ? " (SCHED_FIFO)" : " (SCHED_RR)";
     return text;
 }
 

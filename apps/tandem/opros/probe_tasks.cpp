@@ -3,6 +3,7 @@
 
 #include "apps/tandem/opros/description.hpp"
 #include "host/opros/src/component_host.hpp"
+#include "host/opros/src/composite.hpp"
 #include "host/opros/src/connect.hpp"
 #include "host/opros/src/load_component.hpp"
 
@@ -70,7 +71,8 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const auto without = request["without"].get<std::vector<std::string>>();
     std::vector<std::filesystem::path> dirs;
     for (const auto& dir : request["plugin_dirs"]) dirs.emplace_back(dir.get<std::string>());
-    const auto profile = engine::read_application_profile(task.library);
+    auto profile = engine::read_application_profile(task.library);
+    if (engine::has_composites(profile, dirs)) profile = engine::without_composites(profile, dirs);
     std::vector<std::string> faults;
     std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
     for (const auto& entry : profile.subcomponents) {
@@ -79,7 +81,9 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
         auto search = dirs;
         search.insert(search.begin(), profile.place.file.parent_path());
         auto component = std::make_unique<engine::ComponentHost>(
-            entry, engine::read_component_profile(engine::find_component_profile(profile, entry, dirs)),
+            entry,
+            engine::read_component_profile(
+                entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
             search);
         if (request["initialize"]) initialize(component->component(), entry.name, report);
         components.emplace(entry.name, std::move(component));

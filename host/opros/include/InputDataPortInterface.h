@@ -4,6 +4,7 @@
 
 #include <ArchiveFactory.h>
 #include <DataPort.h>
+#include <DataPortListener.h>
 #include <DataPortSource.h>
 
 class InputDataPortImpl;
@@ -30,6 +31,13 @@ class InputDataPortInterface : public DataPort {
     virtual ReturnType addSource(DataPortSource* source);
     /// On return the source is not in use and will not be used again (ours).
     virtual ReturnType removeSource(DataPortSource* source);
+    /// Whether values may wait in a source, of which no listener is told (ours).
+    bool hasSources() const;
+    /// The listener, which must outlive all pushes, or NULL for none (ours).
+    void setListener(DataPortListener* listener);
+    /// The queue that a profile asks for, before the port is in use. OPROS_PRECONDITION_NOT_MET: the component's own
+    /// code has chosen one, which counts (ours).
+    ReturnType setQueue(DataPortPolicy policy, unsigned int limit);
 
     virtual ReturnType push(opros_any& data) = 0;
     virtual ReturnType pushData(unsigned char* data, int size) = 0;

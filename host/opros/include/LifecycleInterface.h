@@ -27,6 +27,9 @@ class LifecycleInterface {
     /// [any-thread] The component is in ERROR when this returns, whatever onError() makes of it.
     virtual ReturnType stopOnError();
     virtual ReturnType recover();
+    /// For the host: ERROR, whatever the state, and onError(), unless there is nothing to stop yet (CREATED): what
+    /// cannot initialize or start takes no part (ours).
+    ReturnType fail();
 
     /// [any-thread]
     virtual LifecycleState getStatus();

@@ -19,13 +19,8 @@ class InputDataPortImpl {
         : port_(port), queue_(policy, limit) {}
 
     void push(const opros_any& value) {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        // Copied into a value of this port's own making: that of the source may belong to a library that goes
-        // first.
-        opros_any& slot = queue_.push();
-        if (slot.empty()) slot = port_.sample();
-        slot = value;
-        note();
+        put(value);
+        if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
     }
 
     opros_any* pop() {
@@ -66,17 +61,41 @@ class InputDataPortImpl {
     void add(DataPortSource* source) {
         const std::lock_guard<std::mutex> lock(mutex_);
         sources_.push_back(source);
+        sourced_ = true;
         note();
     }
 
     void remove(DataPortSource* source) {
         const std::lock_guard<std::mutex> lock(mutex_);
         sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
+        sourced_ = !sources_.empty();
         note();
     }
 
+    void listen(DataPortListener* listener) { listener_.store(listener, std::memory_order_release); }
+    bool has_sources() const { return sourced_.load(std::memory_order_acquire); }
+
+    bool take_default_queue(DataPortPolicy policy, unsigned int limit) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!by_default_) return false;
+        queue_ = opros::DataQueue(policy, limit);
+        note();
+        return true;
+    }
+    void chosen_by_default() { by_default_ = true; }
+
   private:
     enum class Read { nothing, undecodable, value };
+
+    void put(const opros_any& value) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        // Copied into a value of this port's own making: that of the source may belong to a library that goes
+        // first.
+        opros_any& slot = queue_.push();
+        if (slot.empty()) slot = port_.sample();
+        slot = value;
+        note();
+    }
 
     /// A consumer that polls must not get into the way of those who push: nothing to take is seen without the
     /// lock.
@@ -131,6 +150,9 @@ class InputDataPortImpl {
             read = Read::value;
         } catch (const std::exception& error) {
             source.undecodable(error.what());
+        } catch (...) { // users' load() functions throw what they like; the source must get its done() all
+                        // the same
+            source.undecodable("an exception of unknown type");
         }
         large_ = source.large();
         source.done();
@@ -145,15 +167,18 @@ class InputDataPortImpl {
     std::unique_ptr<opros_any> spare_; // the next to be handed out
     bool caught_up_ = false;           // the last pop() found nothing
     bool large_ = false;               // the last value of a source was
-    std::atomic<bool> worth_a_look_{false};
+    bool by_default_ = false;          // the component's code has left the queue to the profile
+    std::atomic<bool> worth_a_look_{false}, sourced_{false};
+    std::atomic<DataPortListener*> listener_{nullptr};
 };
 
-InputDataPortInterface::InputDataPortInterface()
-    : InputDataPortInterface("", OPROS_FIFO, DEFAULT_QUEUE_LIMIT) {}
+InputDataPortInterface::InputDataPortInterface() : InputDataPortInterface("") {}
 InputDataPortInterface::InputDataPortInterface(DataPortPolicy data_policy, unsigned int queue_limit)
     : InputDataPortInterface("", data_policy, queue_limit) {}
 InputDataPortInterface::InputDataPortInterface(const std::string& name)
-    : InputDataPortInterface(name, OPROS_FIFO, DEFAULT_QUEUE_LIMIT) {}
+    : InputDataPortInterface(name, OPROS_FIFO, DEFAULT_QUEUE_LIMIT) {
+    m_impl->chosen_by_default();
+}
 InputDataPortInterface::InputDataPortInterface(const std::string& name, DataPortPolicy data_policy,
                                                unsigned int queue_limit)
     : DataPort(name), m_impl(new InputDataPortImpl(*this, data_policy, queue_limit)), m_arc(nullptr) {}
@@ -176,6 +201,13 @@ ReturnType InputDataPortInterface::addSource(DataPortSource* source) {
 ReturnType InputDataPortInterface::removeSource(DataPortSource* source) {
     m_impl->remove(source);
     return OPROS_SUCCESS;
+}
+
+bool InputDataPortInterface::hasSources() const { return m_impl->has_sources(); }
+void InputDataPortInterface::setListener(DataPortListener* listener) { m_impl->listen(listener); }
+
+ReturnType InputDataPortInterface::setQueue(DataPortPolicy policy, unsigned int limit) {
+    return m_impl->take_default_queue(policy, limit) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
 
 ReturnType InputDataPortInterface::push_data(opros_any& data) {

@@ -70,6 +70,12 @@ ReturnType LifecycleInterface::stopOnError() {
     return succeeded(onError()) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
 
+ReturnType LifecycleInterface::fail() {
+    const LifecycleState before = m_state.exchange(OPROS_CS_ERROR);
+    if (before == OPROS_CS_ERROR || before == OPROS_CS_CREATED) return OPROS_SUCCESS;
+    return succeeded(onError()) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
+}
+
 ReturnType LifecycleInterface::recover() {
     const Transition lock(m_transition);
     if (m_state == OPROS_CS_READY) return OPROS_SUCCESS;

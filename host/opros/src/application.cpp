@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/application.hpp"
 
+#include "host/opros/src/bounded.hpp"
+#include "host/opros/src/composite.hpp"
 #include "host/opros/src/connect.hpp"
 #include "host/opros/src/start_order.hpp"
 
+#include <algorithm>
 #include <spdlog/spdlog.h>
 #include <stdexcept>
 
@@ -11,11 +14,13 @@ namespace tandem::engine {
 
 Application::Application(const ApplicationOptions& options)
     : options_(options),
-      workers_(options.lockstep_socket.empty() ? options.workers : 0, options.jobs_per_worker) {}
+      workers_(std::make_shared<WorkerPool>(options.lockstep_socket.empty() ? options.workers : 0,
+                                            options.jobs_per_worker)) {}
 
 Application::Application(const std::filesystem::path& file, const ApplicationOptions& options)
     : Application(options) {
-    const ApplicationProfile profile = read_application_profile(file);
+    const ApplicationProfile profile =
+        without_composites(read_application_profile(file), options_.plugin_dirs);
     load(profile);
     order(profile);
     for (ComponentHost* component : order_) {
@@ -26,48 +31,71 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
 }
 
 Application::~Application() {
-    stop();
-    workers_.stop();
-    links_.clear();
-    for (auto component = order_.rbegin(); component != order_.rend(); ++component) (*component)->destroy();
+    end();
+    if (stuck_.empty()) return;
+    for (auto& link : links_) static_cast<void>(link.release());
+    for (auto& component : components_) static_cast<void>(component.release());
+    static auto* const kept = new std::vector<std::shared_ptr<WorkerPool>>;
+    kept->push_back(workers_);
 }
 
 void Application::load(const ApplicationProfile& profile) {
+    std::vector<std::string> failures;
     for (const Subcomponent& entry : profile.subcomponents) {
-        const auto file = find_component_profile(profile, entry, options_.plugin_dirs);
+        ComponentProfile component = read_component_profile(entry.file);
         auto dirs = options_.plugin_dirs;
         dirs.insert(dirs.begin(), profile.place.file.parent_path());
-        components_.push_back(
-            std::make_unique<ComponentHost>(entry, read_component_profile(file), dirs, options_.probe));
-        libraries_.push_back(components_.back()->library());
+        try {
+            components_.push_back(
+                std::make_unique<ComponentHost>(entry, std::move(component), dirs, options_.probe));
+            libraries_.push_back(components_.back()->library());
+        } catch (const SetupError& error) {
+            if (options_.strict || profile.subcomponents.size() == 1) throw;
+            failures.push_back(error.what());
+            spdlog::error("{}; component {} is left out, the others go on", error.what(), entry.name);
+        }
     }
+    if (components_.empty()) throw SetupError(failures.front());
 }
 
 void Application::order(const ApplicationProfile& profile) {
-    for (const std::string& name : start_order(profile)) order_.push_back(find(name));
-    for (const Dependency& dependency : profile.dependencies)
-        find(dependency.source)->depends_on(*find(dependency.target));
+    for (const std::string& name : start_order(profile))
+        if (ComponentHost* component = find(name)) order_.push_back(component);
+    for (const Dependency& dependency : profile.dependencies) {
+        ComponentHost* source = find(dependency.source);
+        ComponentHost* target = find(dependency.target);
+        if (source && target) source->depends_on(*target);
+    }
 }
 
 void Application::connect_all(const ApplicationProfile& profile) {
     for (const Connection& connection : profile.connections) {
-        ComponentHost& source = *find(connection.source.component);
-        ComponentHost& target = *find(connection.target.component);
-        if (source.failed() || target.failed()) {
-            spdlog::warn("{}: connection left out, component {} has failed", connection.place.text(),
-                         (source.failed() ? source : target).name());
-            continue;
+        try {
+            connect_one(connection);
+        } catch (const SetupError& error) {
+            if (options_.strict) throw;
+            spdlog::error("{}; this connection is left out, the others are made", error.what());
         }
-        links_.push_back(connect(connection, source, target, workers_, links_.size()));
     }
 }
 
-/// A robot without one of its parts is not what the profile describes: that is for its user to allow.
+void Application::connect_one(const Connection& connection) {
+    if (!connection.error.empty()) throw SetupError(connection.place, connection.error);
+    ComponentHost* source = find(connection.source.component);
+    ComponentHost* target = find(connection.target.component);
+    const bool from = source && !source->failed(), to = target && !target->failed();
+    if (from && to)
+        links_.push_back(connect(connection, *source, *target, *workers_, links_.size()));
+    else
+        spdlog::warn("{}: connection left out, component {} has failed", connection.place.text(),
+                     (from ? connection.target : connection.source).component);
+}
+
 void Application::demand_success(const ComponentHost& component, const char* step) const {
     if (options_.strict && component.failed())
         throw SetupError(
             "component '" + component.name() + "' did not " + step +
-            ", the line above says why; mend that, or let the others run without it: --keep-going");
+            ", the line above says why; mend that, or let the others run without it: leave out --strict");
 }
 
 ComponentHost* Application::find(const std::string& name) {
@@ -83,8 +111,10 @@ void Application::start() {
         component->start();
         demand_success(*component, "start");
     }
+    if (std::all_of(order_.begin(), order_.end(), [](const ComponentHost* each) { return each->failed(); }))
+        throw SetupError("no component has started, the lines above say why");
     if (!options_.lockstep_socket.empty()) {
-        step_server_ = std::make_unique<rt::StepServer>(options_.lockstep_socket,
+        step_server_ = std::make_shared<rt::StepServer>(options_.lockstep_socket,
                                                         [this](const std::string& name) { step(name); });
         return;
     }
@@ -92,16 +122,60 @@ void Application::start() {
     for (auto& executor : executors_) executor->start();
 }
 
-// One after the other: what started first, hardware as a rule, keeps running, its watchdog with it, until all that use
-// it have stopped. However long one of them takes, or hangs, nobody drives on old commands meanwhile.
+// One after the other: what started first, hardware as a rule, keeps running, its watchdog with it, until all
+// that use it have stopped. However long one of them takes, or hangs, nobody drives on old commands
+// meanwhile.
 void Application::stop() {
     if (!started_) return;
     started_ = false;
-    step_server_.reset();
-    for (auto component = order_.rbegin(); component != order_.rend(); ++component) {
-        std::erase_if(executors_, [&](const auto& executor) { return executor->runs(**component); });
-        (*component)->stop();
+    for (const auto& executor : executors_) stats_.push_back(executor->stats());
+    if (step_server_ &&
+        !finishes_within(options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); }))
+        for (ComponentHost* component : order_)
+            if (component->busy_with()) left_behind(*component);
+    for (auto component = order_.rbegin(); component != order_.rend(); ++component)
+        stop_component(**component);
+}
+
+/// A component that hangs in onExecute may come back when it is told to stop.
+void Application::stop_component(ComponentHost& component) {
+    const auto mine = std::find_if(executors_.begin(), executors_.end(),
+                                   [&](const auto& executor) { return executor->runs(component); });
+    const bool alone = mine == executors_.end() || (*mine)->ends_within(options_.grace);
+    if (!finishes_within(options_.grace, [&component] { component.stop(); })) left_behind(component);
+    if (!alone && !(*mine)->ends_within(options_.grace)) {
+        for (ComponentHost* each : (*mine)->components())
+            if (each->busy_with()) left_behind(*each);
+        static_cast<void>(mine->release()); // its thread uses it as long as the process lives
     }
+    if (mine != executors_.end()) executors_.erase(mine);
+}
+
+void Application::left_behind(const ComponentHost& component) {
+    if (std::find(stuck_.begin(), stuck_.end(), component.name()) != stuck_.end()) return;
+    stuck_.push_back(component.name());
+    const char* what = component.busy_with();
+    spdlog::error("component {} does not come back from {} within {} s; the host ends without it",
+                  component.name(), what ? what : "a call-back",
+                  std::chrono::duration<double>(options_.grace).count());
+}
+
+void Application::end_workers() {
+    if (finishes_within(options_.grace, [pool = workers_] { pool->stop(); })) return;
+    for (ComponentHost* component : order_)
+        if (component->busy_with()) left_behind(*component);
+}
+
+void Application::end() {
+    if (ended_) return;
+    ended_ = true;
+    stop();
+    end_workers();
+    if (stuck_.empty()) links_.clear();
+    for (auto component = order_.rbegin(); component != order_.rend(); ++component)
+        if (std::find(stuck_.begin(), stuck_.end(), (*component)->name()) == stuck_.end() &&
+            !finishes_within(options_.grace, [&each = **component] { each.destroy(); }))
+            left_behind(**component);
 }
 
 void Application::step(const std::string& name) {

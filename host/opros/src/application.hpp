@@ -24,23 +24,31 @@ struct ApplicationOptions {
     std::size_t jobs_per_worker = 1024;
     /// Not empty: no executor threads, components are stepped through this socket (host/rt/step_server.hpp).
     std::string lockstep_socket;
-    /// A component that fails to initialize or start ends the set-up; otherwise it is left out and the rest
-    /// runs.
+    /// A component that cannot be loaded, initialized or started, or a connection that cannot be made, ends
+    /// the set-up; otherwise it is left out and the rest runs.
     bool strict = false;
+    /// How long the end waits for each call-back that is under way.
+    std::chrono::nanoseconds grace = std::chrono::seconds(10);
 };
 
 class Application {
   public:
     /// Loads and initialises all components and connects them. Throws SetupError.
     Application(const std::filesystem::path& profile, const ApplicationOptions& options);
-    /// Stops what runs, disconnects, destroys and unloads.
     ~Application();
 
     /// Starts all components, last listed first unless <coordination> says otherwise, then their executors.
-    /// One that fails is out and the rest runs, or, if strict, SetupError is thrown.
+    /// One that fails is out and the rest runs; SetupError if strict, or if none has started.
     void start();
     /// In the reverse order of start: ends each component's executor, then stops the component.
     void stop();
+    /// Stops, disconnects and destroys; the destructor does, too.
+    void end();
+    /// Components that did not come back from a call-back within the grace time of stop() or end(). What they
+    /// may still use stays in memory for good, and the process had better leave without unloading anything.
+    const std::vector<std::string>& stuck() const { return stuck_; }
+    /// A line for each executor with what it has counted, from stop() on.
+    const std::vector<std::string>& stats() const { return stats_; }
 
     /// One cycle of the named component in the calling thread. Throws std::runtime_error: no such component,
     /// or it threw an exception.
@@ -55,18 +63,23 @@ class Application {
     void load(const ApplicationProfile& profile);
     void order(const ApplicationProfile& profile);
     void connect_all(const ApplicationProfile& profile);
+    void connect_one(const Connection& connection);
     void demand_success(const ComponentHost& component, const char* step) const;
+    void stop_component(ComponentHost& component);
+    void end_workers();
+    void left_behind(const ComponentHost& component);
 
     ApplicationOptions options_;
     // A value in one component's queue may be of another one's making: libraries go after all components.
     std::vector<std::shared_ptr<plugin::Library>> libraries_;
     std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
     std::vector<ComponentHost*> order_;
-    WorkerPool workers_;
+    std::shared_ptr<WorkerPool> workers_;
     std::vector<std::unique_ptr<Link>> links_;
     std::vector<std::unique_ptr<Executor>> executors_;
-    std::unique_ptr<rt::StepServer> step_server_;
-    bool started_ = false;
+    std::shared_ptr<rt::StepServer> step_server_;
+    std::vector<std::string> stuck_, stats_;
+    bool started_ = false, ended_ = false;
 };
 
 } // namespace tandem::engine

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/xml_file.hpp"
 
-#include <algorithm>
+#include <set>
 
 namespace tandem::engine {
 namespace {
+
+std::string tag(const char* name) { return std::string("<").append(name).append(">"); }
 
 PortReference port_reference(const XmlFile& xml, const pugi::xml_node& connection, const char* end) {
     const pugi::xml_node node = connection.child(end);
@@ -12,64 +14,118 @@ PortReference port_reference(const XmlFile& xml, const pugi::xml_node& connectio
     return {xml.required_attribute(node, "component_name"), xml.required_attribute(node, "port_name")};
 }
 
-PortType port_type(const XmlFile& xml, const pugi::xml_node& connection) {
-    const std::string type = xml.required_attribute(connection, "port_type");
+/// An attribute, or a child element of that name.
+std::string named(const pugi::xml_node& node, const char* name) {
+    const std::string value = XmlFile::trimmed(node.attribute(name).value());
+    return value.empty() ? XmlFile::text(node, name) : value;
+}
+
+PortType port_type(const XmlFile& xml, const pugi::xml_node& node) {
+    const std::string type = named(node, "port_type");
     if (type == "data") return OPROS_DATA;
     if (type == "event") return OPROS_EVENT;
     if (type == "service") return OPROS_SERVICE;
-    xml.fail(connection, "port_type is '" + type + "', expected data, event or service");
+    if (type.empty()) xml.fail(node, tag(node.name()) + " lacks its attribute port_type");
+    xml.fail(node, "port_type is '" + type + "', expected data, event or service");
 }
 
-void read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, ApplicationProfile& profile) {
+using Names = std::set<std::string>;
+
+Names read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, ApplicationProfile& profile) {
+    Names names;
     for (const pugi::xml_node& node : root.child("subcomponents").children("subcomponent")) {
         Subcomponent component{
-            xml.place(node), xml.required_text(node, "name"), xml.required_text(node, "reference"), {}};
-        const auto same = [&](const Subcomponent& other) { return other.name == component.name; };
-        if (std::any_of(profile.subcomponents.begin(), profile.subcomponents.end(), same))
-            xml.fail(node, "component '" + component.name + "' is listed twice");
+            xml.place(node), xml.required_text(node, "name"), xml.required_text(node, "reference"), {}, {}};
+        if (!names.insert(component.name).second)
+            xml.fail(node, "component '" + component.name + "' is listed twice, expected one of each name");
         for (const pugi::xml_node& property : node.child("properties").children("property"))
             component.properties.emplace_back(xml.required_attribute(property, "name"),
                                               property.child_value());
         profile.subcomponents.push_back(std::move(component));
     }
     if (profile.subcomponents.empty())
-        xml.fail(root, "the application lists no <subcomponent> in <subcomponents>");
+        xml.fail(root,
+                 tag(root.name()) + " lists no <subcomponent> in <subcomponents>, expected at least one");
+    return names;
 }
 
-void require_component(const XmlFile& xml, const pugi::xml_node& node, const ApplicationProfile& profile,
-                       const std::string& name) {
+/// Empty if there is such a component.
+std::string unknown_component(const Names& names, const std::string& name) {
+    if (names.count(name) != 0) return "";
     std::string known;
-    for (const Subcomponent& component : profile.subcomponents) {
-        if (component.name == name) return;
-        known += (known.empty() ? "" : ", ") + component.name;
-    }
-    xml.fail(node, "unknown component '" + name + "', the application has " + known);
+    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+    return "unknown component '" + name + "', expected one of " + known;
 }
 
-} // namespace
+void require_component(const XmlFile& xml, const pugi::xml_node& node, const Names& names,
+                       const std::string& name) {
+    const std::string error = unknown_component(names, name);
+    if (!error.empty()) xml.fail(node, error);
+}
 
-ApplicationProfile read_application_profile(const std::filesystem::path& file) {
-    const XmlFile xml(file);
-    const pugi::xml_node root = xml.root({"package_profile", "application_profile"});
-    ApplicationProfile profile;
-    profile.place = xml.place(root);
-    profile.name = xml.required_text(root, "name");
-    read_subcomponents(xml, root, profile);
+void read_connections(const XmlFile& xml, const pugi::xml_node& root, const Names& names,
+                      ApplicationProfile& profile) {
     for (const pugi::xml_node& node : root.child("port_connections").children("port_connection")) {
         Connection connection{xml.place(node), port_type(xml, node), port_reference(xml, node, "source"),
-                              port_reference(xml, node, "target")};
-        require_component(xml, node.child("source"), profile, connection.source.component);
-        require_component(xml, node.child("target"), profile, connection.target.component);
+                              port_reference(xml, node, "target"), ""};
+        connection.error = unknown_component(names, connection.source.component);
+        if (connection.error.empty())
+            connection.error = unknown_component(names, connection.target.component);
         profile.connections.push_back(std::move(connection));
     }
     for (const pugi::xml_node& node : root.child("coordination").children("depends")) {
         Dependency dependency{xml.place(node), xml.required_attribute(node, "source"),
                               xml.required_attribute(node, "target")};
-        require_component(xml, node, profile, dependency.source);
-        require_component(xml, node, profile, dependency.target);
+        require_component(xml, node, names, dependency.source);
+        require_component(xml, node, names, dependency.target);
         profile.dependencies.push_back(std::move(dependency));
     }
+}
+
+void read_exports(const XmlFile& xml, const pugi::xml_node& root, const Names& names,
+                  ApplicationProfile& profile) {
+    Names exported;
+    for (const pugi::xml_node& node : root.child("export_ports").children("export_port")) {
+        ExportedPort port{xml.place(node),
+                          named(node, "export_port_name"),
+                          port_type(xml, node),
+                          {named(node, "component_name"), named(node, "port_name")}};
+        if (port.port.component.empty()) xml.fail(node, "<export_port> lacks its component_name");
+        if (port.port.port.empty()) xml.fail(node, "<export_port> lacks its port_name");
+        if (port.name.empty()) port.name = port.port.port;
+        require_component(xml, node, names, port.port.component);
+        if (!exported.insert(port.name).second)
+            xml.fail(node, "port '" + port.name + "' is exported twice, expected one of each name");
+        profile.exports.push_back(std::move(port));
+    }
+}
+
+ApplicationProfile read(const XmlFile& xml, const pugi::xml_node& root) {
+    ApplicationProfile profile;
+    profile.place = xml.place(root);
+    profile.name = xml.required_text(root, "name");
+    const Names names = read_subcomponents(xml, root, profile);
+    read_connections(xml, root, names, profile);
+    if (std::string(root.name()) == "composite_component_profile") read_exports(xml, root, names, profile);
     return profile;
+}
+
+} // namespace
+
+ApplicationProfile read_application_profile(const XmlFile& xml) {
+    return read(xml, xml.root({"package_profile", "application_profile"}));
+}
+
+ApplicationProfile read_application_profile(const std::filesystem::path& file) {
+    return read_application_profile(XmlFile(file));
+}
+
+ApplicationProfile read_composite_profile(const XmlFile& xml) {
+    return read(xml, xml.root({"composite_component_profile"}));
+}
+
+ApplicationProfile read_composite_profile(const std::filesystem::path& file) {
+    return read_composite_profile(XmlFile(file));
 }
 
 std::filesystem::path find_component_profile(const ApplicationProfile& application,

@@ -4,6 +4,7 @@
 #include "host/opros/src/load_component.hpp"
 
 #include <MethodInvokeException.h>
+#include <algorithm>
 #include <dlfcn.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
@@ -28,6 +29,19 @@ void give_device_library_all_names(std::map<std::string, std::string>& propertie
     if (library.empty()) return;
     for (const char* name : names) properties.emplace(name, library);
 }
+
+/// Says for the time of its life what the component is busy with.
+class Busy {
+  public:
+    Busy(std::atomic<const char*>& place, const char* what) : place_(place), before_(place.exchange(what)) {}
+    ~Busy() { place_ = before_; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+  private:
+    std::atomic<const char*>& place_;
+    const char* before_;
+};
 
 } // namespace
 
@@ -66,6 +80,7 @@ std::string ComponentHost::fail(const char* what, const std::string& why) {
 }
 
 std::string ComponentHost::guarded(const char* what, const std::function<void()>& code) {
+    const Busy busy(busy_with_, what);
     try {
         code();
         return "";
@@ -94,10 +109,43 @@ bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::
     return false;
 }
 
-void ComponentHost::initialize() { failed_ = !lifecycle("initialize", &LifecycleInterface::initialize); }
+void ComponentHost::initialize() {
+    initialized_ = lifecycle("initialize", &LifecycleInterface::initialize);
+    if (initialized_)
+        set_up_inputs();
+    else
+        take_out();
+}
 
 void ComponentHost::start() {
-    if (!failed_) failed_ = !lifecycle("start", &LifecycleInterface::start);
+    if (!failed_ && !lifecycle("start", &LifecycleInterface::start)) take_out();
+}
+
+void ComponentHost::take_out() {
+    failed_ = error_reported_ = true;
+    lifecycle("fail", &LifecycleInterface::fail);
+}
+
+// What the code has chosen counts, and a profile often lists ports that the code does not have.
+void ComponentHost::set_up_inputs() {
+    for (const std::string& name : component_->getPortNames(OPROS_DATA)) {
+        auto* input = dynamic_cast<InputDataPortInterface*>(component_->getPort(name));
+        if (!input) continue;
+        for (const DataPortProfile& port : profile_.data_ports)
+            if (port.name == name && port.queue) input->setQueue(port.queue->policy, port.queue->size);
+        input->setListener(&arrival_);
+        inputs_.push_back(input);
+    }
+}
+
+std::size_t ComponentHost::values_waiting() const {
+    std::size_t sum = 0;
+    for (InputDataPortInterface* input : inputs_) sum += static_cast<std::size_t>(input->getSize());
+    return sum;
+}
+
+bool ComponentHost::has_sources() const {
+    return std::any_of(inputs_.begin(), inputs_.end(), [](const auto* input) { return input->hasSources(); });
 }
 
 void ComponentHost::stop() {
@@ -105,8 +153,7 @@ void ComponentHost::stop() {
 }
 
 void ComponentHost::destroy() {
-    const LifecycleState state = component_->getStatus();
-    if (state != OPROS_CS_CREATED && state != OPROS_CS_DESTROYED)
+    if (initialized_ && component_->getStatus() != OPROS_CS_DESTROYED)
         lifecycle("destroy", &LifecycleInterface::destroy);
 }
 
@@ -140,12 +187,17 @@ std::string ComponentHost::update() {
 
 void ComponentHost::depends_on(ComponentHost& target) {
     const std::uint64_t bit = needed_triggers_ + 1; // the lowest bit not yet in use
+    if (bit == 0)
+        throw SetupError(profile_.place, "component '" + name_ + "' depends on more than 64 others");
     needed_triggers_ |= bit;
     target.followers_.emplace_back(this, bit);
 }
 
 void ComponentHost::fired() {
-    for (auto& [follower, bit] : followers_) follower->triggers_.fetch_or(bit, std::memory_order_acq_rel);
+    for (auto& [follower, bit] : followers_) {
+        follower->triggers_.fetch_or(bit, std::memory_order_acq_rel);
+        follower->arrival_.arrived();
+    }
 }
 
 bool ComponentHost::take_triggers() {

@@ -3,11 +3,13 @@
 // ends here.
 #pragma once
 
+#include "host/opros/src/arrival.hpp"
 #include "host/opros/src/profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/probe.hpp"
 
 #include <Component.h>
+#include <InputDataPortInterface.h>
 
 #include <atomic>
 #include <cstdint>
@@ -34,7 +36,7 @@ class ComponentHost {
     /// Initialisation or start has failed: the component takes no part.
     bool failed() const { return failed_; }
 
-    /// Life-cycle steps. A failure is logged in one line and the component is out; the others go on.
+    /// Life-cycle steps. A failure is logged in one line and the component goes to ERROR; the others go on.
     void initialize();
     void start();
     void stop();
@@ -48,7 +50,16 @@ class ComponentHost {
     /// Runs the component's own code from any thread of the engine, under the same rule.
     std::string guarded(const char* what, const std::function<void()>& code);
 
+    /// The call-back that the component is in, of a thread that has come in last; NULL when it is in none.
+    const char* busy_with() const { return busy_with_; }
+
+    /// [executor] What has come for the component. Ports count from the time of initialize().
+    Arrival& arrival() { return arrival_; }
+    std::size_t values_waiting() const;
+    bool has_sources() const;
+
     /// Cycles of these components must come before each of ours: fired() is theirs, take_triggers() ours.
+    /// Throws SetupError when there are more than 64.
     void depends_on(ComponentHost& target);
     void fired();
     bool take_triggers();
@@ -58,12 +69,18 @@ class ComponentHost {
     std::string fail(const char* what, const std::string& why);
     void report_code(const char* what, ReturnType code, ReturnType& last);
     void report_broken();
+    void set_up_inputs();
+    void take_out();
 
     std::string name_;
     ComponentProfile profile_;
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
+    Arrival arrival_;
+    std::vector<InputDataPortInterface*> inputs_;
+    std::atomic<const char*> busy_with_{nullptr};
     std::atomic<bool> failed_{false};
+    bool initialized_ = false;
     bool error_reported_ = false;
     std::atomic<std::uint64_t> failed_calls_{0};
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;

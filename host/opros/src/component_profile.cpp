@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/port_profile.hpp"
 #include "host/opros/src/xml_file.hpp"
 
 #include <algorithm>
@@ -20,19 +21,28 @@ Execution execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
     if (type == "periodic" || type == "periodic-exclusive") return Execution::periodic;
     if (type == "periodic-shared") return Execution::periodic_shared;
     if (type == "aperiodic" || type == "non-periodic" || type == "nonperiodic") return Execution::aperiodic;
+    if (type == "aperiodic-loop") return Execution::aperiodic_loop;
     if (type == "passive") return Execution::passive;
     xml.fail(semantics.child("type"),
              "execution type '" + type +
                  "' is unknown, expected periodic, periodic-exclusive, periodic-shared, "
-                 "aperiodic or passive");
+                 "aperiodic, aperiodic-loop or passive");
+}
+
+/// Real time only for those who ask for it: nearly all profiles name a priority, and hardly one means it.
+Scheduling scheduling(const XmlFile& xml, const pugi::xml_node& semantics) {
+    const std::string policy = XmlFile::text(semantics, "policy");
+    if (policy == "SCHED_FIFO") return Scheduling::fifo;
+    if (policy == "SCHED_RR") return Scheduling::round_robin;
+    if (policy.empty() || policy == "SCHED_OTHER") return Scheduling::other;
+    xml.fail(semantics.child("policy"),
+             "<policy> is '" + policy + "', expected SCHED_OTHER, SCHED_FIFO or SCHED_RR");
 }
 
 void read_semantics(const XmlFile& xml, const pugi::xml_node& semantics, ComponentProfile& profile) {
     profile.execution = execution_type(xml, semantics);
-    // SCHED_OTHER said in so many words means no real-time priority.
-    const bool ordinary = XmlFile::text(semantics, "policy") == "SCHED_OTHER";
-    const double priority = ordinary ? 0 : xml.number(semantics, "priority", 0);
-    profile.priority = static_cast<int>(std::clamp(priority, 0., 99.));
+    profile.scheduling = scheduling(xml, semantics);
+    profile.priority = static_cast<int>(std::clamp(xml.number(semantics, "priority", 0), 0., 99.));
     if (profile.execution != Execution::periodic && profile.execution != Execution::periodic_shared) return;
     const double period = xml.number(semantics, "period", 0);
     if (period <= 0 || period > 1e9)
@@ -40,13 +50,20 @@ void read_semantics(const XmlFile& xml, const pugi::xml_node& semantics, Compone
                  "a periodic component needs a <period> above 0 ms, got '" +
                      XmlFile::text(semantics, "period") + "'");
     profile.period = milliseconds(period);
-    profile.phase = milliseconds(xml.number(semantics, "phase", 0));
+    const double phase = xml.number(semantics, "phase", 0);
+    if (std::abs(phase) > 1e9)
+        xml.fail(semantics.child("phase"), "<phase> is '" + XmlFile::text(semantics, "phase") +
+                                               "', expected a time in ms of at most 1e9");
+    profile.phase = milliseconds(phase);
 }
 
 } // namespace
 
 ComponentProfile read_component_profile(const std::filesystem::path& file) {
-    const XmlFile xml(file);
+    return read_component_profile(XmlFile(file));
+}
+
+ComponentProfile read_component_profile(const XmlFile& xml) {
     const pugi::xml_node root = xml.root({"component_profile"});
     ComponentProfile profile;
     profile.place = xml.place(root);
@@ -61,6 +78,13 @@ ComponentProfile read_component_profile(const std::filesystem::path& file) {
     for (const pugi::xml_node& property : root.child("properties").children("property"))
         if (const std::string name = property.attribute("name").value(); !name.empty())
             profile.properties.emplace_back(name, property.child_value());
+    read_ports(xml, root.child("ports"), profile);
+    for (const auto& [list, files] : {std::pair{"data_type_list", &profile.data_types},
+                                      std::pair{"defined_data_types", &profile.data_types},
+                                      std::pair{"defined_service_types", &profile.service_types}})
+        for (const pugi::xml_node& node : root.child(list).children())
+            if (const std::string file = XmlFile::trimmed(node.child_value()); !file.empty())
+                files->push_back(file);
     return profile;
 }
 

@@ -17,6 +17,7 @@ ReturnType EventLink::push(Event* data) {
         const LifecycleState state = receiver.component().getStatus();
         if (state == OPROS_CS_ERROR || state == OPROS_CS_DESTROYED) return;
         receiver.guarded("onEvent", [&] { port.push(copy.get()); });
+        receiver.arrival().arrived();
     });
     if (taken) return OPROS_SUCCESS;
     if (!overflow_reported_.exchange(true))

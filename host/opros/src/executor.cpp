@@ -24,58 +24,60 @@ std::string run_cycle(const std::vector<ComponentHost*>& components) {
 }
 
 Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options)
-    : components_(std::move(components)), options_(options) {
-    const ComponentProfile& profile = components_.front()->profile();
-    if (profile.execution != Execution::aperiodic)
-        tick_ = std::make_unique<rt::PeriodicTick>(
-            rt::TickOptions{profile.period, profile.phase, true, options_.spin});
-}
+    : components_(std::move(components)), options_(options),
+      pace_(make_pace(*components_.front(), options.spin)) {}
 
 Executor::~Executor() {
-    interrupt();
+    pace_->interrupt();
     if (thread_.joinable()) thread_.join();
 }
 
 void Executor::start() {
-    if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
+    if (thread_.joinable()) return;
+    std::packaged_task<void()> task([this] { run(); });
+    end_ = task.get_future();
+    thread_ = std::thread(std::move(task));
 }
 
-void Executor::interrupt() {
-    stopping_ = true;
-    if (tick_) tick_->interrupt();
+bool Executor::ends_within(std::chrono::nanoseconds grace) {
+    pace_->interrupt();
+    return !end_.valid() || end_.wait_for(grace) == std::future_status::ready;
 }
 
 bool Executor::runs(const ComponentHost& component) const {
     return std::find(components_.begin(), components_.end(), &component) != components_.end();
 }
 
+std::string Executor::stats() const {
+    std::string names;
+    for (const ComponentHost* component : components_)
+        names += (names.empty() ? "" : ", ") + component->name();
+    return "executor of " + names + ": " + pace_->stats();
+}
+
 void Executor::run() {
+    const ComponentProfile& profile = components_.front()->profile();
+    rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
     // A loop without pauses at a real-time priority would take a processor from everybody else.
-    const int priority = tick_ ? components_.front()->profile().priority : 0;
-    for (const std::string& notice :
-         rt::set_up_this_thread({components_.front()->name(), priority, options_.cpu}))
-        spdlog::info("{}", notice);
-    while (!stopping_) {
-        if (tick_) {
-            tick_->wait();
-            if (tick_->interrupted()) return;
-        } else if (!components_.front()->active()) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
-        run_cycle(components_);
+    if (profile.scheduling != Scheduling::other && profile.execution != Execution::aperiodic_loop) {
+        options.fifo_priority = profile.priority;
+        options.round_robin = profile.scheduling == Scheduling::round_robin;
     }
+    for (const std::string& notice : rt::set_up_this_thread(options)) spdlog::info("{}", notice);
+    while (pace_->wait()) run_cycle(components_);
 }
 
 std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,
                                                       const ExecutorOptions& options) {
     std::vector<std::vector<ComponentHost*>> groups;
-    std::map<std::tuple<std::int64_t, std::int64_t, int>, std::size_t> shared;
+    std::map<std::tuple<std::int64_t, std::int64_t, Scheduling, int>, std::size_t> shared;
     for (ComponentHost* component : components) {
         const ComponentProfile& profile = component->profile();
         if (component->failed() || profile.execution == Execution::passive) continue;
         if (profile.execution == Execution::periodic_shared) {
             const auto [entry, added] = shared.try_emplace(
-                {profile.period.count(), profile.phase.count(), profile.priority}, groups.size());
+                {profile.period.count(), profile.phase.count(), profile.scheduling, profile.priority},
+                groups.size());
             if (!added) {
                 groups[entry->second].push_back(component);
                 continue;

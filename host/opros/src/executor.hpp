@@ -2,8 +2,9 @@
 #pragma once
 
 #include "host/opros/src/component_host.hpp"
-#include "host/rt/periodic_tick.hpp"
+#include "host/opros/src/pace.hpp"
 
+#include <future>
 #include <memory>
 #include <string>
 #include <thread>
@@ -20,23 +21,27 @@ struct ExecutorOptions {
     std::chrono::nanoseconds spin{0};
 };
 
-/// A thread that gives cycles to one or more components, on a timer or, aperiodic, one after the other.
+/// A thread that gives cycles to one or more components at the pace that their profile asks for.
 class Executor {
   public:
     Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options);
+    /// Waits for the cycle under way, however long it takes: ends_within() first.
     ~Executor();
     void start();
-    /// Asks for the end; the destructor waits for it.
-    void interrupt();
+    /// Asks for the end and waits for it; false when a component is still in its cycle by then.
+    bool ends_within(std::chrono::nanoseconds grace);
     bool runs(const ComponentHost& component) const;
+    const std::vector<ComponentHost*>& components() const { return components_; }
+    /// One line of what has been counted.
+    std::string stats() const;
 
   private:
     void run();
 
     std::vector<ComponentHost*> components_;
     ExecutorOptions options_;
-    std::unique_ptr<rt::PeriodicTick> tick_; // none: aperiodic
-    std::atomic<bool> stopping_{false};
+    std::unique_ptr<Pace> pace_;
+    std::future<void> end_;
     std::thread thread_;
 };
 

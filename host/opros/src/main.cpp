@@ -10,8 +10,11 @@
 #include <csignal>
 #include <cstring>
 #include <iostream>
+#include <memory>
+#include <semaphore>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <thread>
 
 namespace {
 
@@ -22,7 +25,8 @@ struct Options {
     ApplicationOptions host;
     tandem::rt::Switches switches;
     tandem::plugin::ProbeSwitches probe;
-    bool keep_going = false;
+    double grace_s = 10;
+    bool stats = false;
 };
 
 void declare(CLI::App& cli, Options& options) {
@@ -33,8 +37,12 @@ void declare(CLI::App& cli, Options& options) {
                    "Step components through this socket, no executors");
     cli.add_option("--workers", options.host.workers, "Threads for events and non-blocking calls")
         ->check(CLI::Range(1, 64));
-    cli.add_flag("--keep-going", options.keep_going,
-                 "Run without components that fail to initialize or start");
+    cli.add_flag("--strict", options.host.strict,
+                 "Do not run without a component that fails to load, initialize or start, or a connection");
+    cli.add_option("--grace", options.grace_s,
+                   "Seconds that the end waits for a component that does not come back")
+        ->check(CLI::Range(0.01, 3600.));
+    cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
     tandem::plugin::declare(cli, options.probe);
     tandem::rt::declare(cli, options.switches);
 }
@@ -46,18 +54,53 @@ sigset_t ending_signals() {
     return signals;
 }
 
+[[noreturn]] void leave(int code) {
+    std::cout.flush();
+    std::cerr.flush();
+    std::_Exit(code); // no clean-up under the feet of threads that have not come back
+}
+
+/// Waits for one of the signals in a thread of its own, so that the set-up, too, can be ended.
+class Ending {
+  public:
+    Ending(const sigset_t& signals, std::chrono::nanoseconds grace) : state_(std::make_shared<State>()) {
+        std::thread([state = state_, signals, grace] {
+            int number = 0;
+            sigwait(&signals, &number);
+            spdlog::info("stopping on {}", strsignal(number));
+            state->signalled.release();
+            if (state->ready.try_acquire_for(grace)) return;
+            spdlog::error("a component does not come back from onInitialize or onStart; the host ends");
+            leave(1);
+        }).detach();
+    }
+    /// The set-up is over: waits for the signal.
+    void wait() {
+        state_->ready.release();
+        state_->signalled.acquire();
+    }
+
+  private:
+    struct State {
+        std::binary_semaphore signalled{0}, ready{0};
+    };
+    std::shared_ptr<State> state_;
+};
+
 int run(const Options& options) {
     const sigset_t signals = ending_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
     for (const auto& notice : tandem::rt::apply(options.switches)) spdlog::warn("{}", notice);
+    Ending ending(signals, options.host.grace);
     tandem::engine::Application application(options.application, options.host);
     application.start();
     std::cout << "ready" << std::endl;
-    int signal = 0;
-    sigwait(&signals, &signal);
-    spdlog::info("stopping on {}", strsignal(signal));
+    ending.wait();
     pthread_sigmask(SIG_UNBLOCK, &signals, nullptr); // a second one ends a component that will not stop
-    application.stop();
+    application.end();
+    if (options.stats)
+        for (const std::string& line : application.stats()) std::cout << line << "\n";
+    if (!application.stuck().empty()) leave(1);
     return 0;
 }
 
@@ -72,7 +115,7 @@ int main(int argc, char** argv) {
     declare(cli, options);
     CLI11_PARSE(cli, argc, argv);
     options.host.probe = options.probe.probe();
-    options.host.strict = !options.keep_going;
+    options.host.grace = std::chrono::nanoseconds(static_cast<std::int64_t>(options.grace_s * 1e9));
     options.host.executors.cpu = options.switches.cpu;
     options.host.executors.spin = options.switches.tick_spin();
     try {

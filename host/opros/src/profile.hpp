@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,28 +24,63 @@ struct Place {
 /// The application cannot be set up. what() is one line that begins with the place.
 class SetupError : public std::runtime_error {
   public:
-    explicit SetupError(const std::string& what) : std::runtime_error(what) {}
-    SetupError(const Place& place, const std::string& what)
-        : std::runtime_error(place.text() + ": " + what) {}
+    explicit SetupError(const std::string& what);
+    SetupError(const Place& place, const std::string& what) : SetupError(place.text() + ": " + what) {}
 };
 
 using Properties = std::vector<std::pair<std::string, std::string>>;
 
-enum class Execution { periodic, periodic_shared, aperiodic, passive };
+/// aperiodic: when an input arrives; aperiodic_loop: again and again.
+enum class Execution { periodic, periodic_shared, aperiodic, aperiodic_loop, passive };
+enum class Scheduling { other, fifo, round_robin };
+
+constexpr unsigned int max_queue_size = 1000000;
+
+/// The queue that a profile asks for.
+struct QueueProfile {
+    DataPortPolicy policy = OPROS_FIFO;
+    unsigned int size = DEFAULT_QUEUE_LIMIT;
+};
+
+struct DataPortProfile {
+    Place place;
+    std::string name, data_type;
+    bool input = false;
+    std::optional<QueueProfile> queue; ///< of an input port, if the profile says something about it
+};
+
+struct EventPortProfile {
+    Place place;
+    std::string name, data_type;
+    bool input = false;
+};
+
+struct ServicePortProfile {
+    Place place;
+    std::string name, type, reference; ///< reference: file of the service type's profile
+    bool provided = false;
+};
 
 struct ComponentProfile {
     Place place, library_place;
     std::string name, library_name;
     Execution execution = Execution::passive;
     std::chrono::nanoseconds period{0}, phase{0};
-    int priority = 0; ///< 1..99: real-time priority if permitted
+    int priority = 0; ///< 0..99, for the real-time schedulings
+    Scheduling scheduling = Scheduling::other;
     Properties properties;
+    // Ports as the profile lists them: those that the component has are of its code's making.
+    std::vector<DataPortProfile> data_ports;
+    std::vector<EventPortProfile> event_ports;
+    std::vector<ServicePortProfile> service_ports;
+    std::vector<std::string> data_types, service_types; ///< files of their profiles
 };
 
 struct Subcomponent {
     Place place;
     std::string name, reference;
-    Properties properties; ///< override those of the component profile
+    Properties properties;      ///< override those of the component profile
+    std::filesystem::path file; ///< its profile, once found
 };
 
 struct PortReference {
@@ -56,6 +92,7 @@ struct Connection {
     Place place;
     PortType type = OPROS_DATA;
     PortReference source, target;
+    std::string error; ///< why it cannot be made, as far as the profiles tell; empty if it can
 };
 
 /// The source's cycles need a cycle of the target before them.
@@ -64,18 +101,37 @@ struct Dependency {
     std::string source, target;
 };
 
+/// A port of a composite that is one of its components' in truth.
+struct ExportedPort {
+    Place place;
+    std::string name;
+    PortType type = OPROS_DATA;
+    PortReference port;
+};
+
+/// An application, or a composite: components that are one component to those who use it.
 struct ApplicationProfile {
     Place place;
     std::string name;
     std::vector<Subcomponent> subcomponents;
     std::vector<Connection> connections;
     std::vector<Dependency> dependencies;
+    std::vector<ExportedPort> exports; ///< composites only
 };
 
-/// Both throw SetupError: no such file, not well-formed, not a profile of this kind, or something missing or
+class XmlFile;
+
+enum class ProfileKind { component, composite, application, service_type, data_type };
+
+/// All throw SetupError: no such file, not well-formed, not a profile of this kind, or something missing or
 /// wrong.
+ProfileKind profile_kind(const std::filesystem::path& file);
 ComponentProfile read_component_profile(const std::filesystem::path& file);
 ApplicationProfile read_application_profile(const std::filesystem::path& file);
+ApplicationProfile read_composite_profile(const std::filesystem::path& file);
+ComponentProfile read_component_profile(const XmlFile& xml);
+ApplicationProfile read_application_profile(const XmlFile& xml);
+ApplicationProfile read_composite_profile(const XmlFile& xml);
 
 /// Where an application's component profile lies: in a folder named after the component or after the
 /// application, beside the application profile, or in one of the plugin folders. Throws SetupError that lists

@@ -6,31 +6,46 @@
 #include <initializer_list>
 #include <pugixml.hpp>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace tandem::engine {
 
-/// An XML file with its line numbers. Every complaint is a SetupError with the place.
+/// No profile is larger: those of real components have 1 to 10 KB.
+constexpr std::size_t max_profile_bytes = 1 << 20;
+
+/// An XML file with its line numbers, in any encoding that it declares. Every complaint is a SetupError with
+/// the place.
 class XmlFile {
   public:
     explicit XmlFile(const std::filesystem::path& file);
+    /// The bytes of a file, as they lie in it.
+    XmlFile(const std::filesystem::path& file, std::string_view bytes);
 
     /// The root element, which must have one of these names.
     pugi::xml_node root(std::initializer_list<const char*> names) const;
+    pugi::xml_node root() const { return document_.document_element(); }
     Place place(const pugi::xml_node& node) const;
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const;
 
+    static std::string trimmed(std::string_view text);
     /// Text of the child element, trimmed; empty when there is none.
     static std::string text(const pugi::xml_node& node, const char* child);
     std::string required_text(const pugi::xml_node& node, const char* child) const;
     std::string required_attribute(const pugi::xml_node& node, const char* name) const;
-    /// The child's number, or the default when it is absent or empty.
-    double number(const pugi::xml_node& node, const char* child, double otherwise) const;
+    /// The element's number, or the default when it is absent or empty. Finite.
+    double number(const pugi::xml_node& element, double otherwise) const;
+    double number(const pugi::xml_node& node, const char* child, double otherwise) const {
+        return number(node.child(child), otherwise);
+    }
 
   private:
     int line_at(std::ptrdiff_t offset) const;
+    void refuse_entities() const;
 
     std::filesystem::path file_;
-    std::string bytes_;
+    std::string text_;
+    std::vector<std::size_t> line_ends_;
     pugi::xml_document document_;
 };
 

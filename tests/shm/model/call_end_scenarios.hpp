@@ -21,9 +21,7 @@ inline std::vector<Case> call_end_cases() {
                              world.worker.interrupt();
                          });
                          execution.thread("worker", [&] { world.serve(2); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered, End::timeout, End::overload});
-                         world.check(ends);
+                         world.run(ends, {End::answered, End::timeout, End::overload});
                      },
                      Settings{.lapses = 1}});
 
@@ -36,13 +34,8 @@ inline std::vector<Case> call_end_cases() {
                          const CallTicket copy = ticket;
                          execution.thread("caller", [&] { ends[1] = world.wait(1, ticket); });
                          execution.thread("canceller", [&] { world.caller.cancel(copy); });
-                         execution.thread("worker", [&] {
-                             bool watches = false;
-                             if (const auto taken = world.worker.take(watches)) world.answer(*taken);
-                         });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered, End::cancelled});
-                         world.check(ends);
+                         execution.thread("worker", [&] { world.look(1); });
+                         world.run(ends, {End::answered, End::cancelled});
                      },
                      Settings{}, true});
 
@@ -53,11 +46,10 @@ inline std::vector<Case> call_end_cases() {
                          execution.thread("caller", [&] { ends[1] = world.call(1, CallWorld::far(1)); });
                          execution.thread("closer", [&] {
                              world.worker.close();
-                             bool watches = false;
-                             if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                             world.look(1);
                          });
                          execution.run();
-                         expect_ends(execution, ends, {End::answered, End::closed});
+                         world.expect(ends, {End::answered, End::closed});
                      },
                      Settings{}, true});
 
@@ -69,11 +61,9 @@ inline std::vector<Case> call_end_cases() {
                          execution.thread(
                              "caller 2", [&] { world.call(2, CallWorld::far(2)); }, 1, true);
                          execution.thread("worker", [&] {
-                             bool watches = false;
-                             for (int i = 0; i < 2; ++i)
-                                 if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                             world.look(2);
                              if (!execution.lives(1)) world.worker.drop_submitted();
-                             if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                             world.look(1);
                          });
                          execution.run();
                      },
@@ -89,7 +79,7 @@ inline std::vector<Case> call_end_cases() {
                              ends[2] = world.call(2, CallWorld::far(2), 0, 1);
                          });
                          execution.run();
-                         expect_ends(execution, ends, {End::answered, End::peer_died});
+                         world.expect(ends, {End::answered, End::peer_died});
                          world.check(ends, true);
                      }});
 
@@ -102,14 +92,8 @@ inline std::vector<Case> call_end_cases() {
                              ends[2] = world.call(2, second);
                          });
                          for (const char* name : {"worker 1", "worker 2"})
-                             execution.thread(name, [&] {
-                                 bool watches = false;
-                                 for (int i = 0; i < 3; ++i)
-                                     if (const auto taken = world.worker.take(watches)) world.answer(*taken);
-                             });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered, End::timeout, End::overload});
-                         world.check(ends);
+                             execution.thread(name, [&] { world.look(3); });
+                         world.run(ends, {End::answered, End::timeout, End::overload});
                      },
                      Settings{.lapses = 1}});
 
@@ -120,11 +104,7 @@ inline std::vector<Case> call_end_cases() {
                          CallTicket left;
                          world.begin(1, CallWorld::far(1), 0, false, left);
                          world.begin(2, CallWorld::far(2), 1, false, left);
-                         execution.thread("worker", [&] {
-                             bool watches = false;
-                             for (int i = 0; i < 3; ++i)
-                                 if (const auto taken = world.worker.take(watches)) world.answer(*taken);
-                         });
+                         execution.thread("worker", [&] { world.look(3); });
                          execution.thread("successor", [&] {
                              CallCaller<CallWorld::A> successor(world.view());
                              for (std::uint32_t id = 3; id < 5; ++id) {
@@ -152,9 +132,9 @@ inline std::vector<Case> call_end_cases() {
                          execution.thread("canceller", [&] { world.caller.cancel(copy); });
                          execution.thread("worker", [&] { world.serve(2); });
                          execution.run();
-                         expect_ends(execution, {{1, ends[1]}}, {End::answered, End::cancelled});
+                         world.expect({{1, ends[1]}}, {End::answered, End::cancelled});
                          // A slot that was given up while its call ran is not free until the worker is done.
-                         expect_ends(execution, {{2, ends[2]}}, {End::answered, End::overload});
+                         world.expect({{2, ends[2]}}, {End::answered, End::overload});
                          world.check(ends);
                      },
                      Settings{}, true});
@@ -175,9 +155,7 @@ inline std::vector<Case> call_end_cases() {
                              world.worker.interrupt();
                          });
                          execution.thread("worker 2", [&] { world.serve(1); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered, End::overload});
-                         world.check(ends);
+                         world.run(ends, {End::answered, End::overload});
                      },
                      Settings{}, true});
 
@@ -188,19 +166,15 @@ inline std::vector<Case> call_end_cases() {
                          CallTicket ticket;
                          world.begin(1, CallWorld::far(1), 0, false, ticket);
                          for (const char* name : {"worker 1", "worker 2"})
-                             execution.thread(name, [&] {
-                                 bool watches = false;
-                                 if (const auto taken = world.worker.take(watches)) world.answer(*taken);
-                             });
+                             execution.thread(name, [&] { world.look(1); });
                          execution.thread("caller", [&] {
                              if (!world.caller.withdraw(ticket)) world.caller.done(ticket);
                              ends[2] = world.begin(2, CallWorld::far(2), 0, false, ticket);
                          });
                          execution.run();
-                         bool watches = false;
-                         if (const auto taken = world.worker.take(watches)) world.answer(*taken);
+                         world.look(1);
                          if (ends[2] == End::answered) ends[2] = world.wait(2, ticket, 0, true);
-                         expect_ends(execution, ends, {End::answered, End::overload});
+                         world.expect(ends, {End::answered, End::overload});
                          world.check(ends);
                      },
                      Settings{}, true});

@@ -16,9 +16,7 @@ inline std::vector<Case> call_wait_cases() {
                          CallWorld::Ends ends;
                          execution.thread("caller", [&] { ends[1] = world.call(1, CallWorld::far(1)); });
                          execution.thread("worker", [&] { world.serve(1); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      },
                      Settings{}, true});
 
@@ -30,9 +28,7 @@ inline std::vector<Case> call_wait_cases() {
                              ends[2] = world.call(2, CallWorld::far(2));
                          });
                          execution.thread("worker", [&] { world.serve(2); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      }});
 
     cases.push_back({"two callers and one worker", [](Execution& execution) {
@@ -41,9 +37,7 @@ inline std::vector<Case> call_wait_cases() {
                          execution.thread("caller 1", [&] { ends[1] = world.call(1, CallWorld::far(1)); });
                          execution.thread("caller 2", [&] { ends[2] = world.call(2, CallWorld::far(2)); });
                          execution.thread("worker", [&] { world.serve(2); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      }});
 
     cases.push_back({"one caller and two workers of which one is interrupted", [](Execution& execution) {
@@ -55,9 +49,7 @@ inline std::vector<Case> call_wait_cases() {
                          });
                          execution.thread("worker 1", [&] { world.serve(2); });
                          execution.thread("worker 2", [&] { world.serve(2); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      }});
 
     cases.push_back({"two workers of which one polls",
@@ -70,9 +62,7 @@ inline std::vector<Case> call_wait_cases() {
                          });
                          execution.thread("worker 1", [&] { world.serve(2, true); });
                          execution.thread("worker 2", [&] { world.serve(2, true); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      },
                      Settings{.lapses = 1}});
 
@@ -88,9 +78,7 @@ inline std::vector<Case> call_wait_cases() {
                              }
                          });
                          execution.thread("worker", [&] { world.serve(2); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      },
                      Settings{}, true});
 
@@ -106,9 +94,7 @@ inline std::vector<Case> call_wait_cases() {
                              });
                          execution.thread("worker 1", [&] { world.serve(9, true); });
                          execution.thread("worker 2", [&] { world.serve(9, true); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      },
                      Settings{.lapses = 1}});
 
@@ -126,9 +112,7 @@ inline std::vector<Case> call_wait_cases() {
                              });
                          execution.thread("worker 1", [&] { world.serve(9, true); });
                          execution.thread("worker 2", [&] { world.serve(9, true); });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      },
                      Settings{.lapses = 1}});
 
@@ -151,9 +135,7 @@ inline std::vector<Case> call_wait_cases() {
                              A::futex_wake(finished, 1);
                              world.worker.interrupt();
                          });
-                         execution.run();
-                         expect_ends(execution, ends, {End::answered});
-                         world.check(ends);
+                         world.run(ends, {End::answered});
                      },
                      Settings{.lapses = 1}});
 
@@ -181,11 +163,43 @@ inline std::vector<Case> call_wait_cases() {
                                      A::futex_wake(finished, 1);
                                      if (before == 1) world.worker.interrupt();
                                  });
-                             execution.run();
-                             expect_ends(execution, ends, {End::answered});
-                             world.check(ends);
+                             world.run(ends, {End::answered});
                          },
                          Settings{.lapses = 1}});
+
+    // Who lies down while the poller leaves and nobody sleeps yet is told neither by the poller nor, later,
+    // by a caller who still believes in the poller.
+    for (const bool before : {true, false})
+        cases.push_back({before ? "the worker that has been watching leaves while its colleague lies down"
+                                : "the worker that watches leaves while its colleague lies down",
+                         [before](Execution& execution) {
+                             CallWorld world(execution);
+                             CallWorld::Ends ends;
+                             CallTicket first, second;
+                             world.begin(1, CallWorld::far(1), 0, false, first);
+                             bool watches = before && world.worker.watch();
+                             std::optional<TakenCall> held;
+                             execution.thread("worker 1", [&] {
+                                 watches = watches || world.worker.watch();
+                                 held = world.worker.take(watches);
+                                 if (watches) world.worker.stop_watching();
+                                 if (held && held->operation == 1) return; // for long
+                                 if (held) world.answer(*held);
+                                 held.reset();
+                                 world.serve(9);
+                             });
+                             execution.thread("worker 2", [&] { world.serve(9); });
+                             execution.thread("caller", [&] {
+                                 world.begin(2, CallWorld::far(2), 1, false, second);
+                                 ends[2] = world.wait(2, second, 0, true);
+                                 world.worker.interrupt();
+                             });
+                             execution.run();
+                             if (held) world.answer(*held);
+                             ends[1] = world.wait(1, first);
+                             world.expect(ends, {End::answered});
+                             world.check(ends);
+                         }});
 
     return cases;
 }

@@ -90,6 +90,13 @@ class CallWorld {
         }
     }
 
+    /// As a worker that never waits: looks for a call so many times, and answers it.
+    void look(int times) {
+        bool watches = false;
+        for (int i = 0; i < times; ++i)
+            if (const auto taken = worker.take(watches)) answer(*taken);
+    }
+
     void answer(const TakenCall& taken) {
         Message message{};
         execution_.require(taken.sound && taken.bytes() == sizeof message, "a taken call has its length");
@@ -103,6 +110,20 @@ class CallWorld {
         execution_.require(++runs[taken.operation] == 1, "no call runs twice");
         message = {message.id + 1000, ~(message.id + 1000)};
         worker.answer(taken, 0, &message, sizeof message);
+    }
+
+    /// The frame of most scenarios: runs the threads; then every call has ended in one of the ways allowed,
+    /// and the queue is sound.
+    void run(const Ends& ends, std::initializer_list<End> allowed) {
+        execution_.run();
+        expect(ends, allowed);
+        check(ends);
+    }
+    void expect(const Ends& ends, std::initializer_list<End> allowed) {
+        for (const auto& [id, end] : ends)
+            execution_.require(std::find(allowed.begin(), allowed.end(), end) != allowed.end(),
+                               "call " + std::to_string(id) + " ends as it may, not as " +
+                                   std::to_string(static_cast<int>(end)));
     }
 
     /// In the end: every call that was answered has run, and every slot can be had again.
@@ -154,14 +175,5 @@ class CallWorld {
     CallWorker<A> worker;
     std::map<std::uint32_t, int> runs;
 };
-
-/// Every call has ended in one of the ways that are allowed.
-inline void expect_ends(Execution& execution, const CallWorld::Ends& ends,
-                        std::initializer_list<CallWorld::End> allowed) {
-    for (const auto& [id, end] : ends)
-        execution.require(std::find(allowed.begin(), allowed.end(), end) != allowed.end(),
-                          "call " + std::to_string(id) + " ends as it may, not as " +
-                              std::to_string(static_cast<int>(end)));
-}
 
 } // namespace tandem::shm::model

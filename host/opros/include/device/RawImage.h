@@ -70,6 +70,7 @@ inline void load_this(opros::archive::iarchive& ar, RawImageData& image) {
     char* pixels = reinterpret_cast<char*>(image.getData());
     long count = static_cast<long>(size);
     ar.load(&pixels, count);
+    if (size == 0) delete[] pixels; // given no room, the archive has made its own
 }
 
 class RawImage {

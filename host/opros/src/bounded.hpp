@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <functional>
+
+namespace tandem::engine {
+
+/// Does the work in a thread of its own and waits for its end; false when it has not come in time. The thread
+/// then goes on alone: what it uses must stay.
+bool finishes_within(std::chrono::nanoseconds grace, std::function<void()> work);
+
+} // namespace tandem::engine

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/port_profile.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace tandem::engine {
+namespace {
+
+/// The policy stands in an element of one of these names.
+constexpr const char* policy_names[] = {"queueing_policy", "queuing_policy", "policy"};
+
+pugi::xml_node policy_node(const pugi::xml_node& port) {
+    for (const char* name : policy_names)
+        if (!XmlFile::text(port, name).empty()) return port.child(name);
+    return {};
+}
+
+DataPortPolicy policy_of(const XmlFile& xml, const pugi::xml_node& node) {
+    std::string text = XmlFile::trimmed(node.child_value());
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    if (text == "FIFO") return OPROS_FIFO;
+    if (text == "LIFO") return OPROS_LIFO;
+    if (text == "UFIFO") return OPROS_UFIFO;
+    if (text == "LAST") return OPROS_LAST;
+    xml.fail(node, std::string("<") + node.name() + "> is '" + XmlFile::trimmed(node.child_value()) +
+                       "', expected FIFO, LIFO, UFIFO or LAST");
+}
+
+/// `<queue_size>10</queue_size>` or, with `<policy>`, `<policy_param name="size">10</policy_param>`.
+pugi::xml_node size_node(const pugi::xml_node& port) {
+    for (const pugi::xml_node& parameter : port.children("policy_param"))
+        if (std::string(parameter.attribute("name").value()) == "size") return parameter;
+    return port.child("queue_size");
+}
+
+std::optional<QueueProfile> queue_of(const XmlFile& xml, const pugi::xml_node& port) {
+    const pugi::xml_node policy = policy_node(port), size = size_node(port);
+    const double wanted = xml.number(size, DEFAULT_QUEUE_LIMIT);
+    if (wanted < 1 || wanted > max_queue_size)
+        xml.fail(size, "a queue has 1 to " + std::to_string(max_queue_size) + " places, got '" +
+                           XmlFile::trimmed(size.child_value()) + "'");
+    if (!policy && !size) return std::nullopt;
+    return QueueProfile{policy ? policy_of(xml, policy) : OPROS_FIFO, static_cast<unsigned int>(wanted)};
+}
+
+bool listed(const pugi::xml_node& port) {
+    const std::string usage = XmlFile::text(port, "usage");
+    return !XmlFile::text(port, "name").empty() && (usage == "input" || usage == "output");
+}
+
+} // namespace
+
+void read_ports(const XmlFile& xml, const pugi::xml_node& ports, ComponentProfile& profile) {
+    for (const pugi::xml_node& port : ports.children("data_port")) {
+        if (!listed(port)) continue;
+        const bool input = XmlFile::text(port, "usage") == "input";
+        profile.data_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
+                                      XmlFile::text(port, "data_type"), input,
+                                      input ? queue_of(xml, port) : std::nullopt});
+    }
+    for (const pugi::xml_node& port : ports.children("event_port"))
+        if (listed(port))
+            profile.event_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
+                                           XmlFile::text(port, "data_type"),
+                                           XmlFile::text(port, "usage") == "input"});
+    for (const pugi::xml_node& port : ports.children("service_port"))
+        if (!XmlFile::text(port, "name").empty())
+            profile.service_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
+                                             XmlFile::text(port, "type"), XmlFile::text(port, "reference"),
+                                             XmlFile::text(port, "usage") == "provided"});
+}
+
+} // namespace tandem::engine
