@@ -5,6 +5,7 @@
 #include "proxy/interceptor/generic_servant.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/match.hpp"
+#include "tests/interceptor/orb.hpp"
 
 #include "Chair.hh"
 
@@ -17,6 +18,7 @@ using namespace tandem;
 using interceptor::CallTarget;
 using interceptor::generic_call;
 using interceptor::GenericServant;
+using interceptor::Orb;
 using Status = interceptor::GenericResult::Status;
 
 namespace {
@@ -66,21 +68,6 @@ class Forward : public CallTarget {
   private:
     CORBA::Object_var object_;
     std::map<std::string, Operation> operations_;
-};
-
-struct Orb {
-    CORBA::ORB_var orb;
-    PortableServer::POA_var poa;
-    Orb() {
-        const char* options[][2] = {{"endPoint", "giop:tcp:127.0.0.1:"}, {nullptr, nullptr}};
-        int argc = 0;
-        orb = CORBA::ORB_init(argc, nullptr, "omniORB4", options);
-        CORBA::Object_var root = orb->resolve_initial_references("RootPOA");
-        poa = PortableServer::POA::_narrow(root);
-        PortableServer::POAManager_var manager = poa->the_POAManager();
-        manager->activate();
-    }
-    ~Orb() { orb->destroy(); }
 };
 
 /// A servant while it is reachable.

@@ -2,6 +2,7 @@
 // CORBA streams over a message whose time lies apart, against the ORB's own.
 #include "proxy/interceptor/stamped_stream.hpp"
 #include "proxy/wire/time.hpp"
+#include "tests/interceptor/orb.hpp"
 
 #include "Chair.hh"
 
@@ -70,6 +71,7 @@ constexpr std::size_t head = 8;
 } // namespace
 
 TEST_CASE("what is written is what the ORB writes, with the time apart or not") {
+    const interceptor::Orb orb;
     const auto message = example();
     const auto wanted = bytes_by_orb(message);
     const bool timed = GENERATE(true, false);
@@ -83,6 +85,7 @@ TEST_CASE("what is written is what the ORB writes, with the time apart or not") 
 }
 
 TEST_CASE("what was written is read again, with the time apart or not") {
+    const interceptor::Orb orb;
     const auto bytes = bytes_by_orb(example());
     const bool timed = GENERATE(true, false);
     const std::span<const std::byte> all(bytes);
@@ -93,6 +96,7 @@ TEST_CASE("what was written is read again, with the time apart or not") {
 }
 
 TEST_CASE("a message that ends early throws, wherever it ends, and nothing behind it is touched") {
+    const interceptor::Orb orb;
     const auto whole = bytes_by_orb(example());
     for (std::size_t length = 0; length < whole.size() - head; ++length) {
         // Of exactly that size, so that a sanitizer sees one byte too many.
@@ -108,6 +112,7 @@ TEST_CASE("a message that ends early throws, wherever it ends, and nothing behin
 }
 
 TEST_CASE("a count that the message cannot hold is refused before anything is allocated") {
+    const interceptor::Orb orb;
     for (const std::uint32_t count : {0x7fffffffU, 0xffffffffU, 17U}) {
         std::vector<std::byte> body(16 + 8 * 16);
         std::memcpy(body.data() + 8, &count, sizeof count); // octet, padding, no seats, count of doubles
