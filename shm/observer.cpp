@@ -26,6 +26,12 @@ bool ours(const struct stat& file) {
     return file.st_uid == geteuid() || ((file.st_mode & 07777) == 0660 && member_of(file.st_gid));
 }
 
+void measure(const struct stat& file, ObservedSegment& view) {
+    constexpr std::uint64_t block = 512; // unit of st_blocks
+    view.file_bytes = static_cast<std::uint64_t>(file.st_size);
+    view.memory_bytes = static_cast<std::uint64_t>(file.st_blocks) * block;
+}
+
 /// What the directory says of the file, without opening it. Empty: it is gone.
 std::optional<ObservedSegment> view_file(const std::string& link, std::uint64_t generation) {
     ObservedSegment view;
@@ -34,7 +40,7 @@ std::optional<ObservedSegment> view_file(const std::string& link, std::uint64_t 
     view.path = segment_path(link, generation);
     struct stat file {};
     if (lstat(view.path.c_str(), &file) != 0) return std::nullopt;
-    view.file_bytes = static_cast<std::uint64_t>(file.st_size);
+    measure(file, view);
     view.owner = file.st_uid;
     view.mode = file.st_mode & 07777;
     view.readability = S_ISREG(file.st_mode) && ours(file) ? Readability::readable
@@ -117,7 +123,7 @@ bool view_content(const QuietFile& file, ObservedSegment& view, std::chrono::nan
     struct stat opened {};
     if (fstat(file.fd(), &opened) != 0 || !S_ISREG(opened.st_mode) || !ours(opened))
         return false; // just replaced
-    view.file_bytes = static_cast<std::uint64_t>(opened.st_size);
+    measure(opened, view);
     view_header(file, view);
     for (const Side which : {Side::first, Side::second}) view_side(file, view, which, late_after);
     view.changing_hands = held_by_other(file.fd(), LockByte::hand_over);

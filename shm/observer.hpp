@@ -34,7 +34,8 @@ struct ObservedSegment {
     Readability readability = Readability::damaged;
     std::string reason; ///< why it is not readable
 
-    std::uint64_t file_bytes = 0; // of the file
+    std::uint64_t file_bytes = 0;   // of the file
+    std::uint64_t memory_bytes = 0; // that it takes: less than that if it is sparse
     uid_t owner = 0;
     mode_t mode = 0;
     bool changing_hands = false; ///< somebody joins, leaves or removes it at this moment

@@ -11,8 +11,9 @@ namespace {
 using shm::Side;
 
 std::string segment_text(const shm::ObservedSegment& segment) {
-    std::string text = fmt::format("{}: {}, owner {}, mode {:04o}", segment.path,
-                                   bytes_text(segment.file_bytes), user_text(segment.owner), segment.mode);
+    std::string text = fmt::format("{}: {} of memory (file {}), owner {}, mode {:04o}", segment.path,
+                                   bytes_text(segment.memory_bytes), bytes_text(segment.file_bytes),
+                                   user_text(segment.owner), segment.mode);
     if (segment.readability != shm::Readability::readable) return text + "\n";
     text += fmt::format(", layout {}, contract {:#x}, {} old", segment.layout_version, segment.contract,
                         age_text(segment.created_ns));

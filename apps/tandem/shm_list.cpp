@@ -26,10 +26,10 @@ int shm_list(bool json) {
         print_json({{"segments", list}});
         return 0;
     }
-    Table table({"link", ">gen", ">size", "owner", "first", "second", ">age", "note"});
+    Table table({"link", ">gen", ">memory", "owner", "first", "second", ">age", "note"});
     for (const auto& segment : segments)
         table.add({printable(segment.link), std::to_string(segment.generation),
-                   bytes_text(segment.file_bytes), user_text(segment.owner),
+                   bytes_text(segment.memory_bytes), user_text(segment.owner),
                    side_text(segment, shm::Side::first), side_text(segment, shm::Side::second),
                    segment.readability == shm::Readability::readable ? age_text(segment.created_ns) : "-",
                    note_on(segment)});

@@ -88,6 +88,7 @@ nlohmann::json to_json(const shm::ObservedSegment& segment) {
                         {"generation", segment.generation},
                         {"path", segment.path},
                         {"bytes", segment.file_bytes},
+                        {"memory_bytes", segment.memory_bytes},
                         {"owner", user_text(segment.owner)},
                         {"mode", fmt::format("{:04o}", segment.mode)},
                         {"state", word_of(segment.readability)}};

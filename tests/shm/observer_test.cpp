@@ -211,6 +211,7 @@ TEST_CASE("a segment cut off at any place is seen as damaged") {
         CHECK(seen->segment.readability == Readability::damaged);
         CHECK_FALSE(seen->segment.reason.empty());
         CHECK(seen->segment.file_bytes == bytes);
+        CHECK(seen->segment.memory_bytes == round_up(bytes, layout::page));
         CHECK(seen->rings.empty());
     }
 }

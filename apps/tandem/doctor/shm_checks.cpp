@@ -53,7 +53,8 @@ Finding check_shm_space(const Machine& machine) {
         command::bytes_text(free) + " free of " + command::bytes_text(machine.answers.shm_bytes);
     if (free < one_link)
         return bad(name, seen,
-                   "a link takes 8 MiB or more, reserved when it is joined: tandem shm clean, or " + remedy);
+                   "a link takes 1 MiB or more, and 8 MiB for each image under way: tandem shm clean, or " +
+                       remedy);
     if (free < comfortable) return warn(name, seen, "enough for small messages only; for images " + remedy);
     return ok(name, seen);
 }
