@@ -52,6 +52,21 @@ TEST_CASE("opros_host refuses a bad plugin in one line at the library's name") {
     CHECK_THAT(result.errors, Catch::Contains(bad));
 }
 
+TEST_CASE("opros_host runs the good plugins on without the bad one") {
+    const std::string bad = GENERATE(from_range(bad_ones));
+    const Folder folder;
+    folder.component("Good", OPROS_PLUGIN);
+    folder.component("Bad", ZOO "/opros/" + bad + ".so");
+    const auto result =
+        run(std::string(OPROS_HOST) + " --probe-timeout 1 " +
+            folder.application(Folder::sub("Bad", "Bad.xml") + Folder::sub("Good", "Good.xml")).string());
+    INFO(result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(result.lines() == 2); // the second one: told to stop, once it was ready
+    CHECK_THAT(result.errors,
+               Catch::Contains("Bad.xml:3: ") && Catch::Contains(bad) && Catch::Contains("stopping on"));
+}
+
 TEST_CASE("rtm_host refuses a bad module in one line that names it") {
     const std::string bad = GENERATE(
         from_range(bad_ones), values<std::string>({"rtc_constructor_throws", "rtc_destructor_crashes"}));
