@@ -77,9 +77,9 @@ class alignas(layout::line_pair) RingProducer {
     bool drop_oldest();
     bool drop_until_fits(std::uint64_t need);
     bool chunk_is_free(std::uint32_t index) const;
-    bool find_chunk();
-    bool claim_chunk();
-    bool back_chunk(std::uint64_t bytes);
+    bool back_chunk(std::uint32_t index, std::uint64_t bytes);
+    bool find_chunk(std::uint64_t bytes);
+    bool claim_chunk(std::uint64_t bytes);
     bool refuse();
     bool write_slowly(const void* bytes, std::size_t count, std::uint64_t stamp, std::uint8_t tag);
     void end_at(std::uint64_t end);
@@ -99,6 +99,7 @@ class alignas(layout::line_pair) RingProducer {
     std::uint32_t chunk_ = 0;
     std::vector<std::uint64_t> loans_;  // per chunk: sequence of the record that holds it, 0 = none
     std::vector<std::uint64_t> backed_; // per chunk: bytes that have memory, if the ring gives it bit by bit
+    bool no_memory_ = false;
     bool corrupt_ = false;
 };
 
@@ -192,13 +193,28 @@ bool RingProducer<A>::chunk_is_free(std::uint32_t index) const {
            ring_.chunk_words[index].returned.load(std::memory_order_seq_cst) >= loans_[index];
 }
 
+/// False: there is no memory for it. Then another chunk may have some.
+template <class A>
+bool RingProducer<A>::back_chunk(std::uint32_t index, std::uint64_t bytes) {
+    if (ring_.back == nullptr || bytes <= backed_[index]) return true;
+    constexpr std::uint64_t step = std::uint64_t{1} << 20; // so that growing messages do not ask each time
+    for (const std::uint64_t unit : {step, std::uint64_t{layout::page}}) {
+        const std::uint64_t wanted = std::min(round_up(bytes, unit), ring_.chunk_bytes);
+        if (no_memory_ || !ring_.back(ring_, index, wanted)) continue;
+        backed_[index] = wanted;
+        return true;
+    }
+    no_memory_ = true; // asked once for each message
+    return false;
+}
+
 /// Round robin from the one used last, so that a chunk comes back late and its lines are cold for the
 /// reader's core only when all others are in use.
 template <class A>
-bool RingProducer<A>::find_chunk() {
+bool RingProducer<A>::find_chunk(std::uint64_t bytes) {
     for (std::uint32_t i = 1; i <= ring_.chunk_count; ++i) {
         const std::uint32_t index = (chunk_ + i) % ring_.chunk_count;
-        if (!chunk_is_free(index)) continue;
+        if (!chunk_is_free(index) || !back_chunk(index, bytes)) continue;
         loans_[index] = 0;
         chunk_ = index;
         return true;
@@ -207,26 +223,17 @@ bool RingProducer<A>::find_chunk() {
 }
 
 template <class A>
-bool RingProducer<A>::claim_chunk() {
+bool RingProducer<A>::claim_chunk(std::uint64_t bytes) {
     if (corrupt_ || ring_.chunk_count == 0) return false;
-    if (find_chunk()) return true;
-    if (ring_.policy == RingPolicy::wait) return wait_until_ready([&] { return find_chunk(); });
+    no_memory_ = false;
+    if (find_chunk(bytes)) return true;
+    if (ring_.policy == RingPolicy::wait) return wait_until_ready([&] { return find_chunk(bytes); });
     if (!ring_.lossy()) return false;
     for (std::uint64_t budget = ring_.capacity / layout::line + 1; budget > 0 && tail_ < head_; --budget) {
         if (!drop_oldest()) return false;
-        if (find_chunk()) return true;
+        if (find_chunk(bytes)) return true;
     }
     return false; // the reader holds them all
-}
-
-template <class A>
-bool RingProducer<A>::back_chunk(std::uint64_t bytes) {
-    if (ring_.back == nullptr || bytes <= backed_[chunk_]) return true;
-    constexpr std::uint64_t step = std::uint64_t{1} << 20; // so that growing messages do not ask each time
-    const std::uint64_t wanted = std::min(round_up(bytes, step), ring_.chunk_bytes);
-    if (!ring_.back(ring_, chunk_, wanted)) return false;
-    backed_[chunk_] = wanted;
-    return true;
 }
 
 template <class A>
@@ -245,7 +252,7 @@ typename RingProducer<A>::Place RingProducer<A>::reserve(std::size_t bytes) {
             place_ = ring_.lossy() || bytes <= ring_.longest_burst ? Place::elsewhere : Place::ring;
         if (place_ == Place::ring) ended_at_ = nowhere; // the user may write over it, and abandon
     } else if (bytes <= ring_.chunk_bytes && make_room(need(record_bytes(sizeof(LoanRecord))))) {
-        if (claim_chunk() && back_chunk(bytes)) place_ = Place::chunk;
+        if (claim_chunk(bytes)) place_ = Place::chunk;
     }
     if (place_ == Place::refused) refuse();
     return place_;

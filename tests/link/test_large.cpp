@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of megabytes across a link: by loan, both ways, and what happens to those that do not fit.
 #include "halves.hpp"
+#include "tests/shm/fixture.hpp"
+#include "tests/shm/small_shm.hpp"
 
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
@@ -250,4 +252,65 @@ TEST_CASE("ports whose type sets a bound below the ring's get no chunks") {
     CHECK(plan.rings[2].options.writer == shm::Side::first);
     CHECK(plan.loan_bytes >= 8 * default_large);
     CHECK(plan_rings(table, shm::Side::second, {.large_bytes = 1000}).loan_bytes == 0);
+}
+
+namespace {
+
+/// In a /dev/shm of 12 MiB, where one image of 8 MiB finds memory and a second one does not.
+int images_in_small_shm() {
+    if (!shm::test::enter_small_shm(12)) return shm::test::not_permitted;
+    const Log log;
+    Linked link("narrow");
+    auto& writer = link.b->link.writer("reference");
+    auto& reader = link.a->link.reader("reference");
+    const auto pixels = image(3, default_large - 100);
+    if (!send_image(writer, 3, pixels) || receive_image(reader) != 3) return 1;
+    for (int i = 0; i < 3; ++i) // the reader holds the first one until its next read
+        if (send_image(writer, 3, pixels)) return 2;
+    if (log.lines_with("port 'reference': a message of 8388512 bytes finds no memory in /dev/shm") != 2)
+        return 3;
+    if (!send(writer, 4.5) || receive(reader) != 4.5) return 4;
+    if (!send_image(writer, 3, pixels) || receive_image(reader) != 3) return 5;
+    const auto c = writer.counters();
+    return c.sent == 6 && c.received == 3 && c.refused == 3 ? 0 : 6;
+}
+
+/// In one of 24 MiB, a large_kib of 8 MiB cannot be had: that takes four.
+int asks_for_too_much() {
+    if (!shm::test::enter_small_shm(24)) return shm::test::not_permitted;
+    LinkOptions options = large(8 * mib);
+    options.name = unique_name("much");
+    Half half(shm::Side::second, options, joystick_table());
+    try {
+        half.link.open();
+        return 1;
+    } catch (const shm::Error& error) {
+        const std::string text = error.what();
+        // A page or so of the 24 MiB may be the file system's own.
+        const bool good =
+            text.find("33554432 bytes needed for 4 messages of large_kib = 8192, 251") != std::string::npos &&
+            text.find(" available; enlarge it, free some, or lower large_kib") != std::string::npos;
+        if (!good) fprintf(stderr, "%s\n", text.c_str());
+        return good && segments_of(options.name) == 0 ? 0 : 2;
+    }
+}
+
+} // namespace
+
+TEST_CASE("an image that finds no memory in /dev/shm is dropped and named and others pass") {
+    shm::test::Child child(images_in_small_shm);
+    const int result = child.wait();
+    if (result == shm::test::not_permitted)
+        WARN("skipped: this process may not mount a file system of its own");
+    else
+        CHECK(result == 0);
+}
+
+TEST_CASE("a large_kib that /dev/shm has no room for is an error with both numbers when the link is opened") {
+    shm::test::Child child(asks_for_too_much);
+    const int result = child.wait();
+    if (result == shm::test::not_permitted)
+        WARN("skipped: this process may not mount a file system of its own");
+    else
+        CHECK(result == 0);
 }
