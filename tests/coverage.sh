@@ -18,7 +18,9 @@ cmake --build --preset coverage --target $targets | { grep -v '^ninja: no work' 
 find build/coverage -name '*.gcda' -delete
 say "running $(echo "$targets" | wc -w) test programs"
 for target in $targets; do
-    "build/coverage/tests/$target" >build/coverage/coverage.log 2>&1 ||
+    arguments=() # the mutation tests run the same lines over and over
+    if [ "$target" = test_shm_model ]; then arguments=('~Each weakened order*'); fi
+    "build/coverage/tests/$target" "${arguments[@]}" >build/coverage/coverage.log 2>&1 ||
         { tail -n 30 build/coverage/coverage.log >&2; echo "$target fails in preset coverage; mend that first" >&2; exit 1; }
 done
 

@@ -2,6 +2,7 @@
 #include "fixture.hpp"
 
 #include <fcntl.h>
+#include <grp.h>
 #include <sys/stat.h>
 
 using namespace tandem::shm;
@@ -116,6 +117,35 @@ TEST_CASE("a named group gets mode 0660 and an unknown group is refused") {
     REQUIRE(stat(first->path().c_str(), &file) == 0);
     CHECK((file.st_mode & 07777) == 0660);
     CHECK(join(link, Side::second, options)->generation() == first->generation());
+}
+
+TEST_CASE("a group that this process is not in is refused and nothing is left behind") {
+    Link link;
+    Child outsider([&] {
+        if (geteuid() == 0 && (setgroups(0, nullptr) != 0 || setgid(65534) != 0 || setuid(65534) != 0))
+            return 1;
+        JoinOptions options = small();
+        options.group = "root";
+        try {
+            join(link, Side::first, options);
+        } catch (const Error& refused) {
+            return std::string(refused.what()).find("cannot be given to group 0 (") != std::string::npos ? 42
+                                                                                                         : 2;
+        }
+        return 3;
+    });
+    CHECK(outsider.wait() == 42);
+    CHECK(link.files().empty());
+}
+
+TEST_CASE("more than the address space holds is refused in one line and nothing is left behind") {
+    Link link;
+    JoinOptions options = small();
+    options.sparse = true; // so that it is not the memory which is missing
+    options.loan_bytes = std::size_t{1} << 50;
+    CHECK_THROWS_WITH(join(link, Side::first, options),
+                      Contains(link.name) && Contains("bytes cannot be mapped"));
+    CHECK(link.files().empty());
 }
 
 TEST_CASE("a symbolic link or a directory under a segment name is refused") {

@@ -3,6 +3,8 @@
 
 #include "shm/watcher.hpp"
 
+#include <sys/resource.h>
+
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 
@@ -69,6 +71,21 @@ TEST_CASE("looking for the dead does not wake watchers") {
     first->superseded();
     first->peer();
     CHECK_FALSE(watcher.wait(20ms));
+}
+
+TEST_CASE("a watcher that cannot be had is refused in one line that names the limits") {
+    Child poor([] {
+        const rlimit none{0, 0};
+        setrlimit(RLIMIT_NOFILE, &none);
+        try {
+            Watcher watcher("nobody");
+        } catch (const Error& refused) {
+            const std::string text = refused.what();
+            return text.find("cannot be watched (Too many open files)") != std::string::npos ? 42 : 1;
+        }
+        return 2;
+    });
+    CHECK(poor.wait() == 42);
 }
 
 TEST_CASE("an interrupt ends a watcher's wait even if it came before") {
