@@ -35,15 +35,24 @@ std::optional<std::string> set_priority(const ThreadOptions& options) {
 } // namespace
 
 std::optional<std::string> pin_this_thread(const std::string& who, int cpu) {
-    int error = EINVAL;
-    if (cpu < CPU_SETSIZE) {
-        cpu_set_t set;
-        CPU_ZERO(&set);
-        CPU_SET(static_cast<std::size_t>(cpu), &set);
-        error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+    return pin_this_thread(who, std::vector<int>{cpu});
+}
+
+std::optional<std::string> pin_this_thread(const std::string& who, const std::vector<int>& cpus) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    std::string names;
+    bool possible = !cpus.empty();
+    for (const int cpu : cpus) {
+        names += (names.empty() ? "" : ", ") + std::to_string(cpu);
+        if (cpu < 0 || cpu >= CPU_SETSIZE)
+            possible = false;
+        else
+            CPU_SET(static_cast<std::size_t>(cpu), &set);
     }
+    const int error = possible ? pthread_setaffinity_np(pthread_self(), sizeof set, &set) : EINVAL;
     if (error == 0) return std::nullopt;
-    return who + " is not pinned to processor " + std::to_string(cpu) + ": " + why(error) +
+    return who + " is not pinned to processor " + names + ": " + why(error) +
            "; choose one of `taskset -cp $$`";
 }
 

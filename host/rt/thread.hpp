@@ -20,9 +20,10 @@ struct ThreadOptions {
 /// refusal.
 std::vector<std::string> set_up_this_thread(const ThreadOptions& options);
 
-/// Pins the calling thread, and those that it will start. Returns a notice, which begins with `who`, when
-/// refused.
+/// Pins the calling thread, and those that it will start, to one processor or some. Returns a notice, which
+/// begins with `who`, when refused.
 std::optional<std::string> pin_this_thread(const std::string& who, int cpu);
+std::optional<std::string> pin_this_thread(const std::string& who, const std::vector<int>& cpus);
 
 /// Locks present and future memory of the process (mlockall). Returns a notice when not permitted.
 std::optional<std::string> lock_memory();

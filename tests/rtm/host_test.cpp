@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 using testing::HostProcess;
 
@@ -13,7 +14,10 @@ namespace {
 struct Folder {
     std::filesystem::path path =
         std::filesystem::temp_directory_path() / ("tandem_rtm." + std::to_string(getpid()));
-    Folder() { std::filesystem::create_directories(path); }
+    explicit Folder(const std::string& name = "") {
+        if (!name.empty()) path += "." + name;
+        std::filesystem::create_directories(path);
+    }
     ~Folder() { std::filesystem::remove_all(path); }
     std::string conf(const std::string& text) const {
         std::ofstream(path / "rtc.conf") << "manager.modules.load_path: " TANDEM_TEST_PLUGINS "\n" << text;
@@ -76,7 +80,10 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
                        "manager.components.preactivation: Counter1\n"),
                Contains("there is no component Counter1 (there are: Counter0)"));
     CHECK_THAT(refusal("corba.endpoints: 256.0.0.1:\n"), Contains("256.0.0.1"));
-    CHECK_THAT(refusal("logger.log_level: LOUD\n"), Contains("LOUD"));
+    CHECK_THAT(refusal("logger.log_level: LOUD\n"), Contains("rtc.conf:2: logger.log_level is LOUD"));
+    CHECK_THAT(refusal(std::vector<std::string>{"-o", "exec_cxt.periodic.rate:-1"}),
+               Contains("option -o: exec_cxt.periodic.rate is -1"));
+    CHECK_THAT(refusal(std::vector<std::string>{"-p", "many"}), Contains("option -p") && Contains("many"));
 }
 
 TEST_CASE("A component that throws goes to the error state, its host lives on") {
@@ -101,6 +108,36 @@ TEST_CASE("A component that hangs does not keep its host from leaving") {
     host.send(SIGTERM);
     CHECK(host.wait() == 0);
     CHECK(host.output.find("Teller0 finalized") != std::string::npos);
+}
+
+TEST_CASE("Whichever callback a component does not return from the others end in order and the host leaves") {
+    const std::vector<std::string> callbacks{"initialize",  "startup",  "activated", "execute",
+                                             "update",      "rate",     "aborting",  "error",
+                                             "deactivated", "shutdown", "finalize"};
+    std::vector<std::unique_ptr<Folder>> folders;
+    std::vector<std::unique_ptr<HostProcess>> hosts; // side by side: each takes seconds to give up
+    for (const auto& callback : callbacks) {
+        folders.push_back(std::make_unique<Folder>(callback));
+        hosts.push_back(std::make_unique<HostProcess>(std::vector<std::string>{
+            "-f", folders.back()->conf("manager.modules.preload: TestComponents.so\n"
+                                       "manager.components.precreate: Teller, Sleeper?in=" +
+                                       callback +
+                                       "\n"
+                                       "manager.components.preactivation: Teller0, Sleeper0\n"
+                                       "exec_cxt.periodic.rate: 100\n")}));
+    }
+    for (std::size_t i = 0; i < hosts.size(); ++i) {
+        const bool at_the_end = i >= 8; // these only when the host is told to leave
+        CAPTURE(callbacks[i]);
+        CHECK(hosts[i]->says(at_the_end ? "ready\n" : "asleep\n"));
+        hosts[i]->send(SIGTERM);
+    }
+    for (std::size_t i = 0; i < hosts.size(); ++i) {
+        CAPTURE(callbacks[i], hosts[i]->output, hosts[i]->errors);
+        CHECK(hosts[i]->wait() == 0);
+        CHECK(hosts[i]->output.find("asleep\n") != std::string::npos);
+        CHECK(hosts[i]->output.find("Teller0 finalized") != std::string::npos);
+    }
 }
 
 TEST_CASE("In lock-step components run when they are told to and at no other time") {

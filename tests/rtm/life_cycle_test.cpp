@@ -47,6 +47,60 @@ TEST_CASE("A component that fails or throws goes to the error state, stays there
     CHECK(stage.state(rtc) == RTC::INACTIVE_STATE);
 }
 
+namespace {
+
+// Drives a component through everything there is, and says in which states it was.
+std::string whole_life(Stage& stage, Recorder& rtc) {
+    std::string states;
+    auto note = [&] { states += RTC::ExecutionContextBase::getStateString(stage.state(rtc))[0]; };
+    rtc.activate(0);
+    note();
+    for (int i = 0; i < 3; ++i) stage.step(rtc);
+    note();
+    rtc.setExecutionRate(0, 500);
+    rtc.deactivate(0);
+    stage.step(rtc);
+    note();
+    rtc.reset(0);
+    note();
+    return states;
+}
+
+} // namespace
+
+TEST_CASE("Trouble in any callback leads where RTM says and nowhere else") {
+    struct Row {
+        const char* callback;
+        const char* states; // when activated, after three cycles, when deactivated, when reset
+    };
+    // A second callback follows to get to onAborting, onError and onReset.
+    const Row row =
+        GENERATE(Row{"startup", "AAII"}, Row{"activated", "EEEI"}, Row{"execute", "AEEI"},
+                 Row{"update", "AEEI"}, Row{"deactivated", "AAII"}, Row{"rate", "AAII"},
+                 Row{"execute aborting", "AEEI"}, Row{"execute error", "AEEI"}, Row{"execute reset", "AEEE"});
+    const bool throws = GENERATE(false, true);
+    static Stage stage;
+    CAPTURE(row.callback, throws);
+    Recorder::throws() = throws;
+    Recorder::trouble_in() = row.callback;
+    auto& rtc = stage.create<Recorder>("Recorder");
+    CHECK(whole_life(stage, rtc) == row.states);
+    Recorder::trouble_in() = "";
+}
+
+TEST_CASE("Trouble in onFinalize and onShutdown does not keep a component from leaving") {
+    const std::string callback = GENERATE("shutdown", "finalize");
+    const bool throws = GENERATE(false, true);
+    static Stage stage;
+    auto& rtc = stage.create<Recorder>("Recorder");
+    Recorder::throws() = throws;
+    Recorder::trouble_in() = callback;
+    rtc.exit();
+    stage.manager().cleanupComponents();
+    CHECK(stage.manager().getComponents().empty());
+    Recorder::trouble_in() = "";
+}
+
 TEST_CASE("A component that cannot be activated is in the error state when the call returns") {
     Stage stage;
     auto& rtc = stage.create<Recorder>("Recorder");

@@ -55,6 +55,38 @@ class Hanger : public RTC::DataFlowComponentBase {
     }
 };
 
+/// Never returns from the callback that the parameter `in` names.
+class Sleeper : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    RTC::ReturnCode_t onInitialize() override { return at("initialize"); }
+    RTC::ReturnCode_t onFinalize() override { return at("finalize"); }
+    RTC::ReturnCode_t onStartup(RTC::UniqueId) override { return at("startup"); }
+    RTC::ReturnCode_t onShutdown(RTC::UniqueId) override { return at("shutdown"); }
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return at("activated"); }
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return at("deactivated"); }
+    RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return at("aborting"); }
+    RTC::ReturnCode_t onError(RTC::UniqueId) override { return at("error"); }
+    RTC::ReturnCode_t onReset(RTC::UniqueId) override { return at("reset"); }
+    RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override { return at("update"); }
+    RTC::ReturnCode_t onRateChanged(RTC::UniqueId) override { return at("rate"); }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId id) override {
+        at("execute");
+        if (in() == "rate" && getExecutionRate(id) < 500) setExecutionRate(id, 500);
+        return in() == "aborting" || in() == "error" ? RTC::RTC_ERROR : RTC::RTC_OK;
+    }
+
+  private:
+    std::string in() { return getProperties().getProperty("in"); }
+    RTC::ReturnCode_t at(const std::string& callback) {
+        if (in() != callback) return RTC::RTC_OK;
+        std::puts("asleep");
+        std::fflush(stdout);
+        std::this_thread::sleep_for(std::chrono::hours(1));
+        return RTC::RTC_OK;
+    }
+};
+
 } // namespace
 
 extern "C" void TestComponentsInit(RTC::Manager* manager) {
@@ -62,5 +94,6 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_as<Teller>(*manager, "Teller");
     register_as<Thrower>(*manager, "Thrower");
     register_as<Hanger>(*manager, "Hanger");
+    register_as<Sleeper>(*manager, "Sleeper");
 }
 extern "C" void OnlyTellers(RTC::Manager* manager) { register_as<Teller>(*manager, "Teller"); }

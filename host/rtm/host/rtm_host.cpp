@@ -6,6 +6,8 @@
 #include "host/rtm/src/manager_options.hpp"
 #include "host/rtm/src/probe_module.hpp"
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +15,7 @@
 #include <memory>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <thread>
 
 namespace {
 
@@ -22,7 +25,7 @@ struct Arguments {
     std::string conf_file, port, lockstep;
     std::vector<std::string> settings;
     std::vector<fs::path> plugin_path;
-    bool daemon = false, ignored = false;
+    bool daemon = false, may_be_missing = false, no_servant = false;
     tandem::plugin::ProbeSwitches probe;
     tandem::rt::Switches switches;
 };
@@ -34,7 +37,8 @@ void describe(CLI::App& app, Arguments& a) {
         ->allow_extra_args(false);
     app.add_option("-p", a.port, "TCP port of the CORBA endpoint on the loopback interface");
     app.add_flag("-d", a.daemon, "run as master manager: do not leave without components");
-    app.add_flag("-i", a.ignored, "accepted for OpenRTM-aist's sake");
+    app.add_flag("-i", a.may_be_missing, "go on without the file of -f when there is none");
+    app.add_flag("-a", a.no_servant, "the manager cannot be reached by CORBA");
     app.add_option("--lockstep", a.lockstep,
                    "unix socket: cycles run when a conductor asks there, not on timers");
     app.add_option("--plugin-path", a.plugin_path, "further folder of component libraries (repeatable)")
@@ -68,8 +72,39 @@ coil::vstring manager_arguments(const Arguments& a) {
     for (const auto& setting : a.settings) add("-o", setting);
     if (!a.port.empty()) add("-p", a.port);
     if (a.daemon) args.push_back("-d");
+    if (a.may_be_missing) args.push_back("-i");
+    if (a.no_servant) args.push_back("-a");
     return args;
 }
+
+// While components are created a signal has to wait for them; not for ever, since one may hang.
+class SignalWatch {
+  public:
+    explicit SignalWatch(RTC::Manager& manager) : thread_([this, &manager] { run(manager); }) {}
+    ~SignalWatch() {
+        done_ = true;
+        thread_.join();
+    }
+
+  private:
+    void run(RTC::Manager& manager) {
+        constexpr auto patience = std::chrono::seconds(5);
+        auto wanted_since = std::chrono::steady_clock::time_point::max();
+        while (!done_) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            const auto now = std::chrono::steady_clock::now();
+            if (!RTC::Manager::endWanted()) continue;
+            wanted_since = std::min(wanted_since, now);
+            if (now - wanted_since < patience) continue;
+            spdlog::warn("a component does not let the host start; leaving without it");
+            manager.shutdown();
+            std::fflush(nullptr);
+            std::_Exit(0);
+        }
+    }
+    std::atomic<bool> done_{false};
+    std::thread thread_;
+};
 
 int run(const Arguments& a) {
     for (const auto& notice : tandem::rt::apply(a.switches)) spdlog::warn("{}", notice);
@@ -83,7 +118,10 @@ int run(const Arguments& a) {
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
     bool all_ended = true;
     try {
-        manager.activateOrThrow();
+        {
+            SignalWatch watch(manager);
+            manager.activateOrThrow();
+        }
         std::unique_ptr<tandem::rt::StepServer> steps;
         if (options.lockstep)
             steps = std::make_unique<tandem::rt::StepServer>(

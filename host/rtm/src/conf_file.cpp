@@ -13,17 +13,18 @@ bool continues(std::string& line) {
     return true;
 }
 
-void take(const std::string& place, const std::string& text, coil::Properties& out) {
+void take(const std::string& place, const std::string& text, coil::Properties& out, Places* places) {
     const std::size_t at = text.find_first_of(":=");
     const std::string key = coil::eraseBothEndsBlank(text.substr(0, at));
     if (at == std::string::npos || key.empty() || key.find_first_of(" \t") != std::string::npos)
         throw ManagerError(place + ": expected `key: value`, found `" + text + "`");
+    if (places != nullptr) (*places)[key] = place;
     out.setProperty(key, coil::eraseBothEndsBlank(coil::unescape(text.substr(at + 1))));
 }
 
 } // namespace
 
-void read_conf_file(const std::filesystem::path& file, coil::Properties& out) {
+void read_conf_file(const std::filesystem::path& file, coil::Properties& out, Places* places) {
     std::ifstream in(file);
     if (!in) throw ManagerError(file.string() + ": cannot be read");
     std::string text;
@@ -39,7 +40,7 @@ void read_conf_file(const std::filesystem::path& file, coil::Properties& out) {
         const bool more = continues(line);
         text += line;
         if (more && in) continue;
-        take(file.string() + ":" + std::to_string(begun_at), text, out);
+        take(file.string() + ":" + std::to_string(begun_at), text, out, places);
         text.clear();
     }
 }

@@ -17,13 +17,22 @@ void deleteExecutionContext(ExecutionContextBase* context) {
 
 void ExecutionContextBase::init(coil::Properties& props) {
     m_properties << props;
-    double rate = 0, phase_ms = 0, timeout = 0;
+    double rate = 0, phase_ms = 0;
     if (coil::stringTo(rate, m_properties.getProperty("rate").c_str()) && rate > 0) m_rate = rate;
     if (coil::stringTo(phase_ms, m_properties.getProperty("phase").c_str()))
         m_phase = std::chrono::nanoseconds(static_cast<std::int64_t>(phase_ms * 1e6));
-    m_sync = coil::toBool(m_properties.getProperty("sync_transition"), "YES", "NO", true);
-    if (coil::stringTo(timeout, m_properties.getProperty("transition_timeout").c_str()) && timeout > 0)
-        m_timeout = std::chrono::nanoseconds(static_cast<std::int64_t>(timeout * 1e9));
+    auto set_wait = [this](const std::string& kind, Wait& wait) {
+        wait.sync = coil::toBool(m_properties.getProperty("sync_" + kind), "YES", "NO", wait.sync);
+        double seconds = 0;
+        if (coil::stringTo(seconds, m_properties.getProperty(kind + "_timeout").c_str()) && seconds > 0)
+            wait.timeout = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+    };
+    Wait all;
+    set_wait("transition", all);
+    m_activation = m_deactivation = m_reset = all;
+    set_wait("activation", m_activation);
+    set_wait("deactivation", m_deactivation);
+    set_wait("reset", m_reset);
 }
 
 ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
@@ -156,7 +165,9 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
         if (!CORBA::is_nil(one.in()) && !one->_is_equivalent(m_owner.in()))
             CORBA_SeqUtil::push_back(profile->participants, one);
     }
-    NVUtil::copyFromProperties(profile->properties, m_properties);
+    coil::Properties properties(m_properties);
+    describe(properties);
+    NVUtil::copyFromProperties(profile->properties, properties);
     return profile._retn();
 }
 

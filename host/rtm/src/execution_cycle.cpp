@@ -28,17 +28,17 @@ bool ExecutionContextBase::busy() {
 }
 
 ReturnCode_t ExecutionContextBase::activateComponent(LightweightRTObject_ptr comp) {
-    return transit(comp, INACTIVE_STATE, ACTIVE_STATE);
+    return transit(comp, INACTIVE_STATE, ACTIVE_STATE, m_activation);
 }
 ReturnCode_t ExecutionContextBase::deactivateComponent(LightweightRTObject_ptr comp) {
-    return transit(comp, ACTIVE_STATE, INACTIVE_STATE);
+    return transit(comp, ACTIVE_STATE, INACTIVE_STATE, m_deactivation);
 }
 ReturnCode_t ExecutionContextBase::resetComponent(LightweightRTObject_ptr comp) {
-    return transit(comp, ERROR_STATE, INACTIVE_STATE);
+    return transit(comp, ERROR_STATE, INACTIVE_STATE, m_reset);
 }
 
 ReturnCode_t ExecutionContextBase::transit(LightweightRTObject_ptr comp, LifeCycleState from,
-                                           LifeCycleState to) {
+                                           LifeCycleState to, const Wait& wait) {
     Participant participant = find(comp);
     if (!participant) return BAD_PARAMETER;
     // Its component is still being created, or was stopped for good: onActivated belongs between start and
@@ -47,10 +47,10 @@ ReturnCode_t ExecutionContextBase::transit(LightweightRTObject_ptr comp, LifeCyc
     if (!participant->goTo(from, to)) return PRECONDITION_NOT_MET;
     if (hasThread()) {
         onRequest();
-        return !m_sync || insideCycle() ? RTC_OK : await(participant, to);
+        return !wait.sync || insideCycle() ? RTC_OK : await(participant, to, wait.timeout);
     }
     if (insideCycle()) return RTC_OK; // done at the beginning of the next cycle
-    std::unique_lock<std::timed_mutex> lock(m_cycle, m_timeout);
+    std::unique_lock<std::timed_mutex> lock(m_cycle, wait.timeout);
     if (!lock.owns_lock()) return RTC_ERROR;
     m_cycling = std::this_thread::get_id();
     participant->preDo();
@@ -61,9 +61,10 @@ ReturnCode_t ExecutionContextBase::transit(LightweightRTObject_ptr comp, LifeCyc
     return participant->state() == to ? RTC_OK : RTC_ERROR;
 }
 
-ReturnCode_t ExecutionContextBase::await(const Participant& participant, LifeCycleState to) {
+ReturnCode_t ExecutionContextBase::await(const Participant& participant, LifeCycleState to,
+                                         std::chrono::nanoseconds timeout) {
     // A slow context cannot be expected to be done before its next cycle.
-    const auto bound = m_timeout + 2 * getPeriod();
+    const auto bound = timeout + 2 * getPeriod();
     std::unique_lock<std::mutex> lock(m_changedMutex);
     m_changed.wait_for(lock, bound, [&] { return !participant->pending(); });
     return participant->state() == to && !participant->pending() ? RTC_OK : RTC_ERROR;

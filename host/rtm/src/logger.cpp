@@ -20,20 +20,23 @@ std::atomic<int> process_level{Logger::RTL_INFO};
 struct Outputs {
     std::mutex mutex;
     std::vector<std::FILE*> files;
+    std::string date_format = "%Y-%m-%d %H:%M:%S.%Q";
 };
 Outputs& outputs() {
     static auto* the_outputs = new Outputs;
     return *the_outputs;
 }
 
-std::string now() {
+// strftime's codes, and %Q milliseconds, %q microseconds.
+std::string now(std::string format) {
     timespec t;
     clock_gettime(CLOCK_REALTIME, &t);
     tm local;
     localtime_r(&t.tv_sec, &local);
-    char text[32];
-    const std::size_t n = std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &local);
-    return std::string(text, n) + coil::sprintf(".%03ld", t.tv_nsec / 1000000);
+    format = coil::replaceString(format, "%Q", coil::sprintf("%03ld", t.tv_nsec / 1000000));
+    format = coil::replaceString(format, "%q", coil::sprintf("%06ld", t.tv_nsec / 1000));
+    char text[128];
+    return std::string(text, std::strftime(text, sizeof text, format.c_str(), &local));
 }
 
 } // namespace
@@ -50,6 +53,11 @@ bool Logger::setLevel(const char* level) {
 
 int Logger::processLevel() { return process_level.load(std::memory_order_relaxed); }
 
+void Logger::setDateFormat(const char* format) {
+    std::lock_guard<std::mutex> lock(outputs().mutex);
+    outputs().date_format = format;
+}
+
 bool Logger::addOutput(const std::string& file_name) {
     std::FILE* file = file_name == "stdout"   ? stdout
                       : file_name == "stderr" ? stderr
@@ -62,10 +70,10 @@ bool Logger::addOutput(const std::string& file_name) {
 
 void Logger::write(int level, const std::string& message) const {
     if (level < 0 || level >= static_cast<int>(level_names.size())) return;
-    const std::string line = "[" + now() + "] [" +
+    std::lock_guard<std::mutex> lock(outputs().mutex);
+    const std::string line = "[" + now(outputs().date_format) + "] [" +
                              coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
                              ": " + message + "\n";
-    std::lock_guard<std::mutex> lock(outputs().mutex);
     if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
     for (std::FILE* file : outputs().files) {
         std::fputs(line.c_str(), file);

@@ -5,9 +5,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <future>
 #include <poll.h>
 #include <rtm/CdrRingBuffer.h>
+#include <rtm/ExtTrigExecutionContext.h>
 #include <rtm/OpenHRPExecutionContext.h>
 #include <rtm/PeriodicExecutionContext.h>
 #include <sys/eventfd.h>
@@ -66,7 +66,12 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
     start_orb(*manager->m_impl);
     manager->registerECFactory("PeriodicExecutionContext", ECCreate<RTC_exp::PeriodicExecutionContext>,
                                ECDelete<RTC_exp::PeriodicExecutionContext>);
-    for (const char* name : {"ExtTrigExecutionContext", "SynchExtTriggerEC", "SimulatorExecutionContext"})
+    // Ours has what it is for: priority, affinity, absolute time.
+    manager->registerECFactory("RTPreemptEC", ECCreate<RTC_exp::PeriodicExecutionContext>,
+                               ECDelete<RTC_exp::PeriodicExecutionContext>);
+    manager->registerECFactory("ExtTrigExecutionContext", ECCreate<ExtTrigExecutionContext>,
+                               ECDelete<ExtTrigExecutionContext>);
+    for (const char* name : {"SynchExtTriggerEC", "OpenHRPExecutionContext", "SimulatorExecutionContext"})
         manager->registerECFactory(name, ECCreate<OpenHRPExecutionContext>,
                                    ECDelete<OpenHRPExecutionContext>);
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,
@@ -109,12 +114,15 @@ void activate_all(Manager& manager, ModuleInitProc init_proc, Attempt attempt) {
         for (const auto& entry : coil::split(config.getProperty(key), ",", true))
             attempt(std::string(key) + ": ", [&] { action(entry); });
     };
-    each("manager.modules.preload", [&](const std::string& entry) {
-        const std::size_t open = entry.find('(');
-        const std::size_t close = entry.find(')', open);
-        const std::string init = open == std::string::npos ? "" : entry.substr(open + 1, close - open - 1);
-        manager.loadOrThrow(coil::eraseBothEndsBlank(entry.substr(0, open)), coil::eraseBothEndsBlank(init));
-    });
+    for (const char* key : {"manager.preload.modules", "manager.modules.preload"})
+        each(key, [&](const std::string& entry) {
+            const std::size_t open = entry.find('(');
+            const std::size_t close = entry.find(')', open);
+            const std::string init =
+                open == std::string::npos ? "" : entry.substr(open + 1, close - open - 1);
+            manager.loadOrThrow(coil::eraseBothEndsBlank(entry.substr(0, open)),
+                                coil::eraseBothEndsBlank(init));
+        });
     if (init_proc != nullptr) init_proc(&manager);
     each("manager.components.precreate", [&](const std::string& entry) { manager.createOrThrow(entry); });
     each("manager.components.preconnect", [&](const std::string& entry) { manager.connectOrThrow(entry); });
@@ -151,6 +159,8 @@ void Manager::terminate() {
     end_wanted = 1;
     ring();
 }
+
+bool Manager::endWanted() { return end_wanted != 0; }
 
 void Manager::join() {}
 
@@ -215,40 +225,6 @@ void Manager::runManager(bool no_block) {
         if (lonely.had_enough(has_components, m_impl->ever_had_components)) break;
     }
     shutdown();
-}
-
-bool Manager::shutdown() {
-    {
-        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
-        if (m_impl->shut_down) return true;
-        m_impl->shut_down = true;
-    }
-    m_impl->listeners.manager_.forEach([](auto& listener) { listener.preShutdown(); });
-    bool all_ended = true;
-    auto components = getComponents();
-    std::reverse(components.begin(), components.end());
-    // All stop before any goes away: they may still talk to each other while they stop.
-    for (auto* component : components) {
-        RTObject_var self = component->getObjRef();
-        for (auto* context : component->getOwnContexts())
-            if (context->halt() == RTC_OK && context->getComponentState(self.in()) == ACTIVE_STATE)
-                context->deactivateComponent(self.in());
-    }
-    for (auto* component : components) all_ended = component->exit() == RTC_OK && all_ended;
-    m_impl->run_due_tasks();
-    cleanupComponents();
-
-    std::packaged_task<void()> end_orb([this] {
-        m_impl->orb->shutdown(true);
-        m_impl->orb->destroy();
-    });
-    auto ended = end_orb.get_future();
-    std::thread(std::move(end_orb)).detach();
-    // A call into a component may hang for longer than anybody wants to wait.
-    if (ended.wait_for(the_options.stop_timeout) != std::future_status::ready) all_ended = false;
-    m_impl->listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
-    m_impl->ended_in_order = all_ended;
-    return all_ended;
 }
 
 bool Manager::endedInOrder() const { return m_impl->ended_in_order; }

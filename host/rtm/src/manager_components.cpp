@@ -17,8 +17,9 @@ coil::Properties inherited(const coil::Properties& config, const coil::Propertie
         if (!set.empty() && !(only_default && !profile.getProperty(key).empty())) out.setProperty(key, set);
     };
     for (const char* key : {"config.version", "openrtm.name", "openrtm.version", "naming.formats"}) take(key);
-    if (const auto* contexts = config.findNode("exec_cxt"))
-        for (const auto& key : contexts->propertyNames()) take("exec_cxt." + key);
+    for (const std::string section : {"exec_cxt", "ec", "port", "sdo.service"})
+        if (const auto* node = config.findNode(section))
+            for (const auto& key : node->propertyNames()) take(section + "." + key);
     return out;
 }
 
@@ -90,6 +91,10 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     // Not locked while the component's own code runs: it may ask the manager from threads of its own.
     FactoryBase* factory = nullptr;
     {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        factory = m_impl->find_factory(wanted.id);
+    }
+    if (factory == nullptr && loadForType(type)) {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         factory = m_impl->find_factory(wanted.id);
     }

@@ -60,6 +60,10 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
     m_impl->listeners.module_.forEach([&](auto& listener) { listener.preLoad(name, function); });
     try {
         namespace plugin = tandem::plugin;
+        if (std::filesystem::path(name).is_absolute() &&
+            !coil::toBool(m_impl->config.getProperty("manager.modules.abs_path_allowed"), "YES", "NO", true))
+            throw ManagerError("module " + name +
+                               ": absolute paths are not allowed (manager.modules.abs_path_allowed: NO)");
         const auto file = plugin::find_library(name, m_impl->module_dirs());
         const auto contents = plugin::read_contents(file);
         const std::string symbol = function.empty() ? init_symbol(file, contents, base_name(name)) : function;
@@ -76,6 +80,18 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
         throw ManagerError(e.what());
     }
     m_impl->listeners.module_.forEach([&](auto& listener) { listener.postLoad(name, function); });
+}
+
+bool Manager::loadForType(const std::string& type) {
+    if (!coil::toBool(m_impl->config.getProperty("manager.modules.search_auto"), "YES", "NO", true))
+        return false;
+    try {
+        tandem::plugin::find_library(type, m_impl->module_dirs());
+    } catch (const tandem::plugin::Error&) {
+        return false; // what is missing is the type: that is what will be said
+    }
+    loadOrThrow(type, "");
+    return true;
 }
 
 ReturnCode_t Manager::load(const std::string& file_name, const std::string& init_function) {

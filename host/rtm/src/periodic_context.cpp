@@ -2,8 +2,8 @@
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/thread.hpp"
 #include "manager_options.hpp"
+#include <algorithm>
 #include <atomic>
-#include <rtm/OpenHRPExecutionContext.h>
 #include <rtm/PeriodicExecutionContext.h>
 
 namespace RTC_exp {
@@ -14,12 +14,15 @@ using tandem::rt::PeriodicTick;
 struct PeriodicExecutionContext::Worker {
     std::mutex mutex;
     std::condition_variable wake;
-    std::shared_ptr<PeriodicTick> tick; // replaced when the rate changes
+    std::shared_ptr<PeriodicTick> tick; // replaced when the rate changes, and after a rest
+    Ticks before;                       // counted by its predecessors
     bool ending = false;
     bool ended = false;
     bool requested = false;
     bool hangs = false; // a stop has waited in vain
     std::thread thread;
+
+    Ticks ticks() const; // with the mutex held
 };
 
 PeriodicExecutionContext::PeriodicExecutionContext() : ExecutionContextServant("periodic_ec") {}
@@ -32,9 +35,35 @@ std::shared_ptr<PeriodicExecutionContext::Worker> PeriodicExecutionContext::work
 
 bool PeriodicExecutionContext::hasThread() const { return worker() != nullptr; }
 
+PeriodicExecutionContext::Ticks PeriodicExecutionContext::Worker::ticks() const {
+    const auto now = tick->stats();
+    return {before.cycles + now.ticks, before.overruns + now.overruns, before.skipped + now.skipped,
+            std::max(before.latest, std::chrono::nanoseconds(now.lateness_ns_max))};
+}
+
+// The caller holds the worker's mutex, or is the only one to know it.
 void PeriodicExecutionContext::makeTick(Worker& worker) {
+    if (worker.tick) worker.before = worker.ticks();
     const auto spin = RTC::host_options().tick_spin;
     worker.tick = std::make_shared<PeriodicTick>(tandem::rt::TickOptions{getPeriod(), m_phase, true, spin});
+}
+
+PeriodicExecutionContext::Ticks PeriodicExecutionContext::ticks() const {
+    const auto running = worker();
+    if (running == nullptr) {
+        std::lock_guard<std::mutex> lock(m_workerMutex);
+        return m_ended;
+    }
+    std::lock_guard<std::mutex> lock(running->mutex);
+    return running->ticks();
+}
+
+void PeriodicExecutionContext::describe(coil::Properties& properties) {
+    const Ticks counted = ticks();
+    properties.setProperty("tick.cycles", std::to_string(counted.cycles));
+    properties.setProperty("tick.overruns", std::to_string(counted.overruns));
+    properties.setProperty("tick.skipped", std::to_string(counted.skipped));
+    properties.setProperty("tick.latest_us", std::to_string(counted.latest.count() / 1000));
 }
 
 RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
@@ -47,16 +76,19 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
 }
 
 void PeriodicExecutionContext::run(Worker& worker) {
-    int cpu = RTC::host_options().cpu, priority = 0;
-    coil::stringTo(cpu, m_properties.getProperty("cpu_affinity").c_str());
+    int priority = 0;
+    std::vector<int> cpus;
     coil::stringTo(priority, m_properties.getProperty("priority").c_str());
-    for (const auto& notice : tandem::rt::set_up_this_thread({"rtm-ec", priority, cpu}))
+    for (const auto& notice : tandem::rt::set_up_this_thread({"rtm-ec", priority, RTC::host_options().cpu}))
         RTC_WARN(("%s", notice.c_str()));
+    if (coil::stringTo(cpus, m_properties.getProperty("cpu_affinity").c_str()) && !cpus.empty())
+        if (const auto notice = tandem::rt::pin_this_thread("thread rtm-ec", cpus))
+            RTC_WARN(("%s", notice->c_str()));
 
     std::unique_lock<std::mutex> lock(worker.mutex);
     while (!worker.ending) {
         worker.requested = false;
-        auto tick = worker.tick;
+        const auto tick = worker.tick;
         lock.unlock();
         const bool work = busy();
         if (work) {
@@ -64,8 +96,16 @@ void PeriodicExecutionContext::run(Worker& worker) {
             if (!tick->interrupted()) invokeWorker();
         }
         lock.lock();
-        if (!work) worker.wake.wait(lock, [&] { return worker.ending || worker.requested; });
+        if (work) continue;
+        worker.wake.wait(lock, [&] { return worker.ending || worker.requested; });
+        makeTick(worker); // periods slept through were not missed
     }
+    const Ticks counted = worker.ticks();
+    if (counted.overruns > 0)
+        RTC_WARN(("%llu of %llu cycles overran their period of %g ms; %llu periods had no cycle",
+                  static_cast<unsigned long long>(counted.overruns),
+                  static_cast<unsigned long long>(counted.cycles), 1e-6 * double(getPeriod().count()),
+                  static_cast<unsigned long long>(counted.skipped)));
     worker.ended = true;
     worker.wake.notify_all();
 }
@@ -87,6 +127,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == stopping) {
         stopping->thread.join();
+        m_ended = stopping->ticks();
         m_worker.reset();
     }
     return RTC::RTC_OK;
@@ -111,13 +152,3 @@ void PeriodicExecutionContext::onRequest() {
 }
 
 } // namespace RTC_exp
-
-namespace RTC {
-
-OpenHRPExecutionContext::OpenHRPExecutionContext() : ExecutionContextServant("synch_ext_trigger_ec") {}
-
-void OpenHRPExecutionContext::tick() {
-    if (isRunning() && !insideCycle()) invokeWorker();
-}
-
-} // namespace RTC

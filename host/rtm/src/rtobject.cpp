@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A component as an object: construction, life, contexts.
+#include "contexts_wanted.hpp"
 #include "local_object.hpp"
 #include "sdo_configuration.hpp"
 #include <rtm/DataFlowComponentBase.h>
@@ -46,18 +47,14 @@ ReturnCode_t RTObject_impl::initialize() {
 }
 
 void RTObject_impl::createContexts() {
-    coil::Properties options;
-    if (const auto* node = m_properties.findNode("exec_cxt.periodic")) options << *node;
-    for (const char* key : {"sync_transition", "transition_timeout", "cpu_affinity", "priority"}) {
-        const std::string value = m_properties.getProperty(std::string("exec_cxt.") + key);
-        if (!value.empty() && options.getProperty(key).empty()) options.setProperty(key, value);
+    for (auto& options : contexts_wanted(m_properties)) {
+        ExecutionContextBase* context = m_pManager->createContext(options.getProperty("type").c_str());
+        if (context == nullptr)
+            throw ManagerError("there is no execution context type " + options.getProperty("type"));
+        context->init(options);
+        m_eclist.push_back(context);
+        context->bindComponent(this);
     }
-    const std::string type = options.getProperty("type", "PeriodicExecutionContext");
-    ExecutionContextBase* context = m_pManager->createContext(type.c_str());
-    if (context == nullptr) throw ManagerError("there is no execution context type " + type);
-    context->init(options);
-    m_eclist.push_back(context);
-    context->bindComponent(this);
 }
 
 ReturnCode_t RTObject_impl::finalize() {

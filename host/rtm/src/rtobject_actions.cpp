@@ -47,13 +47,14 @@ using Pre = PreComponentActionListenerType;
 using Post = PostComponentActionListenerType;
 
 ReturnCode_t RTObject_impl::on_initialize() {
-    const ReturnCode_t result = guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE,
-                                        [&] { return onInitialize(); });
-    const std::string wanted = m_properties.getProperty("configuration.active_config", "default");
-    const std::string set = m_configsets.haveConfig(wanted.c_str()) ? wanted : "default";
-    m_configsets.activateConfigurationSet(set.c_str());
-    m_configsets.update(set.c_str());
-    return result;
+    return guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE, [&] {
+        const ReturnCode_t result = onInitialize();
+        const std::string wanted = m_properties.getProperty("configuration.active_config", "default");
+        const std::string set = m_configsets.haveConfig(wanted.c_str()) ? wanted : "default";
+        m_configsets.activateConfigurationSet(set.c_str());
+        m_configsets.update(set.c_str());
+        return result;
+    });
 }
 
 ReturnCode_t RTObject_impl::on_finalize() {

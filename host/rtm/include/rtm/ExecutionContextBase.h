@@ -31,7 +31,8 @@ public:
     ExecutionContextBase(const ExecutionContextBase&) = delete;
     ExecutionContextBase& operator=(const ExecutionContextBase&) = delete;
 
-    /// `rate` (Hz), `phase` (ms), `sync_transition` (YES), `transition_timeout` (s).
+    /// `rate` (Hz), `phase` (ms), `sync_transition` (YES), `transition_timeout` (s), and the last two for
+    /// activation, deactivation and reset alone.
     virtual void init(coil::Properties& props);
     /// Makes the component its owner and first participant.
     virtual ReturnCode_t bindComponent(RTObject_impl* rtc);
@@ -75,6 +76,8 @@ protected:
     /// Has the context a thread that will carry a requested transition out? Otherwise the caller's does.
     virtual bool hasThread() const { return false; }
     virtual void onRequest() {}
+    /// Adds to the properties of the profile what the context has counted.
+    virtual void describe(coil::Properties& /*properties*/) {}
     virtual PortableServer::ServantBase* servant() = 0;
 
     void setObjRef(ExecutionContextService_ptr ref) { m_objref = ExecutionContextService::_duplicate(ref); }
@@ -93,16 +96,20 @@ private:
     using Participants = std::shared_ptr<const std::vector<Participant>>;
     Participants participants() const;
     void addParticipant(Participant participant);
-    ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to);
-    ReturnCode_t await(const Participant& participant, LifeCycleState to);
+    /// Does who asks for a transition wait for it, and for how long?
+    struct Wait {
+        bool sync = true;
+        std::chrono::nanoseconds timeout = std::chrono::milliseconds(500);
+    };
+    ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to, const Wait& wait);
+    ReturnCode_t await(const Participant& participant, LifeCycleState to, std::chrono::nanoseconds timeout);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
     mutable std::mutex m_mutex; // participants, rate, running
     Participants m_participants = std::make_shared<const std::vector<Participant>>();
     bool m_running = false;
     double m_rate = DEFAULT_EXECUTION_RATE;
-    bool m_sync = true;
-    std::chrono::nanoseconds m_timeout = std::chrono::milliseconds(500);
+    Wait m_activation, m_deactivation, m_reset;
     RTObject_var m_owner;
     ExecutionContextService_var m_objref;
 

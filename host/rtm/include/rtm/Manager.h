@@ -63,6 +63,8 @@ public:
     bool shutdown();
     /// Ours: what shutdown() returned.
     bool endedInOrder() const;
+    /// Ours: has terminate() been called?
+    static bool endWanted();
 
     coil::Properties& getConfig();
     std::string& getLogLevel();
@@ -138,6 +140,9 @@ public:
 private:
     explicit Manager(const Options& options);
     RTObject_impl& makeOrThrow(FactoryBase& factory);
+    /// Loads the library that is named as the component type, when there is one.
+    bool loadForType(const std::string& type);
+    bool stopComponents(std::vector<RTObject_impl*> components);
     std::unique_ptr<Impl> m_impl;
 };
 

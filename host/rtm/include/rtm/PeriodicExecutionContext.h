@@ -17,12 +17,22 @@ public:
     PeriodicExecutionContext();
     ~PeriodicExecutionContext() override;
 
+    /// Ours: what has been counted since the context was started.
+    struct Ticks {
+        std::uint64_t cycles = 0;
+        std::uint64_t overruns = 0; ///< cycles whose time had passed when the one before ended
+        std::uint64_t skipped = 0;  ///< periods without a cycle because of that
+        std::chrono::nanoseconds latest{0}; ///< the latest that a cycle has begun after its time
+    };
+    Ticks ticks() const;
+
 protected:
     RTC::ReturnCode_t onStarted() override;
     RTC::ReturnCode_t onStopping() override;
     RTC::ReturnCode_t onSetRate(double rate) override;
     bool hasThread() const override;
     void onRequest() override;
+    void describe(coil::Properties& properties) override;
 
 private:
     struct Worker;
@@ -32,6 +42,7 @@ private:
 
     mutable std::mutex m_workerMutex;
     std::shared_ptr<Worker> m_worker;
+    Ticks m_ended;
 };
 
 } // namespace RTC_exp

@@ -20,7 +20,8 @@ public:
     /// Level of the process, `SILENT` .. `PARANOID`; false when there is no such level.
     bool setLevel(const char* level);
     void setName(const char* name) { m_name = name; }
-    void setDateFormat(const char*) {}
+    /// Of the process: codes of strftime, %Q milliseconds, %q microseconds.
+    void setDateFormat(const char* format);
     void setClockType(const std::string&) {}
     bool isValid(int level) const { return level <= processLevel(); }
     void lock() const {}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_EXTTRIGEXECUTIONCONTEXT_H
+#define RTC_EXTTRIGEXECUTIONCONTEXT_H
+#include <memory>
+#include <rtm/ExecutionContextBase.h>
+
+namespace RTC {
+
+/// A context whose thread runs one cycle for each tick(), which does not wait for it; no tick is lost.
+/// Requested transitions are carried out by the thread that asks for them, between cycles.
+class ExtTrigExecutionContext : public ExecutionContextServant<POA_OpenRTM::ExtTrigExecutionContextService> {
+public:
+    ExtTrigExecutionContext();
+    ~ExtTrigExecutionContext() override;
+    void tick() override;
+
+protected:
+    ReturnCode_t onStarted() override;
+    ReturnCode_t onStopping() override;
+
+private:
+    struct Worker;
+    void run(Worker& worker);
+
+    mutable std::mutex m_workerMutex;
+    std::shared_ptr<Worker> m_worker;
+};
+
+} // namespace RTC
+#endif
