@@ -11,6 +11,7 @@ namespace tandem::command {
 using Run = std::function<int()>; ///< Returns the exit code.
 
 void add_opros(CLI::App& tandem, Run& chosen);
+void add_rtm(CLI::App& tandem, Run& chosen);
 void add_shm(CLI::App& tandem, Run& chosen);
 
 } // namespace tandem::command

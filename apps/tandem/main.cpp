@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
     tandem.footer("tandem COMMAND --help says more about a command.");
     tandem::command::Run chosen;
     tandem::command::add_opros(tandem, chosen);
+    tandem::command::add_rtm(tandem, chosen);
     tandem::command::add_shm(tandem, chosen);
     try {
         tandem.parse(argc, argv);

@@ -1,50 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds a component from its folder: writes a CMake project of one line for it, and has CMake do the work.
+// Builds a component from its folder, under the name that its profile gives.
 #include "apps/tandem/opros/commands.hpp"
-#include "apps/tandem/opros/package_path.hpp"
-#include "apps/tandem/opros/run_program.hpp"
 #include "apps/tandem/text.hpp"
 #include "host/opros/src/profile.hpp"
 #include "host/plugin/find_library.hpp"
 
-#include <algorithm>
-#include <cstdlib>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <fstream>
 #include <stdexcept>
 
 namespace tandem::command {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Removed at the end, unless the user has named it.
-class BuildFolder {
-  public:
-    explicit BuildFolder(const fs::path& wanted) : temporary_(wanted.empty()) {
-        if (temporary_) {
-            std::string name = (fs::temp_directory_path() / "tandem-build-XXXXXX").string();
-            if (!mkdtemp(name.data()))
-                throw std::runtime_error("no temporary folder " + name + " can be made");
-            path_ = name;
-        } else {
-            fs::create_directories(wanted);
-            path_ = fs::absolute(wanted);
-        }
-    }
-    ~BuildFolder() {
-        std::error_code ignored;
-        if (temporary_) fs::remove_all(path_, ignored);
-    }
-    BuildFolder(const BuildFolder&) = delete;
-    BuildFolder& operator=(const BuildFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    bool temporary_;
-    fs::path path_;
-};
 
 std::vector<engine::ComponentProfile> component_profiles(const fs::path& folder) {
     std::vector<engine::ComponentProfile> found;
@@ -85,73 +51,13 @@ std::string library_stem(const std::string& library_name) {
         .string();
 }
 
-std::string quoted(const std::string& text) {
-    // Bracket arguments are taken as they are.
-    return "[==[" + text + "]==]";
-}
-
-std::string listed(const char* keyword, const std::vector<std::string>& values) {
-    if (values.empty()) return "";
-    std::string text = std::string("\n  ") + keyword;
-    for (const auto& value : values) text += " " + quoted(value);
-    return text;
-}
-
-std::string project_text(const std::string& name, const BuildOptions& options, const fs::path& output) {
-    std::vector<std::string> include_dirs;
-    for (const auto& dir : options.include_dirs) include_dirs.push_back(fs::absolute(dir).string());
-    return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
-           "find_package(Tandem REQUIRED COMPONENTS opros)\n"
-           "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " +
-           quoted(output.string()) +
-           ")\n"
-           "tandem_add_opros_component(" +
-           name + "\n  FOLDER " + quoted(fs::absolute(options.folder).string()) +
-           listed("INCLUDE_DIRS", include_dirs) + listed("DEFINITIONS", options.definitions) +
-           listed("LIBRARIES", options.libraries) + fmt::format("\n  CXX_STANDARD {})\n", options.standard);
-}
-
-void require_folder(const fs::path& folder) {
-    if (!fs::is_directory(folder))
-        throw std::runtime_error(folder.string() +
-                                 " is not a folder; name the one with the component's sources");
-}
-
-// What the compiler says belongs to the user, all of it; the first error is repeated in our own line.
-void run(const std::vector<std::string>& command, const std::string& what) {
-    const ProgramEnd end = run_program(command);
-    if (end.exit_code == 0) return;
-    print_text(end.output);
-    throw std::runtime_error(what + ": " + first_error(end.output) + " (the compiler's output is above)");
-}
-
 } // namespace
 
 int opros_build(const BuildOptions& options) {
     require_folder(options.folder);
     const auto profile = the_profile(options);
-    const std::string name = library_stem(profile.library_name);
-    const fs::path output =
-        fs::absolute(options.output.empty() ? profile.place.file.parent_path() : options.output);
-    for (const auto& dir : options.include_dirs) require_folder(dir);
-    const BuildFolder build(options.build);
-    // The library replaces the old one when it is whole: a running host may have that one mapped.
-    const fs::path made = build.path() / "made";
-    std::ofstream(build.path() / "CMakeLists.txt") << project_text(name, options, made);
-    const std::string bin = (build.path() / "bin").string();
-    run({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-         "-DTandem_DIR=" + package_folder().string()},
-        "component " + name + " cannot be set up");
-    run({"cmake", "--build", bin, "--parallel"}, "component " + name + " does not compile");
-    fs::create_directories(output);
-    const fs::path library = output / (name + ".so"), fresh = output / ("." + name + ".so.new");
-    fs::copy_file(made / (name + ".so"), fresh, fs::copy_options::overwrite_existing);
-    fs::rename(fresh, library);
-    if (!options.output.empty())
-        for (const auto& entry : fs::directory_iterator(made))
-            if (entry.path().extension() == ".xml")
-                fs::copy_file(entry.path(), output / entry.path().filename(),
-                              fs::copy_options::overwrite_existing);
+    const auto library =
+        build_plugin("opros", library_stem(profile.library_name), options, profile.place.file.parent_path());
     print_text(library.string() + "\n");
     return 0;
 }

@@ -3,6 +3,7 @@
 // line.
 #pragma once
 
+#include "apps/tandem/build/plugin_build.hpp"
 #include "host/plugin/probed_side.hpp"
 
 #include <filesystem>
@@ -23,13 +24,8 @@ int opros_check(const LookOptions& options);
 
 int opros_new(const std::string& name, const std::filesystem::path& parent);
 
-struct BuildOptions {
-    std::filesystem::path folder;
-    std::string profile;          ///< which one, when the folder has several
-    std::filesystem::path output; ///< empty: beside the profile
-    std::filesystem::path build;  ///< empty: a temporary folder
-    std::vector<std::string> include_dirs, definitions, libraries;
-    int standard = 14;
+struct BuildOptions : PluginBuild {
+    std::string profile; ///< which one, when the folder has several
 };
 int opros_build(const BuildOptions& options);
 

@@ -79,20 +79,8 @@ void add_build(CLI::App& opros, Run& chosen) {
             "Takes the sources in DIR and DIR/src, and the component profile in DIR or DIR/profile, which\n"
             "gives the plugin its name; the plugin comes to lie beside the profile. Nothing else is\n"
             "changed. Exit code 1 if it cannot be built.");
-    const auto repeated = [&](const char* flag, std::vector<std::string>& values, const char* what) {
-        command->add_option(flag, values, what)->allow_extra_args(false);
-    };
-    command->add_option("DIR", options->folder, "folder of the component")->required();
+    add_build_options(command, *options, "folder for plugin and profiles instead of the profile's");
     command->add_option("--profile", options->profile, "component profile in DIR, when there are several");
-    repeated("-I,--include", options->include_dirs, "folder with headers of neighbours (repeatable)");
-    repeated("-D,--define", options->definitions, "preprocessor definition (repeatable)");
-    repeated("-l,--library", options->libraries, "library to link: a name or a file (repeatable)");
-    command->add_option("--standard", options->standard, "C++ standard (14)")
-        ->check(CLI::IsMember({11, 14, 17, 20}));
-    command->add_option("--output", options->output,
-                        "folder for plugin and profiles instead of the profile's");
-    command->add_option("--build-dir", options->build,
-                        "folder to keep, so that the next build takes less time");
     command->callback([=, &chosen] { chosen = [options] { return opros_build(*options); }; });
 }
 

@@ -142,16 +142,9 @@ find_package(Tandem REQUIRED COMPONENTS opros)
 tandem_add_opros_component(@NAME@)
 )";
 
-std::string named(std::string text, const std::string& name) {
-    const std::string mark = "@NAME@";
-    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += name.size())
-        text.replace(at, mark.size(), name);
-    return text;
-}
-
 } // namespace
 
-std::vector<std::pair<std::string, std::string>> component_skeleton(const std::string& name) {
+FilesWithText component_skeleton(const std::string& name) {
     return {{name + ".h", named(header, name)},
             {name + ".cpp", named(source, name)},
             {name + ".xml", named(profile, name)},

@@ -2,13 +2,10 @@
 // The texts of a new component; @NAME@ stands for its name.
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
+#include "apps/tandem/build/new_folder.hpp"
 
 namespace tandem::command {
 
-/// File names and contents.
-std::vector<std::pair<std::string, std::string>> component_skeleton(const std::string& name);
+FilesWithText component_skeleton(const std::string& name);
 
 } // namespace tandem::command

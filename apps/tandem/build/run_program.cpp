@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/opros/run_program.hpp"
+#include "apps/tandem/build/run_program.hpp"
 
 #include <array>
 #include <cerrno>
@@ -55,7 +55,9 @@ std::string first_error(const std::string& output) {
     std::istringstream lines(output);
     std::string line, last;
     while (std::getline(lines, line)) {
-        for (const char* word : {"error: ", "undefined reference", "CMake Error", "undefined symbol"})
+        for (const char* word : {"error: ", "undefined reference", "CMake Error", "undefined symbol",
+                                 // omniidl's
+                                 ": Syntax error", ": Error in ", ": No such file or directory"})
             if (line.find(word) != std::string::npos) return line;
         if (line.find_first_not_of(" \t") != std::string::npos) last = line;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/opros/package_path.hpp"
+#include "apps/tandem/build/package_path.hpp"
 
 #include <stdexcept>
 

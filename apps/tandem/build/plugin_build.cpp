@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/plugin_build.hpp"
+#include "apps/tandem/build/package_path.hpp"
+#include "apps/tandem/build/run_program.hpp"
+#include "apps/tandem/text.hpp"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <fstream>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Removed at the end, unless the user has named it.
+class BuildFolder {
+  public:
+    explicit BuildFolder(const fs::path& wanted) : temporary_(wanted.empty()) {
+        if (temporary_) {
+            std::string name = (fs::temp_directory_path() / "tandem-build-XXXXXX").string();
+            if (!mkdtemp(name.data()))
+                throw std::runtime_error("no temporary folder " + name + " can be made");
+            path_ = name;
+        } else {
+            fs::create_directories(wanted);
+            path_ = fs::absolute(wanted);
+        }
+    }
+    ~BuildFolder() {
+        std::error_code ignored;
+        if (temporary_) fs::remove_all(path_, ignored);
+    }
+    BuildFolder(const BuildFolder&) = delete;
+    BuildFolder& operator=(const BuildFolder&) = delete;
+    const fs::path& path() const { return path_; }
+
+  private:
+    bool temporary_;
+    fs::path path_;
+};
+
+std::string quoted(const std::string& text) {
+    // Bracket arguments are taken as they are.
+    return "[==[" + text + "]==]";
+}
+
+std::string listed(const char* keyword, const std::vector<std::string>& values) {
+    if (values.empty()) return "";
+    std::string text = std::string("\n  ") + keyword;
+    for (const auto& value : values) text += " " + quoted(value);
+    return text;
+}
+
+std::string project_text(const std::string& model, const std::string& name, const PluginBuild& options,
+                         const fs::path& output) {
+    std::vector<std::string> include_dirs;
+    for (const auto& dir : options.include_dirs) include_dirs.push_back(fs::absolute(dir).string());
+    return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
+           "find_package(Tandem REQUIRED COMPONENTS " +
+           model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + quoted(output.string()) + ")\ntandem_add_" +
+           model + "_component(" + name + "\n  FOLDER " + quoted(fs::absolute(options.folder).string()) +
+           listed("INCLUDE_DIRS", include_dirs) + listed("DEFINITIONS", options.definitions) +
+           listed("LIBRARIES", options.libraries) + fmt::format("\n  CXX_STANDARD {})\n", options.standard);
+}
+
+// What the compiler says belongs to the user, all of it; the first error is repeated in our own line.
+void run(const std::vector<std::string>& command, const std::string& what) {
+    const ProgramEnd end = run_program(command);
+    if (end.exit_code == 0) return;
+    print_text(end.output);
+    throw std::runtime_error(what + ": " + first_error(end.output) + " (the compiler's output is above)");
+}
+
+} // namespace
+
+void add_build_options(CLI::App* command, PluginBuild& options, const char* where) {
+    const auto repeated = [&](const char* flag, std::vector<std::string>& values, const char* what) {
+        command->add_option(flag, values, what)->allow_extra_args(false);
+    };
+    command->add_option("DIR", options.folder, "folder of the component")->required();
+    repeated("-I,--include", options.include_dirs, "folder with headers of neighbours (repeatable)");
+    repeated("-D,--define", options.definitions, "preprocessor definition (repeatable)");
+    repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
+    command->add_option("--standard", options.standard, "C++ standard (14)")
+        ->check(CLI::IsMember({11, 14, 17, 20}));
+    command->add_option("--output", options.output, where);
+    command->add_option("--build-dir", options.build,
+                        "folder to keep, so that the next build takes less time");
+}
+
+void require_folder(const fs::path& folder) {
+    if (!fs::is_directory(folder))
+        throw std::runtime_error(folder.string() +
+                                 " is not a folder; name the one with the component's sources");
+}
+
+fs::path build_plugin(const std::string& model, const std::string& name, const PluginBuild& options,
+                      const fs::path& place) {
+    for (const auto& dir : options.include_dirs) require_folder(dir);
+    const fs::path output = fs::absolute(options.output.empty() ? place : options.output).lexically_normal();
+    const BuildFolder build(options.build);
+    // The library replaces the old one when it is whole: a running host may have that one mapped.
+    const fs::path made = build.path() / "made";
+    std::ofstream(build.path() / "CMakeLists.txt") << project_text(model, name, options, made);
+    const std::string bin = (build.path() / "bin").string();
+    run({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+         "-DTandem_DIR=" + package_folder().string()},
+        "component " + name + " cannot be set up");
+    run({"cmake", "--build", bin, "--parallel"}, "component " + name + " does not compile");
+    fs::create_directories(output);
+    const fs::path library = output / (name + ".so"), fresh = output / ("." + name + ".so.new");
+    fs::copy_file(made / (name + ".so"), fresh, fs::copy_options::overwrite_existing);
+    fs::rename(fresh, library);
+    if (!options.output.empty())
+        for (const auto& entry : fs::directory_iterator(made))
+            if (entry.path().filename() != library.filename())
+                fs::copy_file(entry.path(), output / entry.path().filename(),
+                              fs::copy_options::overwrite_existing);
+    return library;
+}
+
+} // namespace tandem::command

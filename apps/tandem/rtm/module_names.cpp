@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/module_names.hpp"
+
+#include <cctype>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Comments become blanks; what is in string literals does not matter to what is looked for.
+std::string without_comments(std::string text) {
+    enum { code, line, block } in = code;
+    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+        if (in == code && text[i] == '/' && (text[i + 1] == '/' || text[i + 1] == '*'))
+            in = text[i + 1] == '/' ? line : block;
+        else if (in == line && text[i] == '\n')
+            in = code;
+        else if (in == block && text[i] == '*' && text[i + 1] == '/') {
+            in = code;
+            text[i + 1] = ' ';
+        } else if (in == code)
+            continue;
+        text[i] = ' ';
+    }
+    return text;
+}
+
+// Words and signs, one after the other.
+std::vector<std::string> tokens(const std::string& text) {
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < text.size();) {
+        const auto word = [&](std::size_t at) {
+            return at < text.size() &&
+                   (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+        };
+        std::size_t end = i;
+        while (word(end)) ++end;
+        if (end == i && !std::isspace(static_cast<unsigned char>(text[i]))) end = i + 1;
+        if (end > i) found.push_back(text.substr(i, end - i));
+        i = std::max(end, i + 1);
+    }
+    return found;
+}
+
+bool follows(const std::vector<std::string>& all, std::size_t at, std::initializer_list<const char*> wanted) {
+    if (at + wanted.size() > all.size()) return false;
+    for (const char* each : wanted)
+        if (all[at++] != each) return false;
+    return true;
+}
+
+void add_names(const fs::path& file, std::set<std::string>& names) {
+    std::ifstream stream(file);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    const auto all = tokens(without_comments(text.str()));
+    std::set<std::string> here;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (follows(all, i, {"int", "main", "("})) return;
+        const std::string& word = all[i];
+        if (word.size() > 4 && word.ends_with("Init") && i > 0 && all[i - 1] == "void" &&
+            follows(all, i + 1, {"(", "RTC", ":", ":", "Manager", "*"}))
+            here.insert(word.substr(0, word.size() - 4));
+    }
+    names.merge(here);
+}
+
+bool is_source(const fs::path& file) {
+    static const std::set<std::string> endings{".h", ".hh", ".hpp", ".hxx", ".cpp", ".cc", ".cxx", ".c"};
+    return endings.count(file.extension().string()) != 0;
+}
+
+} // namespace
+
+std::set<std::string> module_names(const fs::path& folder) {
+    std::set<std::string> names;
+    std::error_code ignored;
+    for (const char* place : {"", "src", "include"})
+        for (const auto& entry : fs::directory_iterator(folder / place, ignored))
+            if (is_source(entry.path())) add_names(entry.path(), names);
+    return names;
+}
+
+} // namespace tandem::command

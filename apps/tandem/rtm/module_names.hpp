@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace tandem::command {
+
+/// The modules that sources in the folder, its src/ and include/ define: X for each function
+/// XInit(RTC::Manager*). Sources with a main() do not count, nor do comments.
+std::set<std::string> module_names(const std::filesystem::path& folder);
+
+} // namespace tandem::command

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `tandem rtm`.
+#include "apps/tandem/commands.hpp"
+#include "apps/tandem/rtm/commands.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+namespace {
+
+CLI::App* add(CLI::App& parent, const char* name, const char* brief, const char* details) {
+    CLI::App* command = parent.add_subcommand(name, brief);
+    command->footer(details);
+    return command;
+}
+
+void add_new(CLI::App& rtm, Run& chosen) {
+    struct Options {
+        std::string name;
+        std::filesystem::path parent = ".";
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = add(
+        rtm, "new", "Writes an RT-Component that builds and runs as it stands",
+        "Makes the folder NAME with NAME.h, NAME.cpp, rtc.conf, and a CMakeLists.txt that builds it with\n"
+        "find_package(OpenRTM), here and elsewhere. Exit code 1 if the folder exists.");
+    command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
+    command->add_option("--in", options->parent, "folder in which to make it (.)");
+    command->callback(
+        [=, &chosen] { chosen = [options] { return rtm_new(options->name, options->parent); }; });
+}
+
+void add_build(CLI::App& rtm, Run& chosen) {
+    auto options = std::make_shared<RtmBuildOptions>();
+    CLI::App* command = add(
+        rtm, "build", "Builds an RT-Component from nothing but its folder",
+        "Takes the sources in DIR and DIR/src without those that have a main(), the IDL files in DIR and\n"
+        "DIR/idl, and the headers there and in DIR/include. The function NAMEInit(RTC::Manager*) gives\n"
+        "the plugin its name; it comes to lie in DIR. Nothing else is changed. Exit code 1 if it cannot\n"
+        "be built.");
+    add_build_options(command, *options, "folder for the plugin instead of DIR");
+    command->add_option("--name", options->name, "name of the module, when DIR has several");
+    command->callback([=, &chosen] { chosen = [options] { return rtm_build(*options); }; });
+}
+
+} // namespace
+
+void add_rtm(CLI::App& tandem, Run& chosen) {
+    CLI::App* rtm = tandem.add_subcommand("rtm", "RT-Components: make and build them");
+    rtm->require_subcommand(1);
+    add_new(*rtm, chosen);
+    add_build(*rtm, chosen);
+}
+
+} // namespace tandem::command
