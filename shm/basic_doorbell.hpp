@@ -46,6 +46,7 @@ class BasicDoorbell {
     void set(unsigned bit);
     bool wake_owner();
     ReadyBits take();
+    ReadyBits take_own();
     bool rung() const {
         std::uint64_t all = 0;
         for (const auto& word : words_.ready) all |= word.load(std::memory_order_relaxed);
@@ -77,6 +78,7 @@ void BasicDoorbell<A>::ring(unsigned bit) {
         A::fence(); // after the data, whose stores are only release
         if (words_.owner.load(std::memory_order_relaxed) == looks) return;
     }
+    __builtin_prefetch(&words_, 1); // while the data's stores still leave the core
     set(bit);
     wake_owner();
 }
@@ -126,6 +128,16 @@ ReadyBits BasicDoorbell<A>::take() {
         if (words_.ready[i].load(std::memory_order_relaxed) != 0)
             bits.words[i] = words_.ready[i].exchange(0, std::memory_order_acquire);
     return bits;
+}
+
+/// The user's bits are dropped: what they stand for is looked at anyhow.
+template <class A>
+ReadyBits BasicDoorbell<A>::take_own() {
+    const ReadyBits bits = take();
+    ReadyBits own;
+    for (const unsigned bit : {attention_bit, interrupt_bit})
+        if (bits.test(bit)) own.set(bit);
+    return own;
 }
 
 template <class A>
@@ -182,18 +194,19 @@ bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bou
     return found || done();
 }
 
+/// News is looked for before bits: whoever was woken by a message reads that first, and takes the bit that
+/// came with it in the next wait, when nobody is kept waiting by another transfer of the doorbell's line.
 template <class A>
 template <class Ready>
 ReadyBits BasicDoorbell<A>::wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how) {
-    if (!rung() && ready()) return {};
+    if (rung()) {
+        const ReadyBits own = take_own();
+        if (own.any()) return own;
+    }
+    if (ready()) return {};
     if (owner_ != Owner::looks) become(Owner::looks);
-    wait_until_done([&] { return rung() || ready(); }, bound, how, Owner::looks);
-    if (!rung()) return {};
-    const ReadyBits bits = take();
-    ReadyBits own;
-    for (const unsigned bit : {attention_bit, interrupt_bit})
-        if (bits.test(bit)) own.set(bit);
-    return own;
+    wait_until_done([&] { return ready() || rung(); }, bound, how, Owner::looks);
+    return ready() || !rung() ? ReadyBits{} : take_own();
 }
 
 } // namespace tandem::shm

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/futex.hpp"
 
+#include "shm/sleep_alarm.hpp"
+
 #include <cerrno>
 #include <climits>
 #include <linux/futex.h>
@@ -11,13 +13,14 @@ namespace tandem::shm {
 
 // Not the _PRIVATE operations: the word is shared between processes.
 
-void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline) {
-    const std::uint64_t now = now_ns();
-    if (now >= deadline) return;
-    timespec left{};
-    left.tv_sec = static_cast<time_t>((deadline - now) / 1'000'000'000ULL);
-    left.tv_nsec = static_cast<long>((deadline - now) % 1'000'000'000ULL);
-    syscall(SYS_futex, &word, FUTEX_WAIT, expected, &left, nullptr, 0);
+bool futex_wait_timed(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t longest_ns) {
+    const timespec longest{static_cast<time_t>(longest_ns / 1'000'000'000ULL),
+                           static_cast<long>(longest_ns % 1'000'000'000ULL)};
+    return syscall(SYS_futex, &word, FUTEX_WAIT, expected, &longest, nullptr, 0) == 0 || errno != ETIMEDOUT;
+}
+
+void futex_wait_forever(std::atomic<std::uint32_t>& word, std::uint32_t expected) {
+    syscall(SYS_futex, &word, FUTEX_WAIT, expected, nullptr, nullptr, 0);
 }
 
 namespace {
@@ -30,7 +33,19 @@ std::uint64_t coarse_now() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
+bool wait_bounded(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline,
+                  std::uint64_t left) {
+    if (left >= SleepAlarm::shortest_ns && SleepAlarm::of_process().sleep(word, expected, deadline))
+        return true;
+    return futex_wait_timed(word, expected, left);
+}
+
 } // namespace
+
+void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline) {
+    const std::uint64_t now = now_ns();
+    if (now < deadline) wait_bounded(word, expected, deadline, deadline - now);
+}
 
 BoundedSleep::BoundedSleep(std::chrono::nanoseconds bound)
     : bound_ns_(static_cast<std::uint64_t>(std::clamp(bound, {}, longest_wait).count())),
@@ -41,9 +56,7 @@ bool BoundedSleep::on(std::atomic<std::uint32_t>& word, std::uint32_t expected) 
     if (!first_) left -= std::min(left, coarse_now() - started_ns_);
     first_ = false;
     if (left == 0) return false;
-    const timespec relative{static_cast<time_t>(left / 1'000'000'000ULL),
-                            static_cast<long>(left % 1'000'000'000ULL)};
-    return syscall(SYS_futex, &word, FUTEX_WAIT, expected, &relative, nullptr, 0) == 0 || errno != ETIMEDOUT;
+    return wait_bounded(word, expected, started_ns_ + bound_ns_, left);
 }
 
 void futex_wake(std::atomic<std::uint32_t>& word, int sleepers) {

@@ -5,8 +5,13 @@
 
 namespace tandem::shm {
 
-/// Sleeps while `word` holds `expected`, until woken or now_ns() reaches `deadline`. May return early.
+/// Sleeps while `word` holds `expected`, until woken or now_ns() reaches `deadline`. May return early. A long
+/// sleep sets no timer (sleep_alarm.hpp).
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
+
+/// The bare system calls. False: `longest_ns` passed.
+bool futex_wait_timed(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t longest_ns);
+void futex_wait_forever(std::atomic<std::uint32_t>& word, std::uint32_t expected);
 void futex_wake(std::atomic<std::uint32_t>& word, int sleepers);
 
 /// How to wait: spin polls only, futex sleeps at once, spin_then_futex polls for `spin` and then sleeps.
@@ -19,7 +24,7 @@ struct WaitOptions {
 };
 
 /// Sleeps of one wait, which take no longer than `bound` together (give or take a tick of the coarse clock).
-/// The clock is read for a second sleep only: the first one ends by the kernel's.
+/// The exact clock is never read: a sleep ends by itself, and a second one starts from the coarse clock.
 class BoundedSleep {
   public:
     explicit BoundedSleep(std::chrono::nanoseconds bound);
