@@ -4,20 +4,83 @@
 
 namespace RTC {
 
-OpenRTM::PortStatus InPortCdrServant::put(const OpenRTM::CdrData& data) {
+namespace {
+
+OpenRTM::PortStatus take(DataInlet& inlet, bool little_endian, const _CORBA_Unbounded_Sequence_Octet& data) {
     ByteData bytes;
-    bytes.isLittleEndian(little_endian_);
+    bytes.isLittleEndian(little_endian);
     bytes.writeData(data.get_buffer(), data.length());
-    return to_wire(inlet_->receive(bytes));
+    return to_wire(inlet.receive(bytes));
 }
 
-OpenRTM::PortStatus OutPortCdrServant::get(OpenRTM::CdrData_out data) {
+template <class Data>
+OpenRTM::PortStatus give(DataOutlet& outlet, Data*& data) {
     ByteData bytes;
-    const DataPortStatus status = outlet_->fetch(bytes);
-    data = new OpenRTM::CdrData;
+    const DataPortStatus status = outlet.fetch(bytes);
+    data = new Data;
     data->length(static_cast<CORBA::ULong>(bytes.getDataLength()));
     bytes.readData(data->get_buffer(), bytes.getDataLength());
     return to_wire(status);
+}
+
+class InPortCdrServant : public POA_OpenRTM::InPortCdr {
+  public:
+    InPortCdrServant(std::shared_ptr<DataInlet> inlet, bool little_endian)
+        : inlet_(std::move(inlet)), little_endian_(little_endian) {}
+    OpenRTM::PortStatus put(const OpenRTM::CdrData& data) override {
+        return take(*inlet_, little_endian_, data);
+    }
+
+  private:
+    std::shared_ptr<DataInlet> inlet_;
+    bool little_endian_;
+};
+
+class DataPushServant : public POA_RTC::DataPushService {
+  public:
+    DataPushServant(std::shared_ptr<DataInlet> inlet, bool little_endian)
+        : inlet_(std::move(inlet)), little_endian_(little_endian) {}
+    RTC::PortStatus push(const RTC::OctetSeq& data) override {
+        return static_cast<RTC::PortStatus>(take(*inlet_, little_endian_, data));
+    }
+
+  private:
+    std::shared_ptr<DataInlet> inlet_;
+    bool little_endian_;
+};
+
+class OutPortCdrServant : public POA_OpenRTM::OutPortCdr {
+  public:
+    explicit OutPortCdrServant(std::shared_ptr<DataOutlet> outlet) : outlet_(std::move(outlet)) {}
+    OpenRTM::PortStatus get(OpenRTM::CdrData_out data) override { return give(*outlet_, data.ptr()); }
+
+  private:
+    std::shared_ptr<DataOutlet> outlet_;
+};
+
+class DataPullServant : public POA_RTC::DataPullService {
+  public:
+    explicit DataPullServant(std::shared_ptr<DataOutlet> outlet) : outlet_(std::move(outlet)) {}
+    RTC::PortStatus pull(RTC::OctetSeq_out data) override {
+        return static_cast<RTC::PortStatus>(give(*outlet_, data.ptr()));
+    }
+
+  private:
+    std::shared_ptr<DataOutlet> outlet_;
+};
+
+} // namespace
+
+PortableServer::ServantBase* make_servant(const std::string& interface_type, std::shared_ptr<DataInlet> inlet,
+                                          bool little_endian) {
+    if (interface_type == "data_service") return new DataPushServant(std::move(inlet), little_endian);
+    return new InPortCdrServant(std::move(inlet), little_endian);
+}
+
+PortableServer::ServantBase* make_servant(const std::string& interface_type,
+                                          std::shared_ptr<DataOutlet> outlet) {
+    if (interface_type == "data_service") return new DataPullServant(std::move(outlet));
+    return new OutPortCdrServant(std::move(outlet));
 }
 
 ServantHolder::ServantHolder(PortableServer::ServantBase* servant) : poa_(Manager::instance().getPOA()) {

@@ -1,34 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The remote ends of data connectors: interface type corba_cdr.
+// The ends of data connectors that peers in other processes call: corba_cdr and data_service.
 #pragma once
 #include "inlet.hpp"
 #include "outlet.hpp"
 #include <memory>
+#include <rtm/idl/DataPortSkel.h>
 #include <rtm/idl/DataPort_OpenRTMSkel.h>
 
 namespace RTC {
 
-/// Lets peers in other processes put messages into an inlet.
-class InPortCdrServant : public POA_OpenRTM::InPortCdr {
-  public:
-    InPortCdrServant(std::shared_ptr<DataInlet> inlet, bool little_endian)
-        : inlet_(std::move(inlet)), little_endian_(little_endian) {}
-    OpenRTM::PortStatus put(const OpenRTM::CdrData& data) override;
-
-  private:
-    std::shared_ptr<DataInlet> inlet_;
-    bool little_endian_;
-};
-
-/// Lets peers in other processes fetch messages from an outlet.
-class OutPortCdrServant : public POA_OpenRTM::OutPortCdr {
-  public:
-    explicit OutPortCdrServant(std::shared_ptr<DataOutlet> outlet) : outlet_(std::move(outlet)) {}
-    OpenRTM::PortStatus get(OpenRTM::CdrData_out data) override;
-
-  private:
-    std::shared_ptr<DataOutlet> outlet_;
-};
+/// What lets peers in other processes put messages into an inlet, or fetch them from an outlet. `interface_type`:
+/// corba_cdr or data_service.
+PortableServer::ServantBase* make_servant(const std::string& interface_type, std::shared_ptr<DataInlet> inlet,
+                                          bool little_endian);
+PortableServer::ServantBase* make_servant(const std::string& interface_type, std::shared_ptr<DataOutlet> outlet);
 
 /// Activates a servant in the root POA for as long as it lives; the servant is deleted with its last call.
 class ServantHolder {

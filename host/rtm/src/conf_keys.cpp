@@ -28,6 +28,7 @@ const std::vector<ConfKey>& conf_keys() {
         {"manager.shutdown_auto", K::yes_no, true},
         {"manager.auto_shutdown_duration", K::seconds, true},
         {"manager.termination_waittime", K::seconds, false},
+        {"manager.peer_check_interval", K::seconds, true},
         {"manager.cpu_affinity", K::processors, true},
         {"manager.command", K::text, false},
         {"manager.nameservers", K::text, false},

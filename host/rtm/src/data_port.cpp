@@ -24,6 +24,28 @@ ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Proper
     return ConnectorInfo(profile.name, profile.connector_id, ports, properties);
 }
 
+namespace {
+
+std::string byte_order(const coil::Properties& connector_properties) {
+    const std::string orders = coil::normalize(connector_properties.getProperty("serializer.cdr.endian"));
+    return orders.substr(0, orders.find(','));
+}
+
+} // namespace
+
+bool little_endian(const coil::Properties& connector_properties) {
+    return byte_order(connector_properties) != "big";
+}
+
+std::string unsupported(const coil::Properties& connector_properties) {
+    const std::string flow = coil::normalize(connector_properties.getProperty("dataflow_type", "push"));
+    if (flow != "push" && flow != "pull") return "dataflow_type is " + flow + ", expected push or pull";
+    const std::string order = byte_order(connector_properties);
+    if (!order.empty() && order != "big" && order != "little")
+        return "serializer.cdr.endian is " + order + ", expected little or big";
+    return "";
+}
+
 CORBA::Object_ptr published_object(const ConnectorProfile& profile, const std::string& key) {
     const CORBA::Long index = NVUtil::find_index(profile.properties, (key + "_ref").c_str());
     CORBA::Object_var object;

@@ -13,6 +13,11 @@ coil::Properties connector_properties(const coil::Properties& port, const Connec
 
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);
 
+/// The first byte order that `serializer.cdr.endian` names (little, big; a list); little when it names none.
+bool little_endian(const coil::Properties& connector_properties);
+/// Why a connection with these properties cannot be made; empty when it can.
+std::string unsupported(const coil::Properties& connector_properties);
+
 /// A reference published as an object or as an IOR under `<key>_ref` and `<key>_ior`; nil when there is none.
 CORBA::Object_ptr published_object(const ConnectorProfile& profile, const std::string& key);
 void publish_object(ConnectorProfile& profile, const std::string& key, CORBA::Object_ptr object,

@@ -13,7 +13,7 @@ InPortBase::InPortBase(const char* name, const char* data_type)
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "Any");
     addProperty("dataport.dataflow_type", "push, pull");
-    addProperty("dataport.interface_type", "corba_cdr, direct");
+    addProperty("dataport.interface_type", "corba_cdr, data_service, direct");
 }
 
 InPortBase::~InPortBase() {
@@ -35,12 +35,10 @@ ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
     const coil::Properties prop = connector_properties(m_properties, profile, "inport");
+    const std::string why = unsupported(prop);
+    if (!why.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + why);
     const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
-    if (flow == "pull") return RTC_OK;
-    if (flow != "push")
-        return refuse(BAD_PARAMETER,
-                      std::string(getName()) + ": dataflow_type is " + flow + ", expected push or pull");
-    return addPushConnector(profile, prop);
+    return flow == "pull" ? RTC_OK : addPushConnector(profile, prop);
 }
 
 ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil::Properties& prop) {
@@ -56,7 +54,7 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     }
     if (own || info.properties.findNode("buffer") != nullptr) buffer->init(info.properties.getNode("buffer"));
     auto* connector = new InPortPushConnector(*this, info, buffer, own);
-    publish_object(profile, "dataport.corba_cdr.inport", connector->servant().reference(),
+    publish_object(profile, "dataport." + wire_interface(prop) + ".inport", connector->servant().reference(),
                    connector->servant().ior());
     addConnector(connector);
     return RTC_OK;
@@ -77,12 +75,11 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
         addConnector(new InPortPullConnector(*this, info, outlet));
         return RTC_OK;
     }
-    CORBA::Object_var object = published_object(profile, "dataport.corba_cdr.outport");
-    OpenRTM::OutPortCdr_var remote = OpenRTM::OutPortCdr::_unchecked_narrow(object.in());
-    if (CORBA::is_nil(remote.in()))
-        return refuse(RTC_ERROR,
-                      std::string(getName()) + ": the other side offers no corba_cdr reference to pull from");
-    addConnector(new InPortPullConnector(*this, info, remote.in()));
+    auto remote = RemoteSender::find(profile, wire_interface(prop));
+    if (remote == nullptr)
+        return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
+                                     wire_interface(prop) + " reference to pull from");
+    addConnector(new InPortPullConnector(*this, info, std::move(remote)));
     return RTC_OK;
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "in_port_connectors.hpp"
+#include "data_port.hpp"
+#include "remote_push.hpp"
 #include <rtm/InPortBase.h>
 
 namespace RTC {
@@ -8,7 +10,9 @@ InPortConnector::InPortConnector(ConnectorInfo& info, ConnectorListenersBase* li
                                  CdrBufferBase* buffer)
     : m_profile(info), m_listeners(listeners), m_buffer(buffer),
       m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
-      m_timestamp(timestampPolicy(info.properties)) {}
+      m_timestamp(timestampPolicy(info.properties)) {
+    m_littleEndian = little_endian(info.properties);
+}
 
 InPortConnector::~InPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
 
@@ -55,8 +59,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
                                          bool own)
     : InPortConnector(info, port.getListeners(), buffer), own_(own),
       inlet_(std::make_shared<DataInlet>(port, info, *buffer)),
-      servant_(new InPortCdrServant(
-          inlet_, info.properties.getProperty("serializer.cdr.endian", "little").compare(0, 3, "big") != 0)) {
+      servant_(make_servant(wire_interface(info.properties), inlet_, m_littleEndian)) {
     m_inPlace = inlet_->inPlace();
 }
 
@@ -79,8 +82,9 @@ InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
     : InPortConnector(info, port.getListeners(), &local->buffer()), local_(std::move(local)) {}
 
 InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
-                                         OpenRTM::OutPortCdr_ptr remote)
-    : InPortConnector(info, port.getListeners(), &unused_), remote_(OpenRTM::OutPortCdr::_duplicate(remote)) {
+                                         std::unique_ptr<RemoteSender> remote)
+    : InPortConnector(info, port.getListeners(), &unused_), remote_(std::move(remote)) {
+    remote_->setTimeout(static_cast<unsigned long>(RemotePush::bounds(info.properties).writer.count()));
 }
 
 DataPortStatus InPortPullConnector::read(ByteData& bytes) {
@@ -91,15 +95,23 @@ DataPortStatus InPortPullConnector::read(ByteData& bytes) {
 }
 
 DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
-    try {
-        OpenRTM::CdrData_var data;
-        const DataPortStatus status = from_wire(remote_->get(data.out()));
-        bytes.isLittleEndian(m_littleEndian);
-        bytes.writeData(data->get_buffer(), data->length());
-        return status == DataPortStatus::RECV_EMPTY ? DataPortStatus::BUFFER_EMPTY : status;
-    } catch (const CORBA::SystemException&) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now < retry_) return DataPortStatus::RECV_TIMEOUT;
+    bytes.isLittleEndian(m_littleEndian);
+    const DataPortStatus status = remote_->get(bytes);
+    switch (status) {
+    case DataPortStatus::PORT_OK:
+        return status;
+    case DataPortStatus::RECV_EMPTY:
+        m_listeners->notify(ConnectorListenerType::ON_SENDER_EMPTY, m_profile);
+        return DataPortStatus::BUFFER_EMPTY;
+    case DataPortStatus::RECV_TIMEOUT:
+        retry_ = now + std::chrono::seconds(2);
+        m_listeners->notify(ConnectorListenerType::ON_SENDER_TIMEOUT, m_profile);
+        return status;
+    default:
         m_listeners->notify(ConnectorListenerType::ON_SENDER_ERROR, m_profile);
-        return DataPortStatus::CONNECTION_LOST;
+        return status;
     }
 }
 

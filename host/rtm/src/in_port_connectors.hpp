@@ -2,6 +2,8 @@
 // The two kinds of receiving ends.
 #pragma once
 #include "cdr_servants.hpp"
+#include "remote_data.hpp"
+#include <chrono>
 #include <rtm/InPortConnector.h>
 
 namespace RTC {
@@ -23,11 +25,11 @@ class InPortPushConnector : public InPortConnector {
     ServantHolder servant_;
 };
 
-/// This end fetches: from an outlet of this process or by corba_cdr.
+/// This end fetches: from an outlet of this process or by CORBA.
 class InPortPullConnector : public InPortConnector {
   public:
     InPortPullConnector(InPortBase& port, ConnectorInfo& info, std::shared_ptr<DataOutlet> local);
-    InPortPullConnector(InPortBase& port, ConnectorInfo& info, OpenRTM::OutPortCdr_ptr remote);
+    InPortPullConnector(InPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteSender> remote);
     using InPortConnector::read;
     DataPortStatus read(ByteData& bytes) override;
     DataPortStatus disconnect() override { return DataPortStatus::PORT_OK; }
@@ -36,7 +38,8 @@ class InPortPullConnector : public InPortConnector {
     DataPortStatus fetch(ByteData& bytes);
 
     std::shared_ptr<DataOutlet> local_;
-    OpenRTM::OutPortCdr_var remote_;
+    std::unique_ptr<RemoteSender> remote_;
+    std::chrono::steady_clock::time_point retry_{}; // a sender that did not answer is left alone until then
     CdrRingBuffer unused_;
 };
 

@@ -77,6 +77,7 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,
                                             coil::Destructor<CdrBufferBase, CdrRingBuffer>);
     the_manager = manager.release();
+    start_keeper(*the_manager, *the_manager->m_impl);
     publish_manager(*the_manager, *the_manager->m_impl);
     return *the_manager;
 }

@@ -176,6 +176,13 @@ std::vector<RTObject_impl*> Manager::getComponents() {
     return all;
 }
 
+std::vector<RTObject_var> Manager::Impl::references() const {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    std::vector<RTObject_var> all;
+    for (const auto& component : components) all.emplace_back(component.object->getObjRef());
+    return all;
+}
+
 void Manager::deleteComponent(RTObject_impl* comp) {
     if (comp->exit() == RTC_OK) cleanupComponents();
 }

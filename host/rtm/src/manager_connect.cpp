@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // preconnect, preactivation, and stepping.
+#include "local_object.hpp"
 #include "manager_impl.hpp"
+#include "remote_names.hpp"
+#include <rtm/CORBA_RTCUtil.h>
 #include <rtm/RTObject.h>
 
 namespace RTC {
 namespace {
 
-struct ConnectionLine {
-    std::vector<std::string> ports;
-    coil::Properties properties;
-};
-
 bool names_port(const std::string& key) { // port, port1, port2 ...
     return key.compare(0, 4, "port") == 0 && key.find_first_not_of("0123456789", 4) == std::string::npos;
 }
+
+} // namespace
 
 // `A.p?port=B.q&key=value...`, or as 1.x has it `A.p:B.q(key=value&...)`.
 ConnectionLine parse_connection(const std::string& line) {
@@ -49,6 +49,8 @@ ConnectionLine parse_connection(const std::string& line) {
     return parsed;
 }
 
+namespace {
+
 std::string names_of(const std::vector<RTObject_impl*>& components) {
     coil::vstring names;
     for (auto* component : components) names.push_back(component->getInstanceName());
@@ -78,22 +80,72 @@ PortBase& port_of(Manager& manager, const std::string& name) {
                        " (it has: " + (present.empty() ? "none" : coil::flatten(present)) + ")");
 }
 
+// rtcname://localhost/ctx/Name0.port -> {rtcname://localhost/ctx/Name0, Name0.port's last part}
+std::pair<std::string, std::string> split_port_name(const std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos || dot < name.rfind('/') + 1)
+        throw ManagerError("`" + name + "` is no port; expected rtcname://HOST:PORT/PATH/Component.port");
+    return {name.substr(0, dot), name.substr(dot + 1)};
+}
+
+std::vector<std::string> name_servers(Manager& manager) {
+    return manager.impl().naming ? manager.impl().naming->servers() : std::vector<std::string>();
+}
+
 } // namespace
 
-void Manager::connectOrThrow(const std::string& line) {
-    const ConnectionLine wanted = parse_connection(line);
-    PortBase& first = port_of(*this, wanted.ports[0]);
-    for (std::size_t i = 1; i < wanted.ports.size(); ++i) {
-        PortBase& other = port_of(*this, wanted.ports[i]);
-        ConnectorProfile profile;
-        profile.name = CORBA::string_dup((wanted.ports[0] + "-" + wanted.ports[i]).c_str());
-        profile.ports.length(2);
-        profile.ports[0] = first.getPortRef();
-        profile.ports[1] = other.getPortRef();
-        NVUtil::copyFromProperties(profile.properties, wanted.properties);
-        if (first.connect(profile) != RTC_OK)
-            throw ManagerError(wanted.ports[0] + " and " + wanted.ports[i] +
-                               " cannot be connected: " + first.connectError());
+bool is_remote(const std::string& port_name) { return port_name.find("://") != std::string::npos; }
+
+PortService_ptr find_port(Manager& manager, const std::string& port_name) {
+    if (!is_remote(port_name)) return port_of(manager, port_name).getPortRef();
+    const auto [component_name, port] = split_port_name(port_name);
+    RTObject_var component = find_component(manager.theORB(), component_name, name_servers(manager));
+    try {
+        PortService_var found = CORBA_RTCUtil::get_port_by_name(component.in(), port);
+        if (!CORBA::is_nil(found.in())) return found._retn();
+        throw NotThere(component_name + " has no port " + port + " (it has: " +
+                       coil::flatten(CORBA_RTCUtil::get_port_names(component.in())) + ")");
+    } catch (const CORBA::SystemException& e) {
+        throw NotThere(port_name + ": " + meaning(e));
+    }
+}
+
+std::string connect_ports(const ConnectionLine& line, std::size_t other, PortService_ptr first,
+                          PortService_ptr second) {
+    const std::string names = line.ports[0] + " and " + line.ports[other];
+    ConnectorProfile profile;
+    profile.name = CORBA::string_dup((line.ports[0] + "-" + line.ports[other]).c_str());
+    profile.ports.length(2);
+    profile.ports[0] = PortService::_duplicate(first);
+    profile.ports[1] = PortService::_duplicate(second);
+    NVUtil::copyFromProperties(profile.properties, line.properties);
+    try {
+        // A port of ours says why it refuses; it may as well be the second.
+        auto* here = local_object<PortBase>(is_remote(line.ports[0]) ? second : first);
+        const ReturnCode_t result = here ? here->connect(profile) : first->connect(profile);
+        if (result == RTC_OK) return static_cast<const char*>(profile.connector_id);
+        throw ManagerError(names + " cannot be connected: " +
+                           (here ? here->connectError() : "the first refuses, with code " +
+                                                              std::to_string(static_cast<int>(result))));
+    } catch (const CORBA::SystemException& e) {
+        throw NotThere(names + " cannot be connected: " + meaning(e));
+    }
+}
+
+void Manager::connectOrThrow(const std::string& text) {
+    const ConnectionLine line = parse_connection(text);
+    Logger& rtclog = m_impl->log;
+    for (std::size_t other = 1; other < line.ports.size(); ++other) {
+        const bool kept = is_remote(line.ports[0]) || is_remote(line.ports[other]);
+        try {
+            PortService_var first = find_port(*this, line.ports[0]);
+            PortService_var second = find_port(*this, line.ports[other]);
+            const std::string id = connect_ports(line, other, first.in(), second.in());
+            if (kept) m_impl->connections->keep(line, other, id, "");
+        } catch (const NotThere& e) {
+            RTC_WARN(("%s; connected when it comes", e.what()));
+            m_impl->connections->keep(line, other, "", e.what());
+        }
     }
 }
 

@@ -45,6 +45,16 @@ PortableServer::POA_ptr make_shortcut_poa(PortableServer::POA_ptr root,
     return root->create_POA("shortcut", manager, policies);
 }
 
+coil::vstring manager_names(const Manager::Impl& impl) {
+    coil::Properties self;
+    self.setProperty("instance_name", impl.config.getProperty("manager.instance_name"));
+    coil::vstring names;
+    const std::string formats = impl.config.getProperty("manager.naming_formats", "%h.host_cxt/%n.mgr");
+    for (const auto& format : coil::split(formats, ",", true))
+        names.push_back(format_name(format, self, impl.config));
+    return names;
+}
+
 } // namespace
 
 void start_orb(Manager::Impl& impl) {
@@ -82,11 +92,34 @@ void publish_manager(Manager& manager, Manager::Impl& impl) {
     if (!impl.naming) return;
     CORBA::Object_var reference = poa->id_to_reference(id.in());
     Logger& rtclog = impl.log;
-    coil::Properties self;
-    self.setProperty("instance_name", impl.config.getProperty("manager.instance_name"));
-    const std::string formats = impl.config.getProperty("manager.naming_formats", "%h.host_cxt/%n.mgr");
-    for (const auto& refusal : impl.naming->bind(format_name(formats, self, impl.config), reference.in()))
-        RTC_WARN(("%s", refusal.c_str()));
+    for (const auto& name : manager_names(impl))
+        for (const auto& refusal : impl.naming->bind(name, reference.in())) RTC_WARN(("%s", refusal.c_str()));
+}
+
+void withdraw_manager(Manager::Impl& impl) {
+    if (!impl.naming) return;
+    for (const auto& name : manager_names(impl)) impl.naming->unbind(name);
+}
+
+void start_keeper(Manager& manager, Manager::Impl& impl) {
+    auto seconds = [&](const char* key, double usual) {
+        double value = usual;
+        if (!coil::stringTo(value, impl.config.getProperty(key).c_str()) || !(value > 0)) value = usual;
+        return std::chrono::nanoseconds(static_cast<std::int64_t>(value * 1e9));
+    };
+    impl.connections =
+        std::make_unique<ConnectionKeeper>(manager, seconds("manager.peer_check_interval", 2));
+    auto yes = [&](const char* key, bool usual) {
+        return coil::toBool(impl.config.getProperty(key), "YES", "NO", usual);
+    };
+    if (!impl.naming || !yes("naming.update.enable", true)) return;
+    const bool rebind = yes("naming.update.rebind", false);
+    impl.connections->also(
+        [&impl, rebind] {
+            Logger& rtclog = impl.log;
+            for (const auto& line : impl.naming->update(rebind)) RTC_WARN(("%s", line.c_str()));
+        },
+        seconds("naming.update.interval", 10));
 }
 
 CORBA::ORB_ptr Manager::theORB() { return m_impl->orb.in(); }

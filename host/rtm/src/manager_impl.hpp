@@ -2,6 +2,7 @@
 // The manager's state. Internal to host/rtm.
 #pragma once
 #include "conf_file.hpp"
+#include "connection_keeper.hpp"
 #include "host/plugin/library.hpp"
 #include "manager_options.hpp"
 #include "naming.hpp"
@@ -22,6 +23,7 @@ struct Manager::Impl {
     PortableServer::POA_var poa, shortcut_poa;
     PortableServer::POAManager_var poa_manager;
     std::unique_ptr<Naming> naming; // NULL: off
+    std::unique_ptr<ConnectionKeeper> connections;
 
     struct Module {
         std::string name;
@@ -51,14 +53,18 @@ struct Manager::Impl {
     FactoryBase* find_factory(const coil::Properties& id);
     std::vector<std::filesystem::path> module_dirs() const;
     void run_due_tasks();
+    std::vector<RTObject_var> references() const; ///< to the components, which may leave meanwhile
 };
 
 /// Command line and rtc.conf into properties. Throws ManagerError.
 void read_configuration(Manager::Impl& impl, int argc, char** argv);
 /// Throws ManagerError when the ORB cannot start, for an endpoint that is taken, say.
 void start_orb(Manager::Impl& impl);
+/// Begins to look after connections with other processes, and after the names in name servers.
+void start_keeper(Manager& manager, Manager::Impl& impl);
 /// Makes the manager reachable as corbaloc:...:PORT/manager, and in the name servers.
 void publish_manager(Manager& manager, Manager::Impl& impl);
+void withdraw_manager(Manager::Impl& impl);
 
 /// `Name`, `Name?a=1&b=2`, `RTC:vendor:category:Name:language:version`. Throws ManagerError.
 struct ComponentArguments {

@@ -58,6 +58,8 @@ bool Manager::shutdown() {
         m_impl->shut_down = true;
     }
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.preShutdown(); });
+    m_impl->connections->stop(); // nothing is restored that is taken down now
+    withdraw_manager(*m_impl);
     auto components = getComponents();
     std::reverse(components.begin(), components.end());
     bool all_ended = stopComponents(components);

@@ -7,20 +7,40 @@
 
 namespace RTC {
 
-/// The entries of this process in CORBA name servers. [any-thread]
+/// The entries of this process in CORBA name servers. A server that is away holds nobody up: what it missed is
+/// made up for by update(), when it is there again. [any-thread]
 class Naming {
   public:
     /// `host` or `host:port` each.
-    Naming(CORBA::ORB_ptr orb, std::vector<std::string> servers);
+    Naming(CORBA::ORB_ptr orb, const std::vector<std::string>& servers);
 
     /// Binds in every server, making the contexts on the way (`host.host_cxt/Name0.rtc`). Returns one line
     /// for each server that does not take it.
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
+    /// Removes the entry where it is still ours.
     void unbind(const std::string& path);
+    /// All entries again in servers that were away, or have forgotten everything; with `rebind` wherever one is
+    /// missing. Returns one line for each server that has come or gone.
+    std::vector<std::string> update(bool rebind);
+    std::vector<std::string> servers() const;
 
   private:
+    struct Entry {
+        std::string path;
+        CORBA::Object_var object;
+    };
+    struct Server {
+        std::string address;
+        bool there = true;
+    };
+    std::vector<Entry> entries() const;
+    void set_there(const std::string& address, bool there);
+    std::string update(const Server& server, bool rebind);
+
     CORBA::ORB_var orb_;
-    std::vector<std::string> servers_;
+    mutable std::mutex mutex_; // guards what follows; not held during calls
+    std::vector<Server> servers_;
+    std::vector<Entry> entries_;
 };
 
 } // namespace RTC

@@ -12,7 +12,7 @@ OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(nam
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "flush, new, periodic");
     addProperty("dataport.dataflow_type", "push, pull");
-    addProperty("dataport.interface_type", "corba_cdr, direct");
+    addProperty("dataport.interface_type", "corba_cdr, data_service, direct");
 }
 
 OutPortBase::~OutPortBase() {
@@ -32,6 +32,8 @@ ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
     const coil::Properties prop = connector_properties(m_properties, profile, "outport");
+    const std::string why = unsupported(prop);
+    if (!why.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + why);
     const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
     return flow == "pull" ? addPullConnector(profile, prop) : RTC_OK;
 }
@@ -39,7 +41,7 @@ ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
 ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
     auto* connector = new OutPortPullConnector(*this, info);
-    publish_object(profile, "dataport.corba_cdr.outport", connector->servant().reference(),
+    publish_object(profile, "dataport." + wire_interface(prop) + ".outport", connector->servant().reference(),
                    connector->servant().ior());
     addConnector(connector);
     return RTC_OK;
@@ -62,12 +64,11 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
         local = true;
     }
     if (local || profile.ports.length() < 2) return RTC_OK;
-    CORBA::Object_var object = published_object(profile, "dataport.corba_cdr.inport");
-    OpenRTM::InPortCdr_var remote = OpenRTM::InPortCdr::_unchecked_narrow(object.in());
-    if (CORBA::is_nil(remote.in()))
-        return refuse(RTC_ERROR,
-                      std::string(getName()) + ": the other side offers no corba_cdr reference to push to");
-    addConnector(new OutPortPushConnector(*this, info, remote.in()));
+    auto remote = RemoteReceiver::find(profile, wire_interface(prop));
+    if (remote == nullptr)
+        return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
+                                     wire_interface(prop) + " reference to push to");
+    addConnector(new OutPortPushConnector(*this, info, std::move(remote)));
     return RTC_OK;
 }
 
@@ -104,14 +105,7 @@ std::shared_ptr<DataOutlet> OutPortBase::outlet(const char* connector_id) {
 }
 
 void OutPortBase::dropLost(const std::vector<std::string>& connector_ids) {
-    for (const auto& id : connector_ids) {
-        RTC_WARN(("%s: the receiver of connection %s is gone", getName(), id.c_str()));
-        if (m_onConnectionLost != nullptr) {
-            ConnectorProfile profile = findConnProfile(id.c_str());
-            (*m_onConnectionLost)(profile);
-        }
-        disconnect(id.c_str());
-    }
+    for (const auto& id : connector_ids) forget(id.c_str());
 }
 
 void OutPortBase::activateInterfaces() {}

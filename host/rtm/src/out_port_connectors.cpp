@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "out_port_connectors.hpp"
+#include "data_port.hpp"
 #include <rtm/OutPortBase.h>
 
 namespace RTC {
 
 OutPortConnector::OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners)
     : m_profile(info),
-      m_littleEndian(info.properties.getProperty("serializer.cdr.endian", "little").compare(0, 3, "big") !=
-                     0),
+      m_littleEndian(little_endian(info.properties)),
       m_listeners(listeners), m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
       m_timestamp(timestampPolicy(info.properties)) {}
 
@@ -37,9 +37,12 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
 }
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
-                                           OpenRTM::InPortCdr_ptr remote)
-    : OutPortConnector(info, port.getListeners()), remote_(OpenRTM::InPortCdr::_duplicate(remote)),
-      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {}
+                                           std::unique_ptr<RemoteReceiver> remote)
+    : OutPortConnector(info, port.getListeners()), receiver_(std::move(remote)),
+      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {
+    if (!publisher_)
+        remote_ = std::make_unique<RemotePush>(std::move(receiver_), RemotePush::bounds(info.properties));
+}
 
 OutPortPushConnector::~OutPortPushConnector() { disconnect(); }
 
@@ -56,7 +59,9 @@ DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
 DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
-    const DataPortStatus status = local_ ? local_->receive(bytes) : put(bytes);
+    const DataPortStatus status = local_    ? local_->receive(bytes)
+                                  : remote_ ? remote_->write(bytes)
+                                            : receiver_->put(bytes);
     switch (status) {
     case DataPortStatus::PORT_OK:
         m_listeners->notify(Type::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
@@ -79,19 +84,10 @@ bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& 
     return !m_listeners->toData() && local_->receiveInPlace(marshal, status);
 }
 
-DataPortStatus OutPortPushConnector::put(ByteData& bytes) {
-    const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
-    try {
-        return from_wire(remote_->put(OpenRTM::CdrData(length, length, bytes.getBuffer(), false)));
-    } catch (const CORBA::SystemException&) {
-        return DataPortStatus::CONNECTION_LOST;
-    }
-}
-
 OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)
     : OutPortConnector(info, port.getListeners()),
       outlet_(std::make_shared<DataOutlet>(*port.getListeners(), info)),
-      servant_(new OutPortCdrServant(outlet_)) {}
+      servant_(make_servant(wire_interface(info.properties), outlet_)) {}
 
 OutPortPullConnector::~OutPortPullConnector() { disconnect(); }
 

@@ -3,17 +3,18 @@
 #pragma once
 #include "cdr_servants.hpp"
 #include "publisher.hpp"
+#include "remote_push.hpp"
 #include <rtm/OutPortConnector.h>
 
 namespace RTC {
 class OutPortBase;
 
-/// Pushes to an inlet of this process, or by corba_cdr to another; at once or through a publisher thread,
+/// Pushes to an inlet of this process, or by CORBA to another; at once or through a publisher thread,
 /// as the property subscription_type says (flush, new, periodic).
 class OutPortPushConnector : public OutPortConnector {
   public:
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::shared_ptr<DataInlet> local);
-    OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, OpenRTM::InPortCdr_ptr remote);
+    OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteReceiver> remote);
     ~OutPortPushConnector() override;
     using OutPortConnector::write;
     DataPortStatus write(ByteData& bytes) override;
@@ -23,10 +24,10 @@ class OutPortPushConnector : public OutPortConnector {
 
   private:
     DataPortStatus deliver(ByteData& bytes);
-    DataPortStatus put(ByteData& bytes);
 
     std::shared_ptr<DataInlet> local_;
-    OpenRTM::InPortCdr_var remote_;
+    std::unique_ptr<RemoteReceiver> receiver_; // a publisher's thread sends: it may wait
+    std::unique_ptr<RemotePush> remote_;       // the writer sends
     std::unique_ptr<Publisher> publisher_;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connection protocol: connect -> notify_connect along the ports of the profile, and back.
 #include "local_object.hpp"
+#include "manager_impl.hpp"
+#include "remote_names.hpp"
 #include <coil/stringutil.h>
 #include <rtm/PortBase.h>
 
@@ -41,6 +43,15 @@ std::string misfit(const PortServiceList& ports) {
     return "";
 }
 
+bool has_remote_port(const ConnectorProfile& profile) {
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
+        if (local_object<PortBase>(profile.ports[i]) == nullptr) return true;
+    return false;
+}
+
+// Who is told of the end of a connection may be the reason for it.
+void bound_calls(PortService_ptr port) { omniORB::setClientCallTimeout(port, 2000); }
+
 } // namespace
 
 ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
@@ -63,7 +74,8 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         disconnect(id.c_str()); // whatever part of it was established
         return refuse(result, reason.empty() ? "the other side has refused the connection" : reason);
     } catch (const CORBA::SystemException& e) {
-        return refuse(RTC_ERROR, std::string("a port of the connection cannot be reached: ") + e._name());
+        release(profile.connector_id);
+        return refuse(RTC_ERROR, "a port of the connection cannot be reached: " + meaning(e));
     }
 }
 
@@ -85,12 +97,22 @@ ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
 
     const ReturnCode_t published = publishInterfaces(profile);
     if (m_onPublishInterfaces != nullptr) (*m_onPublishInterfaces)(profile);
-    const ReturnCode_t passed_on = published == RTC_OK ? connectNext(profile) : published;
+    const ReturnCode_t passed_on = published == RTC_OK ? passOn(profile) : published;
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
     const ReturnCode_t subscribed = passed_on == RTC_OK ? subscribeInterfaces(profile) : passed_on;
     // Kept even when it has failed: the disconnection that follows finds by it what to undo.
     updateConnectorProfile(profile);
+    if (subscribed == RTC_OK && has_remote_port(profile)) Manager::instance().impl().connections->watch();
     return subscribed;
+}
+
+// A peer that dies or hangs in its notify_connect() leaves us with half a connection, which connect() takes back.
+ReturnCode_t PortBase::passOn(ConnectorProfile& profile) {
+    try {
+        return connectNext(profile);
+    } catch (const CORBA::SystemException& e) {
+        return refuse(RTC_ERROR, std::string(getName()) + ": the next port of the connection: " + meaning(e));
+    }
 }
 
 ReturnCode_t PortBase::_publishInterfaces() {
@@ -130,16 +152,20 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     const ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
+    ReturnCode_t result = RTC_ERROR;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         try {
             auto* local = local_object<PortBase>(profile.ports[i]);
-            return local ? local->notify_disconnect(connector_id)
-                         : profile.ports[i]->notify_disconnect(connector_id);
+            if (local == nullptr) bound_calls(profile.ports[i]);
+            result = local ? local->notify_disconnect(connector_id)
+                           : profile.ports[i]->notify_disconnect(connector_id);
+            break;
         } catch (const CORBA::SystemException& e) {
-            RTC_WARN(("disconnecting %s: a peer cannot be reached (%s)", getName(), e._name()));
+            RTC_WARN(("disconnecting %s: a peer: %s", getName(), meaning(e).c_str()));
         }
     }
-    return RTC_ERROR;
+    if (release(connector_id)) result = RTC_OK; // the peers have not passed it on to us
+    return result;
 }
 
 ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
@@ -147,11 +173,27 @@ ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
     const ReturnCode_t result = disconnectNext(profile);
+    release(connector_id);
+    return result;
+}
+
+bool PortBase::release(const char* connector_id) {
+    ConnectorProfile profile = findConnProfile(connector_id);
+    if (profile.ports.length() == 0) return false;
     if (m_onUnsubscribeInterfaces != nullptr) (*m_onUnsubscribeInterfaces)(profile);
     unsubscribeInterfaces(profile);
     if (m_onDisconnected != nullptr) (*m_onDisconnected)(profile);
-    eraseConnectorProfile(connector_id);
-    return result;
+    return eraseConnectorProfile(connector_id);
+}
+
+void PortBase::forget(const char* connector_id) {
+    ConnectorProfile profile = findConnProfile(connector_id);
+    if (profile.ports.length() == 0) return;
+    RTC_WARN(("%s: the other side of connection %s is gone", getName(), connector_id));
+    if (m_onConnectionLost != nullptr) (*m_onConnectionLost)(profile);
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
+        if (auto* local = local_object<PortBase>(profile.ports[i])) local->release(connector_id);
+    Manager::instance().impl().connections->lost(profile);
 }
 
 ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
@@ -161,10 +203,11 @@ ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
     for (CORBA::ULong next = static_cast<CORBA::ULong>(me) + 1; next < profile.ports.length(); ++next) {
         try {
             auto* local = local_object<PortBase>(profile.ports[next]);
+            if (local == nullptr) bound_calls(profile.ports[next]);
             return local ? local->notify_disconnect(profile.connector_id)
                          : profile.ports[next]->notify_disconnect(profile.connector_id);
         } catch (const CORBA::SystemException& e) {
-            RTC_WARN(("disconnecting %s: a peer cannot be reached (%s)", getName(), e._name()));
+            RTC_WARN(("disconnecting %s: a peer: %s", getName(), meaning(e).c_str()));
         }
     }
     return RTC_OK;

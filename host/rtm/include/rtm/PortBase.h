@@ -53,6 +53,8 @@ public:
 
     /// Ours: why the last connect() or notify_connect() was refused; one line, empty when it was not.
     std::string connectError() const;
+    /// Ours: ends a connection whose other side was lost, without asking that side.
+    void forget(const char* connector_id);
     /// Ours: no more calls from outside; called by the component before it dies.
     void retire();
 
@@ -105,6 +107,8 @@ protected:
 
 private:
     ReturnCode_t establish(ConnectorProfile& connector_profile);
+    ReturnCode_t passOn(ConnectorProfile& connector_profile);
+    bool release(const char* connector_id);
     bool alreadyConnectedTo(const ConnectorProfile& connector_profile);
 
     PortableServer::POA_var m_poa;
