@@ -84,7 +84,7 @@ InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
 InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
                                          std::unique_ptr<RemoteSender> remote)
     : InPortConnector(info, port.getListeners(), &unused_), remote_(std::move(remote)) {
-    remote_->setTimeout(static_cast<unsigned long>(RemotePush::bounds(info.properties).writer.count()));
+    remote_->setTimeout(static_cast<unsigned long>(RemotePush::bounds(info.properties).alone.count()));
 }
 
 DataPortStatus InPortPullConnector::read(ByteData& bytes) {

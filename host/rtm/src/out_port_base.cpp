@@ -6,6 +6,14 @@
 #include <rtm/OutPortBase.h>
 
 namespace RTC {
+namespace {
+
+void tell_alone(const std::vector<OutPortConnector*>& connectors) {
+    for (auto* connector : connectors)
+        if (auto* push = dynamic_cast<OutPortPushConnector*>(connector)) push->setAlone(connectors.size() == 1);
+}
+
+} // namespace
 
 OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(name) {
     addProperty("port.port_type", "DataOutPort");
@@ -77,6 +85,7 @@ void OutPortBase::addConnector(OutPortConnector* connector) {
     {
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
         m_connectors.push_back(connector);
+        tell_alone(m_connectors);
     }
     m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
 }
@@ -91,6 +100,7 @@ void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
             leaving.emplace_back(m_connectors[i]);
             m_connectors.erase(m_connectors.begin() + static_cast<std::ptrdiff_t>(i));
         }
+        tell_alone(m_connectors);
     }
     for (auto& connector : leaving) {
         connector->disconnect();

@@ -60,7 +60,7 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
     const DataPortStatus status = local_    ? local_->receive(bytes)
-                                  : remote_ ? remote_->write(bytes)
+                                  : remote_ ? remote_->write(bytes, alone_)
                                             : receiver_->put(bytes);
     switch (status) {
     case DataPortStatus::PORT_OK:

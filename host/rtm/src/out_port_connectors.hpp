@@ -22,6 +22,9 @@ class OutPortPushConnector : public OutPortConnector {
     DataPortStatus disconnect() override;
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
 
+    /// Is it the only connector of its port? Others must not wait for a receiver that hangs.
+    void setAlone(bool alone) { alone_ = alone; }
+
   private:
     DataPortStatus deliver(ByteData& bytes);
 
@@ -29,6 +32,7 @@ class OutPortPushConnector : public OutPortConnector {
     std::unique_ptr<RemoteReceiver> receiver_; // a publisher's thread sends: it may wait
     std::unique_ptr<RemotePush> remote_;       // the writer sends
     std::unique_ptr<Publisher> publisher_;
+    bool alone_ = true;
 };
 
 /// Keeps messages until the other end fetches them.
