@@ -98,7 +98,7 @@ DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
     const auto now = std::chrono::steady_clock::now();
     if (now < retry_) return DataPortStatus::RECV_TIMEOUT;
     bytes.isLittleEndian(m_littleEndian);
-    const DataPortStatus status = remote_->get(bytes);
+    const DataPortStatus status = remote_->get(bytes).value_or(DataPortStatus::RECV_TIMEOUT);
     switch (status) {
     case DataPortStatus::PORT_OK:
         return status;

@@ -61,7 +61,7 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
     const DataPortStatus status = local_    ? local_->receive(bytes)
                                   : remote_ ? remote_->write(bytes, alone_)
-                                            : receiver_->put(bytes);
+                                            : receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
     switch (status) {
     case DataPortStatus::PORT_OK:
         m_listeners->notify(Type::ON_RECEIVED, m_profile, bytes, m_marshaling_type);

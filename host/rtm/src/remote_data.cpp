@@ -7,9 +7,9 @@ namespace RTC {
 namespace {
 
 // What an exception of a call means: no answer, nobody there, or an answer that is no good.
-DataPortStatus after(const CORBA::SystemException& e, DataPortStatus timeout) {
+std::optional<DataPortStatus> after(const CORBA::SystemException& e) {
     const CORBA::Exception* thrown = &e;
-    if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return timeout;
+    if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return std::nullopt;
     if (CORBA::TRANSIENT::_downcast(thrown) != nullptr || CORBA::COMM_FAILURE::_downcast(thrown) != nullptr ||
         CORBA::OBJECT_NOT_EXIST::_downcast(thrown) != nullptr ||
         CORBA::OBJ_ADAPTER::_downcast(thrown) != nullptr || CORBA::INV_OBJREF::_downcast(thrown) != nullptr)
@@ -26,13 +26,13 @@ template <class Interface, class Data>
 class Receiver : public RemoteReceiver {
   public:
     explicit Receiver(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
-    DataPortStatus put(const ByteData& bytes) override {
+    std::optional<DataPortStatus> put(const ByteData& bytes) override {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         try {
             return from_wire(static_cast<OpenRTM::PortStatus>(
                 call_put(object_.in(), Data(length, length, bytes.getBuffer(), false))));
         } catch (const CORBA::SystemException& e) {
-            return after(e, DataPortStatus::SEND_TIMEOUT);
+            return after(e);
         }
     }
     void setTimeout(unsigned long milliseconds) override {
@@ -47,7 +47,7 @@ template <class Interface, class Data>
 class Sender : public RemoteSender {
   public:
     explicit Sender(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
-    DataPortStatus get(ByteData& bytes) override {
+    std::optional<DataPortStatus> get(ByteData& bytes) override {
         try {
             typename Data::_var_type data;
             const DataPortStatus status =
@@ -55,7 +55,7 @@ class Sender : public RemoteSender {
             bytes.writeData(data->get_buffer(), data->length());
             return status;
         } catch (const CORBA::SystemException& e) {
-            return after(e, DataPortStatus::RECV_TIMEOUT);
+            return after(e);
         }
     }
     void setTimeout(unsigned long milliseconds) override {

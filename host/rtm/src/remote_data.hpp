@@ -2,6 +2,7 @@
 // The other end of a data connection when it is in another process, by interface type: corba_cdr, data_service.
 #pragma once
 #include <memory>
+#include <optional>
 #include <rtm/ByteData.h>
 #include <rtm/DataPortStatus.h>
 #include <rtm/RTC.h>
@@ -13,9 +14,9 @@ namespace RTC {
 class RemoteReceiver {
   public:
     virtual ~RemoteReceiver() = default;
-    /// SEND_TIMEOUT: no answer in time, and nobody knows whether the message arrives. CONNECTION_LOST: there is
-    /// no such object any more.
-    virtual DataPortStatus put(const ByteData& bytes) = 0;
+    /// Nothing: no answer in time, and nobody knows whether the message arrives. CONNECTION_LOST: there is no
+    /// such object any more. SEND_TIMEOUT: its buffer was full for too long, as it says itself.
+    virtual std::optional<DataPortStatus> put(const ByteData& bytes) = 0;
     /// Bound of each following call; at first it is the ORB's.
     virtual void setTimeout(unsigned long milliseconds) = 0;
     /// What the profile of a connection offers; NULL when that is nothing for this interface type.
@@ -27,8 +28,8 @@ class RemoteReceiver {
 class RemoteSender {
   public:
     virtual ~RemoteSender() = default;
-    /// RECV_EMPTY: it has none. RECV_TIMEOUT, CONNECTION_LOST as above.
-    virtual DataPortStatus get(ByteData& bytes) = 0;
+    /// RECV_EMPTY: it has none. Nothing, CONNECTION_LOST: as above.
+    virtual std::optional<DataPortStatus> get(ByteData& bytes) = 0;
     virtual void setTimeout(unsigned long milliseconds) = 0;
     static std::unique_ptr<RemoteSender> find(const ConnectorProfile& profile,
                                               const std::string& interface_type);

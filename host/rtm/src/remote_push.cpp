@@ -82,12 +82,12 @@ DataPortStatus RemotePush::write(const ByteData& bytes, bool alone) {
             return lane.add(lock, bytes);
         }
     }
-    const DataPortStatus status = lane.receiver->put(bytes);
-    if (status != DataPortStatus::SEND_TIMEOUT) return status;
+    const auto status = lane.receiver->put(bytes);
+    if (status) return *status;
     lane.set_bound(lane.bounds.thread);
     lane.hangs = true; // no thread is there that could look at it
     lane.threaded.store(true, std::memory_order_release);
-    return status;
+    return DataPortStatus::SEND_TIMEOUT;
 }
 
 DataPortStatus RemotePush::Lane::add(std::unique_lock<std::mutex>& lock, const ByteData& message) {
@@ -116,13 +116,13 @@ void RemotePush::Lane::deliver() {
         if (ending) return;
         ByteData& message = waiting.front(); // stays where it is when others are added
         lock.unlock();
-        const DataPortStatus status = receiver->put(message);
+        const auto status = receiver->put(message);
         lock.lock();
         bytes -= message.getDataLength();
         waiting.pop_front();
         ++answered;
-        last = status;
-        lost = status == DataPortStatus::SEND_TIMEOUT || status == DataPortStatus::CONNECTION_LOST;
+        last = status.value_or(DataPortStatus::CONNECTION_LOST);
+        lost = last == DataPortStatus::CONNECTION_LOST;
         hangs = false;
         if (!lost && waiting.empty() && alone) {
             set_bound(bounds.alone);
