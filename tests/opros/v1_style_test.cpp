@@ -6,6 +6,7 @@
 #include <InputDataPort.h>
 #include <OutputDataPort.h>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <device/ApiTypes.h>
 #include <device/Property.h>
 #include <device/RawImage.h>
@@ -107,4 +108,42 @@ TEST_CASE("data types of v1 have the names that its ports have") {
     const ObjectLocation sum = ObjectLocation(1, 2, 3) + ObjectLocation(1, 1, 1);
     CHECK(sum.x == 2);
     CHECK(sum.theta == 4);
+}
+
+TEST_CASE("a box of v1 knows its corners by either way of giving it and what lies in it") {
+    RectSolid3D box, same;
+    box.setRectSolid(Point3D(1, 2, 3), 2, -4, 6);
+    same.setRectSolid2Corner(Point3D(2, 0, 9), Point3D(0, 4, 3));
+    for (RectSolid3D* each : {&box, &same}) {
+        CHECK(each->includecheck_point(Point3D(0, 0, 3)));
+        CHECK(each->includecheck_point(Point3D(2, 4, 9)));
+        CHECK_FALSE(each->includecheck_point(Point3D(2.1, 4, 9)));
+        CHECK_FALSE(each->includecheck_point(Point3D(1, 2, 2.9)));
+    }
+    double area = 0;
+    const auto triangles = box.get_triangleset();
+    for (const Triangle3D& t : triangles) {
+        CHECK(box.includecheck_triangle(t));
+        Point3D a = t.pos2, b = t.pos3;
+        a - t.pos1;
+        b - t.pos1;
+        area += std::hypot(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x) / 2;
+    }
+    CHECK(triangles.size() == 12);
+    CHECK(area == Approx(2 * (2 * 4 + 2 * 6 + 4 * 6)));
+}
+
+TEST_CASE("shapes of v1 cross a bridge") {
+    Obstacle3D wall;
+    wall.name = "wall";
+    wall.surface.resize(2);
+    wall.surface[1].pos3 = Point3D(1, 2, 3);
+    const Obstacle3D crossed = through_binary(wall);
+    CHECK(crossed.name == "wall");
+    REQUIRE(crossed.surface.size() == 2);
+    CHECK(crossed.surface[1].pos3.y == 2);
+    RectSolid3D box;
+    box.setRectSolid(Point3D(), 2, 2, 2);
+    CHECK(through_binary(box).includecheck_point(Point3D(1, 1, 2)));
+    CHECK(getTypeName<RectSolid3D>() == "RectSolid3D");
 }

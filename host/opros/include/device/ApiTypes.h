@@ -9,6 +9,7 @@
 #include "ApiMembers.h"
 #include "ApiTypesV1.h"
 #include "ApiValues.h"
+#include "GeometryV1.h"
 #include "OprosMath.h"
 
 #include <assert.h>
