@@ -62,6 +62,13 @@ function(tandem_add_opros_component name)
   # when it is linked and not when it is loaded.
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
   target_link_options(${name} PRIVATE -Wl,--no-undefined)
+  # Functions that forget their return go on behind their caller's call, as with the compilers that components were
+  # written with; the optimizer of today would let them run on into whatever code comes next.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT "${CMAKE_CXX_FLAGS}" MATCHES "-fsanitize")
+    target_compile_options(${name} PRIVATE -fsanitize=unreachable -fsanitize-undefined-trap-on-error)
+  elseif(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    target_compile_options(${name} PRIVATE -fno-strict-return)
+  endif()
   set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX .so
     CXX_STANDARD ${arg_CXX_STANDARD} CXX_STANDARD_REQUIRED ON POSITION_INDEPENDENT_CODE ON)
   if(NOT CMAKE_LIBRARY_OUTPUT_DIRECTORY)
