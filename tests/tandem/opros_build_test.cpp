@@ -110,3 +110,31 @@ TEST_CASE("what cannot be built is one last line with the first error and leaves
     folder.component("Old/Second", "Second.dll");
     CHECK_THAT(failed({old}), Catch::Contains("several component profiles") && Catch::Contains("--profile"));
 }
+
+TEST_CASE("a function that forgets its return goes on behind its call as with compilers of old") {
+    const Folder folder;
+    folder.write("Old/Old.cpp",
+                 "#include <Component.h>\n#include <vector>\n"
+                 "class Old : public Component {\n  int count;\n"
+                 "  int fill(int n) { std::vector<int> values(n); count = values.size(); }\n public:\n"
+                 "  ReturnType onInitialize() { fill(100); return count == 100 ? OPROS_SUCCESS : 1; }\n};\n"
+                 "extern \"C\" {\nComponent* getComponent() { return new Old; }\n"
+                 "void releaseComponent(Component* com) { delete com; }\n}\n");
+    folder.component("Old/Old", "Old.dll");
+    const auto built = build({folder.path() / "Old"});
+    INFO(built.output << built.errors);
+    REQUIRE(built.exit_code == 0);
+    const auto info = tandem_program({"opros", "info", folder.path() / "Old/Old.xml", "--initialize"});
+    INFO(info.errors);
+    CHECK(info.exit_code == 0);
+}
+
+TEST_CASE("a build that takes too long is ended and leaves the folder as it was") {
+    const Folder folder;
+    old_component(folder, "");
+    const auto result = build({folder.path() / "Old", "-I", folder.path() / "neighbour", "--timeout", "0.1"});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::Contains("was not done within 0.1 s") && Catch::Contains("--timeout"));
+    CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+    CHECK(files_in(folder.path() / "Old/profile") == std::vector<std::string>{"Old.xml", "OldService.xml"});
+}

@@ -66,11 +66,18 @@ std::string project_text(const std::string& model, const std::string& name, cons
 }
 
 // What the compiler says belongs to the user, all of it; the first error is repeated in our own line.
-void run(const std::vector<std::string>& command, const std::string& what) {
-    const ProgramEnd end = run_program(command);
+void run(const std::vector<std::string>& command, double seconds, const std::string& name,
+         const std::string& what) {
+    const ProgramEnd end =
+        run_program(command, std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000)));
+    if (end.timed_out)
+        throw std::runtime_error(fmt::format("the build of component {} was not done within {} s and has "
+                                             "been ended; --timeout gives it more time",
+                                             name, seconds));
     if (end.exit_code == 0) return;
     print_text(end.output);
-    throw std::runtime_error(what + ": " + first_error(end.output) + " (the compiler's output is above)");
+    throw std::runtime_error("component " + name + " " + what + ": " + first_error(end.output) +
+                             " (the compiler's output is above)");
 }
 
 } // namespace
@@ -85,6 +92,8 @@ void add_build_options(CLI::App* command, PluginBuild& options, const char* wher
     repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
     command->add_option("--standard", options.standard, "C++ standard (14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
+    command->add_option("--timeout", options.seconds, "seconds that the compilation may take (600)")
+        ->check(CLI::Range(0.1, 86400.));
     command->add_option("--output", options.output, where);
     command->add_option("--build-dir", options.build,
                         "folder to keep, so that the next build takes less time");
@@ -107,8 +116,8 @@ fs::path build_plugin(const std::string& model, const std::string& name, const P
     const std::string bin = (build.path() / "bin").string();
     run({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
          "-DTandem_DIR=" + package_folder().string()},
-        "component " + name + " cannot be set up");
-    run({"cmake", "--build", bin, "--parallel"}, "component " + name + " does not compile");
+        options.seconds, name, "cannot be set up");
+    run({"cmake", "--build", bin, "--parallel"}, options.seconds, name, "does not compile");
     fs::create_directories(output);
     const fs::path library = output / (name + ".so"), fresh = output / ("." + name + ".so.new");
     fs::copy_file(made / (name + ".so"), fresh, fs::copy_options::overwrite_existing);

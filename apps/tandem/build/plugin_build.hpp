@@ -17,6 +17,7 @@ struct PluginBuild {
     std::filesystem::path build;  ///< empty: a temporary folder
     std::vector<std::string> include_dirs, definitions, libraries;
     int standard = 14;
+    double seconds = 600; ///< bound for CMake's set-up and for the compilation, each
 };
 
 /// DIR and the options that both commands have.
