@@ -14,8 +14,7 @@ namespace tandem::engine {
 
 Application::Application(const ApplicationOptions& options)
     : options_(options),
-      workers_(std::make_shared<WorkerPool>(options.lockstep_socket.empty() ? options.workers : 0,
-                                            options.jobs_per_worker)) {}
+      workers_(std::make_shared<WorkerPool>(options.jobs_per_worker, options.lockstep_socket.empty())) {}
 
 Application::Application(const std::filesystem::path& file, const ApplicationOptions& options)
     : Application(options) {
@@ -85,7 +84,7 @@ void Application::connect_one(const Connection& connection) {
     ComponentHost* target = find(connection.target.component);
     const bool from = source && !source->failed(), to = target && !target->failed();
     if (from && to)
-        links_.push_back(connect(connection, *source, *target, *workers_, links_.size()));
+        links_.push_back(connect(connection, *source, *target, *workers_));
     else
         spdlog::warn("{}: connection left out, component {} has failed", connection.place.text(),
                      (from ? connection.target : connection.source).component);

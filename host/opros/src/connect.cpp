@@ -63,7 +63,7 @@ void check_types(const Connection& connection, Source& source, Target& target) {
 } // namespace
 
 std::unique_ptr<Link> connect(const Connection& connection, ComponentHost& source, ComponentHost& target,
-                              WorkerPool& workers, std::size_t lane) {
+                              WorkerPool& workers) {
     const End from(connection, connection.source, source), to(connection, connection.target, target);
     if (connection.type == OPROS_DATA) {
         auto& out = from.port<OutputDataPortInterface>("an output");
@@ -75,12 +75,12 @@ std::unique_ptr<Link> connect(const Connection& connection, ComponentHost& sourc
         auto& out = from.port<OutputEventPortInterface>("an output");
         auto& in = to.port<InputEventPortInterface>("an input");
         check_types(connection, out, static_cast<EventPort&>(in));
-        return std::make_unique<EventLink>(out, in, target, workers, lane);
+        return std::make_unique<EventLink>(out, in, target, workers.of(&target));
     }
     auto& required = from.port<RequiredServicePort>("a required");
     auto& provided = to.port<ProvidedServicePort>("a provided");
     try {
-        return std::make_unique<ServiceLink>(required, provided, target, workers, lane);
+        return std::make_unique<ServiceLink>(required, provided, target, workers);
     } catch (const SetupError&) {
         throw;
     } catch (const std::runtime_error& error) {

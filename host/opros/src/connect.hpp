@@ -12,6 +12,6 @@ namespace tandem::engine {
 /// Makes one connection of the application. Throws SetupError: unknown port, wrong direction, types that do
 /// not fit.
 std::unique_ptr<Link> connect(const Connection& connection, ComponentHost& source, ComponentHost& target,
-                              WorkerPool& workers, std::size_t lane);
+                              WorkerPool& workers);
 
 } // namespace tandem::engine

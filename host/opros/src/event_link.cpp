@@ -6,14 +6,14 @@
 namespace tandem::engine {
 
 EventLink::EventLink(OutputEventPortInterface& source, InputEventPortInterface& destination,
-                     ComponentHost& receiver, WorkerPool& workers, std::size_t lane)
-    : source_(source), destination_(destination), receiver_(receiver), workers_(workers), lane_(lane) {
+                     ComponentHost& receiver, Worker& worker)
+    : source_(source), destination_(destination), receiver_(receiver), worker_(worker) {
     source_.addConnection(this);
 }
 
 ReturnType EventLink::push(Event* data) {
     const std::shared_ptr<Event> copy(data->clone());
-    const bool taken = workers_.submit(lane_, [copy, &port = destination_, &receiver = receiver_] {
+    const bool taken = worker_.submit([copy, &port = destination_, &receiver = receiver_] {
         const LifecycleState state = receiver.component().getStatus();
         if (state == OPROS_CS_ERROR || state == OPROS_CS_DESTROYED) return;
         receiver.guarded("onEvent", [&] { port.push(copy.get()); });

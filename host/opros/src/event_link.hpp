@@ -3,20 +3,19 @@
 
 #include "host/opros/src/component_host.hpp"
 #include "host/opros/src/link.hpp"
-#include "host/opros/src/worker_pool.hpp"
+#include "host/opros/src/worker.hpp"
 
 #include <InputEventPortInterface.h>
 #include <OutputEventPortInterface.h>
 
 namespace tandem::engine {
 
-/// From one output event port to one input event port: each event is copied and delivered by a worker, the
-/// events of one link in their order. A worker that has too many to deliver costs the newest
-/// (OPROS_OUT_OF_RESOURCES).
+/// From one output event port to one input event port: each event is copied and delivered by the receiver's
+/// worker, in order. When that has too many to deliver the newest are lost (OPROS_OUT_OF_RESOURCES).
 class EventLink : public Link, public IEventPortLink {
   public:
     EventLink(OutputEventPortInterface& source, InputEventPortInterface& destination, ComponentHost& receiver,
-              WorkerPool& workers, std::size_t lane);
+              Worker& worker);
     ~EventLink() override { source_.removeConnection(this); }
 
     ReturnType push(Event* data) override;
@@ -32,8 +31,7 @@ class EventLink : public Link, public IEventPortLink {
     OutputEventPortInterface& source_;
     InputEventPortInterface& destination_;
     ComponentHost& receiver_;
-    WorkerPool& workers_;
-    const std::size_t lane_;
+    Worker& worker_;
     std::atomic<bool> overflow_reported_{false};
 };
 

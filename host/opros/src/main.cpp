@@ -35,8 +35,6 @@ void declare(CLI::App& cli, Options& options) {
         ->allow_extra_args(false);
     cli.add_option("--lockstep", options.host.lockstep_socket,
                    "Step components through this socket, no executors");
-    cli.add_option("--workers", options.host.workers, "Threads for events and non-blocking calls")
-        ->check(CLI::Range(1, 64));
     cli.add_flag("--strict", options.host.strict,
                  "Do not run without a component that fails to load, initialize or start, or a connection");
     cli.add_option("--grace", options.grace_s,

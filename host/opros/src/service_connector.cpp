@@ -34,13 +34,12 @@ class DirectConnector : public Connector {
 
 class WorkerConnector : public Connector {
   public:
-    WorkerConnector(ProvidedServicePort& provided, ComponentHost& provider, WorkerPool& workers,
-                    std::size_t lane)
-        : Connector(provided, provider), workers_(workers), lane_(lane) {}
+    WorkerConnector(ProvidedServicePort& provided, ComponentHost& provider, Worker& worker)
+        : Connector(provided, provider), worker_(worker) {}
 
     ReturnType requestService(const std::string& name, std::vector<opros_params>& params, opros_params&,
                               int) override {
-        const bool taken = workers_.submit(lane_, [this, method = name, params]() mutable {
+        const bool taken = worker_.submit([this, method = name, params]() mutable {
             if (!provider_.active()) return;
             provider_.guarded(method.c_str(), [&] {
                 opros_params none;
@@ -53,8 +52,7 @@ class WorkerConnector : public Connector {
     }
 
   private:
-    WorkerPool& workers_;
-    const std::size_t lane_;
+    Worker& worker_;
 };
 
 } // namespace
@@ -65,8 +63,8 @@ std::unique_ptr<ServicePortConnector> direct_connector(ProvidedServicePort& prov
 }
 
 std::unique_ptr<ServicePortConnector> worker_connector(ProvidedServicePort& provided, ComponentHost& provider,
-                                                       WorkerPool& workers, std::size_t lane) {
-    return std::make_unique<WorkerConnector>(provided, provider, workers, lane);
+                                                       Worker& worker) {
+    return std::make_unique<WorkerConnector>(provided, provider, worker);
 }
 
 } // namespace tandem::engine

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/opros/src/component_host.hpp"
-#include "host/opros/src/worker_pool.hpp"
+#include "host/opros/src/worker.hpp"
 
 #include <ProvidedServicePort.h>
 #include <ServicePortConnector.h>
@@ -18,6 +18,6 @@ std::unique_ptr<ServicePortConnector> direct_connector(ProvidedServicePort& prov
 
 /// Hands the call to a worker and returns; it is made if the provider is ACTIVE by then.
 std::unique_ptr<ServicePortConnector> worker_connector(ProvidedServicePort& provided, ComponentHost& provider,
-                                                       WorkerPool& workers, std::size_t lane);
+                                                       Worker& worker);
 
 } // namespace tandem::engine

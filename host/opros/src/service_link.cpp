@@ -22,8 +22,8 @@ void refuse_if(const std::string& text) {
 } // namespace
 
 ServiceLink::ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided,
-                         ComponentHost& provider, WorkerPool& workers, std::size_t lane)
-    : required_(required), provided_(provided), provider_(provider), workers_(workers), lane_(lane) {
+                         ComponentHost& provider, WorkerPool& workers)
+    : required_(required), provided_(provided), provider_(provider), workers_(workers) {
     connect();
 }
 
@@ -62,7 +62,7 @@ void ServiceLink::connect_method(const std::string& name, Method& method) {
         throw std::runtime_error("the provided port has no method '" + name + "', it has " +
                                  method_names(provided_));
     if (method.getCallType() == METHOD_NONBLOCKING && peer->getReturnType() == "void")
-        return connect_through(*required, worker_connector(provided_, provider_, workers_, lane_));
+        return connect_through(*required, worker_connector(provided_, provider_, workers_.of(&provider_)));
     if (required->Connect(peer) != OPROS_SUCCESS)
         throw std::runtime_error("type mismatch of method " + name + ": required is " + method.signature() +
                                  ", provided is " + peer->signature());

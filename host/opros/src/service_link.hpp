@@ -20,7 +20,7 @@ class ServiceLink : public Link {
   public:
     /// Throws std::runtime_error with the reason when the ports do not fit.
     ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
-                WorkerPool& workers, std::size_t lane);
+                WorkerPool& workers);
     ~ServiceLink() override;
 
   private:
@@ -32,7 +32,6 @@ class ServiceLink : public Link {
     ProvidedServicePort& provided_;
     ComponentHost& provider_;
     WorkerPool& workers_;
-    const std::size_t lane_;
     std::vector<RequiredMethodInterface*> connected_;
     std::vector<std::unique_ptr<ServicePortConnector>> connectors_;
     bool bound_ = false;
