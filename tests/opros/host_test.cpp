@@ -87,7 +87,7 @@ TEST_CASE("the host takes all its options") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", "/nowhere", "--plugin-path", FIXTURES, "--cpu", "0",
                   "--tick-spin", "50", "--wait-mode", "same-core", "--low-latency-idle", "--parent-death",
-                  "--workers", "2", "--lockstep", folder.path() / "step", one_component(folder, "maker")});
+                  "--lockstep", folder.path() / "step", one_component(folder, "maker")});
     REQUIRE(host.says("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 0);
@@ -103,6 +103,14 @@ TEST_CASE("bad input is one line on standard error and exit code 1") {
     Process missing({OPROS_HOST, "/nowhere/app.xml"});
     CHECK(missing.exit_code() == 1);
     CHECK_THAT(missing.said, Catch::Contains("/nowhere/app.xml"));
+}
+
+TEST_CASE("a component that calls nobody while it starts is told of in one line") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start calls")});
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("component M: start failed, its callback made a call that failed: "
+                                          "required method add is not connected\n"));
 }
 
 TEST_CASE("a host whose component hangs says which and ends") {

@@ -68,3 +68,39 @@ TEST_CASE("tandem opros check refuses a file that is no application in one line"
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.errors, Catch::StartsWith("tandem: ") && Catch::Contains("bad.xml:2: not well-formed"));
 }
+
+TEST_CASE("tandem opros check compares the ports that a profile lists with those of the component") {
+    const Folder folder;
+    const auto port = [](const std::string& kind, const std::string& name, const std::string& usage,
+                         const std::string& type) {
+        return "<" + kind + "_port><name>" + name + "</name><usage>" + usage + "</usage><data_type>" + type +
+               "</data_type></" + kind + "_port>\n";
+    };
+    const auto checked = [&](const std::string& ports) {
+        folder.write("P.xml",
+                     "<component_profile>\n<name>P</name>\n<execution_environment><library_name>printer"
+                     "</library_name></execution_environment>\n<execution_semantics><type>passive"
+                     "</type></execution_semantics>\n<ports>\n" +
+                         ports + "</ports>\n</component_profile>\n");
+        return check(folder.application(Folder::sub("P", "P.xml")));
+    };
+    const auto fits = checked(port("data", "numbers", "input", "vector&lt; double &gt;") +
+                              port("data", "counts", "input", "") + port("event", "news", "input", "string") +
+                              port("service", "math", "provided", ""));
+    INFO(fits.output << fits.errors);
+    CHECK(fits.exit_code == 0);
+    const auto unfit =
+        checked(port("data", "numbers", "input", "vector&lt;int&gt;") +
+                port("data", "counts", "output", "int") + port("data", "news", "input", "string") +
+                port("service", "maths", "provided", "") + port("data", "numbers", "input1", ""));
+    INFO(unfit.output << unfit.errors);
+    CHECK(unfit.exit_code == 1);
+    CHECK(unfit.says(
+        "P.xml:6: data port 'numbers' is std::vector<double> in the component, not vector<int>\n"));
+    CHECK(unfit.says("P.xml:7: data port 'counts' is input in the component, not output\n"));
+    CHECK(unfit.says("P.xml:8: data port 'news' is of kind event in the component\n"));
+    CHECK(unfit.says(
+        "P.xml:9: service port 'maths' is not in the component, its service ports are: math (and"));
+    CHECK(unfit.says("P.xml:10: <data_port> 'numbers' has the <usage> 'input1', expected input or output\n"));
+    CHECK(unfit.says("app: 5 faults\n"));
+}

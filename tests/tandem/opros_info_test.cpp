@@ -71,3 +71,15 @@ TEST_CASE("tandem opros info runs onInitialize only when it is told to") {
     CHECK(initialized.exit_code == 1);
     CHECK_THAT(initialized.errors, Catch::Contains("no device"));
 }
+
+TEST_CASE("tandem opros info finds device libraries where the host finds them") {
+    const Folder folder;
+    const auto library = folder.write("devices/libLaserApi.so", "");
+    folder.component("M", FIXTURES "/libmaker.so", "<type>passive</type>",
+                     "<property name=\"ApiName\">LaserApi.dll</property>");
+    const auto info = tandem_program({"opros", "info", folder.path() / "M.xml", "--json", "--plugin-path",
+                                      folder.path() / "devices"})
+                          .json();
+    CHECK(info["properties"]["ApiName"] == library.string());
+    CHECK(info["properties"]["APIName"] == library.string());
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
+#include "apps/tandem/opros/port_faults.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/text.hpp"
 #include "host/opros/src/composite.hpp"
@@ -30,8 +31,9 @@ class Faults {
     std::vector<std::string> lines;
 };
 
-void check_component(const ApplicationProfile& application, const engine::Subcomponent& entry,
-                     const LookOptions& options) {
+/// Where its profile does not fit it. Throws when there is no component to run.
+std::vector<std::string> check_component(const ApplicationProfile& application,
+                                         const engine::Subcomponent& entry, const LookOptions& options) {
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.place.file.parent_path());
     const auto file = entry.file.empty()
@@ -41,7 +43,7 @@ void check_component(const ApplicationProfile& application, const engine::Subcom
     const auto library = engine::find_component_library(profile, dirs);
     try {
         plugin::require_kind(library, plugin::read_contents(library), plugin::Kind::opros_component);
-        described(library, file, options);
+        return port_faults(profile, described(library, file, options)["ports"], options.initialize);
     } catch (const plugin::Error& error) {
         throw engine::SetupError(profile.library_place, error.what());
     }
@@ -80,15 +82,15 @@ int opros_check(const LookOptions& options) {
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
             faults.lines.push_back(connection.place.text() + ": " + connection.error);
+    const auto add = [&](const std::vector<std::string>& lines) {
+        faults.lines.insert(faults.lines.end(), lines.begin(), lines.end());
+    };
     std::vector<std::string> without;
     for (const auto& entry : application.subcomponents)
-        if (!faults.passes([&] { check_component(application, entry, options); }))
+        if (!faults.passes([&] { add(check_component(application, entry, options)); }))
             without.push_back(entry.name);
     faults.passes([&] { engine::start_order(application); });
-    faults.passes([&] {
-        const auto unfit = connection_faults(without, options);
-        faults.lines.insert(faults.lines.end(), unfit.begin(), unfit.end());
-    });
+    faults.passes([&] { add(connection_faults(without, options)); });
     return report(application, faults, options.json);
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <dlfcn.h>
 #include <map>
 #include <memory>
 
@@ -24,8 +25,22 @@ plugin::Probe self(const LookOptions& options, const char* subject) {
     return probe;
 }
 
+json request_of(const LookOptions& options) {
+    json request{{"initialize", options.initialize}, {"plugin_dirs", json::array()}};
+    for (const auto& dir : options.plugin_dirs) request["plugin_dirs"].push_back(dir.string());
+    return request;
+}
+
+std::vector<std::filesystem::path> plugin_dirs(const json& request) {
+    std::vector<std::filesystem::path> dirs;
+    for (const auto& dir : request["plugin_dirs"]) dirs.emplace_back(dir.get<std::string>());
+    return dirs;
+}
+
 void initialize(Component& component, const std::string& whose, plugin::ProbeReport& report) {
     report.stage("onInitialize() of " + whose);
+    dlerror(); // device components ask it after their dlsym(), and would take what others have left for
+               // theirs
     if (component.initialize() != OPROS_SUCCESS)
         throw engine::SetupError("onInitialize() of " + whose + " failed with code " +
                                  std::to_string(component.getErrorInfo()));
@@ -35,28 +50,31 @@ void initialize(Component& component, const std::string& whose, plugin::ProbeRep
 
 json described(const std::filesystem::path& library, const std::filesystem::path& profile,
                const LookOptions& options) {
-    std::vector<std::string> arguments{profile.string()};
-    if (options.initialize) arguments.emplace_back("--initialize");
-    return json::parse(plugin::probe(self(options, "library"), describe_task, library, arguments));
+    json request = request_of(options);
+    request["profile"] = profile.string();
+    return json::parse(plugin::probe(self(options, "library"), describe_task, library, {request.dump()}));
 }
 
 std::vector<std::string> connection_faults(const std::vector<std::string>& without,
                                            const LookOptions& options) {
-    json request{{"initialize", options.initialize}, {"without", without}, {"plugin_dirs", json::array()}};
-    for (const auto& dir : options.plugin_dirs) request["plugin_dirs"].push_back(dir.string());
+    json request = request_of(options);
+    request["without"] = without;
     return json::parse(
         plugin::probe(self(options, "application"), connect_task, options.file, {request.dump()}));
 }
 
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
+    const json request = json::parse(task.arguments.at(0));
     report.stage("its static constructors");
     const auto library = plugin::Library::load(task.library);
     report.stage("getComponent()");
     const auto loaded = engine::open_component(task.library);
-    if (!task.arguments.at(0).empty())
-        for (const auto& [name, value] : engine::read_component_profile(task.arguments[0]).properties)
-            loaded.component->setProperty(name, value);
-    if (task.arguments.size() > 1) initialize(*loaded.component, task.library, report);
+    if (const std::string file = request["profile"]; !file.empty()) {
+        const auto profile = engine::read_component_profile(file);
+        loaded.component->setId(profile.name);
+        engine::give_properties(*loaded.component, profile, {}, plugin_dirs(request));
+    }
+    if (request["initialize"]) initialize(*loaded.component, task.library, report);
     report.stage("its ports");
     json description = describe(*loaded.component);
     if (library->has("getVersion")) {
@@ -69,8 +87,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
     const auto without = request["without"].get<std::vector<std::string>>();
-    std::vector<std::filesystem::path> dirs;
-    for (const auto& dir : request["plugin_dirs"]) dirs.emplace_back(dir.get<std::string>());
+    const auto dirs = plugin_dirs(request);
     auto profile = engine::read_application_profile(task.library);
     if (engine::has_composites(profile, dirs)) profile = engine::without_composites(profile, dirs);
     std::vector<std::string> faults;
@@ -88,7 +105,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
         if (request["initialize"]) initialize(component->component(), entry.name, report);
         components.emplace(entry.name, std::move(component));
     }
-    engine::WorkerPool no_workers(0, 1);
+    engine::WorkerPool no_threads(1, false);
     std::vector<std::unique_ptr<engine::Link>> links;
     for (const auto& connection : profile.connections) {
         const auto source = components.find(connection.source.component),
@@ -96,8 +113,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
         if (source == components.end() || target == components.end()) continue;
         report.stage("the connection at line " + std::to_string(connection.place.line));
         try {
-            links.push_back(
-                engine::connect(connection, *source->second, *target->second, no_workers, links.size()));
+            links.push_back(engine::connect(connection, *source->second, *target->second, no_threads));
         } catch (const engine::SetupError& error) {
             faults.emplace_back(error.what());
         }

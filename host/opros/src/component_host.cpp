@@ -20,16 +20,6 @@ std::string code_text(ReturnType code) {
 // What repeats in every cycle is told ever more rarely: 1, 2, 4, 8, ...
 bool is_worth_telling(std::uint64_t count) { return (count & (count - 1)) == 0; }
 
-// Components of OPRoS v1 ask for APIName, and open DllName on Linux.
-void give_device_library_all_names(std::map<std::string, std::string>& properties) {
-    const char* const names[] = {"APIName", "ApiName", "DllName"};
-    std::string library;
-    for (const char* name : names)
-        if (library.empty() && properties.count(name) != 0) library = properties[name];
-    if (library.empty()) return;
-    for (const char* name : names) properties.emplace(name, library);
-}
-
 /// Says for the time of its life what the component is busy with.
 class Busy {
   public:
@@ -53,16 +43,7 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
     component_->setId(name_);
-    const auto folder = std::filesystem::absolute(profile_.place.file).parent_path();
-    component_->setProperty("_opros_xx_internal_xx_Component_Path", (folder / "res" / "").string());
-    component_->setProperty("opros.component.dir", (folder / "").string());
-    const auto set = [&](const Properties& properties) {
-        for (const auto& [key, value] : properties)
-            component_->setProperty(key, find_device_library(profile_, key, value, dirs));
-    };
-    set(profile_.properties);
-    set(entry.properties);
-    give_device_library_all_names(component_->getPropertyMap());
+    give_properties(*component_, profile_, entry.properties, dirs);
 }
 
 std::string ComponentHost::fail(const char* what, const std::string& why) {
@@ -101,11 +82,17 @@ bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::
     ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
     dlerror(); // device components ask it after their dlsym(), and would take what others have left there for
                // theirs
-    const std::string thrown = guarded(what, [&] { result = (component_.get()->*step)(); });
+    std::string why;
+    const std::string thrown = guarded(what, [&] {
+        try {
+            result = (component_.get()->*step)();
+            why = "its callback returned code " + code_text(component_->getErrorInfo());
+        } catch (const MethodInvokeException& error) {
+            why = std::string("its callback made a call that failed: ") + error.what();
+        }
+    });
     if (thrown.empty() && result == OPROS_SUCCESS) return true;
-    if (thrown.empty())
-        spdlog::error("component {}: {} failed, its callback returned code {}", name_, what,
-                      code_text(component_->getErrorInfo()));
+    if (thrown.empty()) spdlog::error("component {}: {} failed, {}", name_, what, why);
     return false;
 }
 

@@ -56,6 +56,27 @@ std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
     return search;
 }
 
+std::string find_device_library(const ComponentProfile& profile, const std::string& property,
+                                const std::string& value, const std::vector<std::filesystem::path>& dirs) {
+    if (value.empty() || !names_device_library(property)) return value;
+    try {
+        return std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, dirs))).string();
+    } catch (const plugin::Error& error) {
+        spdlog::info("{} {}: left to the component to find: {}", property, value, error.what());
+        return value;
+    }
+}
+
+// Components of OPRoS v1 ask for APIName, and open DllName on Linux.
+void give_device_library_all_names(std::map<std::string, std::string>& properties) {
+    const char* const names[] = {"APIName", "ApiName", "DllName"};
+    std::string library;
+    for (const char* name : names)
+        if (library.empty() && properties.count(name) != 0) library = properties[name];
+    if (library.empty()) return;
+    for (const char* name : names) properties.emplace(name, library);
+}
+
 } // namespace
 
 LoadedComponent open_component(const std::filesystem::path& file) {
@@ -75,15 +96,15 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
     }
 }
 
-std::string find_device_library(const ComponentProfile& profile, const std::string& property,
-                                const std::string& value, const std::vector<std::filesystem::path>& dirs) {
-    if (value.empty() || !names_device_library(property)) return value;
-    try {
-        return std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, dirs))).string();
-    } catch (const plugin::Error& error) {
-        spdlog::info("{} {}: left to the component to find: {}", property, value, error.what());
-        return value;
-    }
+void give_properties(Component& component, const ComponentProfile& profile, const Properties& more,
+                     const std::vector<std::filesystem::path>& dirs) {
+    const auto folder = std::filesystem::absolute(profile.place.file).parent_path();
+    component.setProperty("_opros_xx_internal_xx_Component_Path", (folder / "res" / "").string());
+    component.setProperty("opros.component.dir", (folder / "").string());
+    for (const Properties* properties : {&profile.properties, &more})
+        for (const auto& [key, value] : *properties)
+            component.setProperty(key, find_device_library(profile, key, value, dirs));
+    give_device_library_all_names(component.getPropertyMap());
 }
 
 LoadedComponent load_component(const ComponentProfile& profile,

@@ -25,10 +25,11 @@ LoadedComponent open_component(const std::filesystem::path& library);
 std::filesystem::path find_component_library(const ComponentProfile& profile,
                                              const std::vector<std::filesystem::path>& dirs);
 
-/// The device library that a property names (APIName, ApiName, DllName and the like), which the component
-/// will open by the property's value: the file found as its own library is, or the value as it is.
-std::string find_device_library(const ComponentProfile& profile, const std::string& property,
-                                const std::string& value, const std::vector<std::filesystem::path>& dirs);
+/// The component's properties: where it lies, those of its profile, and `more`, which override them. A
+/// property that names a device library (APIName, ApiName, DllName and the like) becomes the path of the
+/// file, found as the component's own library is, or stays as it is if there is none.
+void give_properties(Component& component, const ComponentProfile& profile, const Properties& more,
+                     const std::vector<std::filesystem::path>& dirs);
 
 /// Both, the library tried in a child process first if so wished. Throws SetupError with the place of the
 /// library's name.

@@ -45,28 +45,38 @@ std::optional<QueueProfile> queue_of(const XmlFile& xml, const pugi::xml_node& p
     return QueueProfile{policy ? policy_of(xml, policy) : OPROS_FIFO, static_cast<unsigned int>(wanted)};
 }
 
-bool listed(const pugi::xml_node& port) {
-    const std::string usage = XmlFile::text(port, "usage");
-    return !XmlFile::text(port, "name").empty() && (usage == "input" || usage == "output");
+/// Those of real profiles that are none (`output1`) are left out, as by the original engine.
+bool listed(const XmlFile& xml, const pugi::xml_node& port, const char* one, const char* other,
+            ComponentProfile& profile) {
+    const std::string name = XmlFile::text(port, "name"), usage = XmlFile::text(port, "usage");
+    const std::string place = xml.place(port).text() + ": <" + port.name() + "> ";
+    if (name.empty())
+        profile.port_faults.push_back(place + "lacks its <name>");
+    else if (usage != one && usage != other)
+        profile.port_faults.push_back(place + "'" + name + "' has the <usage> '" + usage + "', expected " +
+                                      one + " or " + other);
+    else
+        return true;
+    return false;
 }
 
 } // namespace
 
 void read_ports(const XmlFile& xml, const pugi::xml_node& ports, ComponentProfile& profile) {
     for (const pugi::xml_node& port : ports.children("data_port")) {
-        if (!listed(port)) continue;
+        if (!listed(xml, port, "input", "output", profile)) continue;
         const bool input = XmlFile::text(port, "usage") == "input";
         profile.data_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
                                       XmlFile::text(port, "data_type"), input,
                                       input ? queue_of(xml, port) : std::nullopt});
     }
     for (const pugi::xml_node& port : ports.children("event_port"))
-        if (listed(port))
+        if (listed(xml, port, "input", "output", profile))
             profile.event_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
                                            XmlFile::text(port, "data_type"),
                                            XmlFile::text(port, "usage") == "input"});
     for (const pugi::xml_node& port : ports.children("service_port"))
-        if (!XmlFile::text(port, "name").empty())
+        if (listed(xml, port, "provided", "required", profile))
             profile.service_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
                                              XmlFile::text(port, "type"), XmlFile::text(port, "reference"),
                                              XmlFile::text(port, "usage") == "provided"});

@@ -73,6 +73,7 @@ struct ComponentProfile {
     std::vector<DataPortProfile> data_ports;
     std::vector<EventPortProfile> event_ports;
     std::vector<ServicePortProfile> service_ports;
+    std::vector<std::string> port_faults;               ///< of ports that are left out here, one line each
     std::vector<std::string> data_types, service_types; ///< files of their profiles
 };
 
