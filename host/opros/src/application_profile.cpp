@@ -134,6 +134,7 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
     const auto folder = application.place.file.parent_path();
     std::vector<std::filesystem::path> candidates{
         folder / component.name / component.reference,
+        folder / component.name / "profile" / component.reference, // as OPRoS tools lay out its sources
         folder / application.place.file.stem() / component.reference,
         folder / component.reference,
     };
