@@ -75,7 +75,8 @@ TEST_CASE("a wrong component profile gets one line with file, line, what is wron
 TEST_CASE("wrong execution semantics are named") {
     CHECK_THAT(semantics_error("<type>sometimes</type>"),
                Catch::Contains("c.xml:4: execution type 'sometimes'"));
-    CHECK_THAT(semantics_error("<type>periodic</type>"), Catch::Contains("<period> above 0 ms"));
+    CHECK_THAT(semantics_error("<type>periodic</type>"),
+               Catch::Contains("<period> above 0 and of at most 1e9 ms"));
     CHECK_THAT(semantics_error("<type>periodic</type><period>-1</period>"), Catch::Contains("'-1'"));
     CHECK_THAT(semantics_error("<type>periodic</type><period>10ms</period>"),
                Catch::Contains("expected a number"));
@@ -162,6 +163,8 @@ TEST_CASE("a wrong application profile gets one line with file and line") {
     const std::string a = Folder::sub("A", "A.xml");
     CHECK_THAT(read("", ""), Catch::Contains("lists no <subcomponent>"));
     CHECK_THAT(read(a + a, ""), Catch::Contains("app.xml:4: component 'A' is listed twice"));
+    CHECK_THAT(read(Folder::sub(std::string(256, 'A'), "A.xml"), ""),
+               Catch::Contains("app.xml:4: a component's name or reference has more than 255 bytes"));
     CHECK_THAT(read(a, Folder::connect("method", "A", "o", "A", "i")),
                Catch::Contains("app.xml:7: port_type is 'method'"));
     CHECK_THAT(read(a, "<port_connection port_type=\"data\"/>"),
@@ -191,4 +194,15 @@ TEST_CASE("a component profile that is nowhere is an error in the line that asks
     const auto profile = read_application_profile(folder.application(Folder::sub("A", "A.xml")));
     CHECK_THAT(error_of([&] { find_component_profile(profile, profile.subcomponents[0], {"/plugins"}); }),
                Catch::Contains("app.xml:4") && Catch::Contains("/plugins/A.xml"));
+}
+
+TEST_CASE("a profile that is no file is told of as what it is") {
+    const Folder folder;
+    const auto read = [](const std::filesystem::path& file) {
+        return error_of([&] { read_component_profile(file); });
+    };
+    std::filesystem::create_symlink("loop.xml", folder.path() / "loop.xml");
+    CHECK_THAT(read(folder.path()), Catch::Contains("cannot be read: it is not a file"));
+    CHECK_THAT(read(folder.path() / "none.xml"), Catch::Contains("cannot be read: no such file"));
+    CHECK_THAT(read(folder.path() / "loop.xml"), Catch::Contains("cannot be read: Too many levels"));
 }

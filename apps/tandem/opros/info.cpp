@@ -42,6 +42,8 @@ std::optional<engine::ComponentProfile> profile_beside(const fs::path& library) 
 }
 
 Found find(const LookOptions& options) {
+    if (options.file.empty())
+        throw std::runtime_error("FILE is empty, expected a component library or profile");
     if (options.file.extension() != ".xml") return {options.file, profile_beside(options.file)};
     auto profile = engine::read_component_profile(options.file);
     return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile)};

@@ -29,6 +29,8 @@ PortType port_type(const XmlFile& xml, const pugi::xml_node& node) {
     xml.fail(node, "port_type is '" + type + "', expected data, event or service");
 }
 
+constexpr std::size_t longest_name = 255;
+
 using Names = std::set<std::string>;
 
 Names read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, ApplicationProfile& profile) {
@@ -36,6 +38,10 @@ Names read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, Applica
     for (const pugi::xml_node& node : root.child("subcomponents").children("subcomponent")) {
         Subcomponent component{
             xml.place(node), xml.required_text(node, "name"), xml.required_text(node, "reference"), {}, {}};
+        // It becomes part of paths and of messages.
+        if (component.name.size() > longest_name || component.reference.size() > longest_name)
+            xml.fail(node, "a component's name or reference has more than " + std::to_string(longest_name) +
+                               " bytes, expected a file's name");
         if (!names.insert(component.name).second)
             xml.fail(node, "component '" + component.name + "' is listed twice, expected one of each name");
         for (const pugi::xml_node& property : node.child("properties").children("property"))
@@ -139,9 +145,10 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
         folder / component.reference,
     };
     for (const auto& dir : plugin_dirs) candidates.push_back(dir / component.reference);
+    std::error_code ignored; // what cannot be looked at is not there
     std::string looked;
     for (const auto& candidate : candidates) {
-        if (std::filesystem::is_regular_file(candidate)) return candidate;
+        if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
         looked += (looked.empty() ? "" : ", ") + candidate.string();
     }
     throw SetupError(component.place, "profile '" + component.reference + "' of component '" +

@@ -47,7 +47,7 @@ void read_semantics(const XmlFile& xml, const pugi::xml_node& semantics, Compone
     const double period = xml.number(semantics, "period", 0);
     if (period <= 0 || period > 1e9)
         xml.fail(semantics.child("period") ? semantics.child("period") : semantics,
-                 "a periodic component needs a <period> above 0 ms, got '" +
+                 "a periodic component needs a <period> above 0 and of at most 1e9 ms, got '" +
                      XmlFile::text(semantics, "period") + "'");
     profile.period = milliseconds(period);
     const double phase = xml.number(semantics, "phase", 0);

@@ -18,7 +18,10 @@ std::string read_all(const std::filesystem::path& file) {
         throw SetupError("profile " + file.string() + " cannot be read: " + why);
     };
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) fail("no such file");
+    const auto status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::not_found) fail("no such file");
+    if (error) fail(error.message());
+    if (!std::filesystem::is_regular_file(status)) fail("it is not a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) fail("permission denied");
     std::string bytes(max_profile_bytes + 1, '\0');
