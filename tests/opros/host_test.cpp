@@ -131,7 +131,18 @@ TEST_CASE("a host whose component hangs in the set-up can be ended") {
     REQUIRE(host.says("M hangs\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("does not come back from onInitialize or onStart"));
+    CHECK_THAT(host.said, Catch::Contains("onInitialize of component M does not come back within 0.1 s"));
+}
+
+TEST_CASE("a host whose component hangs at its end says which and ends") {
+    const std::string step = GENERATE("stop", "destroy");
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  one_component(folder, "maker", step + " hangs")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("component M does not come back from " + step + " within 0.1 s"));
 }
 
 TEST_CASE("the host prints what its executors have counted when asked to") {

@@ -23,6 +23,7 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
     load(profile);
     order(profile);
     for (ComponentHost* component : order_) {
+        begin(*component, "onInitialize");
         component->initialize();
         demand_success(*component, "initialize");
     }
@@ -90,6 +91,10 @@ void Application::connect_one(const Connection& connection) {
                      (from ? connection.target : connection.source).component);
 }
 
+void Application::begin(const ComponentHost& component, const char* call_back) const {
+    if (options_.busy_with) options_.busy_with(component.name(), call_back);
+}
+
 void Application::demand_success(const ComponentHost& component, const char* step) const {
     if (options_.strict && component.failed())
         throw SetupError(
@@ -107,6 +112,7 @@ void Application::start() {
     if (started_) return;
     started_ = true;
     for (ComponentHost* component : order_) {
+        begin(*component, "onStart");
         component->start();
         demand_success(*component, "start");
     }

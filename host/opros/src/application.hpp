@@ -9,6 +9,7 @@
 #include "host/rt/step_server.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,8 @@ struct ApplicationOptions {
     /// A component that cannot be loaded, initialized or started, or a connection that cannot be made, ends
     /// the set-up; otherwise it is left out and the rest runs.
     bool strict = false;
+    /// Told before each call-back of the set-up, with its name.
+    std::function<void(const std::string& component, const char* call_back)> busy_with;
     /// How long the end waits for each call-back that is under way.
     std::chrono::nanoseconds grace = std::chrono::seconds(10);
 };
@@ -63,6 +66,7 @@ class Application {
     void order(const ApplicationProfile& profile);
     void connect_all(const ApplicationProfile& profile);
     void connect_one(const Connection& connection);
+    void begin(const ComponentHost& component, const char* call_back) const;
     void demand_success(const ComponentHost& component, const char* step) const;
     void stop_component(ComponentHost& component);
     void end_workers();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/src/application.hpp"
+#include "host/opros/src/ending.hpp"
 #include "host/opros/src/plugin_path.hpp"
 #include "host/opros/src/probe_component.hpp"
 #include "host/plugin/probe_switches.hpp"
@@ -8,13 +9,9 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstring>
 #include <iostream>
-#include <memory>
-#include <semaphore>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
-#include <thread>
 
 namespace {
 
@@ -52,44 +49,14 @@ sigset_t ending_signals() {
     return signals;
 }
 
-[[noreturn]] void leave(int code) {
-    std::cout.flush();
-    std::cerr.flush();
-    std::_Exit(code); // no clean-up under the feet of threads that have not come back
-}
-
-/// Waits for one of the signals in a thread of its own, so that the set-up, too, can be ended.
-class Ending {
-  public:
-    Ending(const sigset_t& signals, std::chrono::nanoseconds grace) : state_(std::make_shared<State>()) {
-        std::thread([state = state_, signals, grace] {
-            int number = 0;
-            sigwait(&signals, &number);
-            spdlog::info("stopping on {}", strsignal(number));
-            state->signalled.release();
-            if (state->ready.try_acquire_for(grace)) return;
-            spdlog::error("a component does not come back from onInitialize or onStart; the host ends");
-            leave(1);
-        }).detach();
-    }
-    /// The set-up is over: waits for the signal.
-    void wait() {
-        state_->ready.release();
-        state_->signalled.acquire();
-    }
-
-  private:
-    struct State {
-        std::binary_semaphore signalled{0}, ready{0};
-    };
-    std::shared_ptr<State> state_;
-};
-
-int run(const Options& options) {
+int run(Options options) {
     const sigset_t signals = ending_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
     for (const auto& notice : tandem::rt::apply(options.switches)) spdlog::warn("{}", notice);
-    Ending ending(signals, options.host.grace);
+    tandem::engine::Ending ending(signals, options.host.grace);
+    options.host.busy_with = [&ending](const std::string& component, const char* step) {
+        ending.busy_with(component, step);
+    };
     tandem::engine::Application application(options.application, options.host);
     application.start();
     std::cout << "ready" << std::endl;
@@ -98,7 +65,7 @@ int run(const Options& options) {
     application.end();
     if (options.stats)
         for (const std::string& line : application.stats()) std::cout << line << "\n";
-    if (!application.stuck().empty()) leave(1);
+    if (!application.stuck().empty()) tandem::engine::leave(1);
     return 0;
 }
 

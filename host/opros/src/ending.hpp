@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <string>
+
+namespace tandem::engine {
+
+[[noreturn]] void leave(int code); ///< no clean-up under the feet of threads that have not come back
+
+/// Waits for one of the signals (which all threads block) in a thread of its own, so that the set-up, too,
+/// can be ended: when it is not over `grace` after a signal, the process ends. What takes long in the set-up
+/// is told.
+class Ending {
+  public:
+    Ending(const sigset_t& signals, std::chrono::nanoseconds grace);
+    /// [any-thread] What the set-up is busy with from now on.
+    void busy_with(const std::string& component, const char* step);
+    /// The set-up is over: waits for the signal.
+    void wait();
+
+  private:
+    struct State;
+    static void watch(State& state, const sigset_t& signals, std::chrono::nanoseconds grace);
+    std::shared_ptr<State> state_; // the thread has it, too, and may outlive this
+};
+
+} // namespace tandem::engine
