@@ -37,7 +37,7 @@ std::int64_t monotonic_ns() noexcept {
 
 PeriodicTick::PeriodicTick(const TickOptions& options)
     : period_(options.period.count()), phase_(options.phase.count()), spin_(options.spin.count()),
-      aligned_(options.aligned) {
+      aligned_(options.aligned), rehearsal_(options.rehearsal) {
     if (period_ <= 0)
         throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
                                     std::to_string(period_));
@@ -68,6 +68,7 @@ void PeriodicTick::sleep_until_next() {
         sleep_until(std::min(poll_from, now + longest_sleep_ns));
         now = monotonic_ns();
     }
+    if (now < next_ && !interrupted() && rehearsal_) rehearsal_();
     while (now < next_ && !interrupted()) {
         relax();
         now = monotonic_ns();

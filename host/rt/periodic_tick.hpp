@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 
 namespace tandem::rt {
 
@@ -16,6 +17,9 @@ struct TickOptions {
     bool aligned = true;
     /// The last stretch before a tick is polled instead of slept.
     std::chrono::nanoseconds spin{0};
+    /// [tick-thread] Called when the polling begins, if there is any: goes the way that the tick will go, as
+    /// far as that does nothing, so that its code and data are in the caches again when the time comes.
+    std::function<void()> rehearsal{};
 };
 
 struct TickStats {
@@ -55,6 +59,7 @@ class PeriodicTick {
     const std::int64_t phase_;
     const std::int64_t spin_;
     const bool aligned_;
+    const std::function<void()> rehearsal_;
     bool started_ = false;
     std::int64_t next_ = 0;
     std::atomic<bool> interrupted_{false};

@@ -53,6 +53,22 @@ TEST_CASE("a spinning tick does not come early either") {
     CHECK(tick.stats().lateness_ns_last >= 0);
 }
 
+TEST_CASE("a spinning tick is rehearsed at most once before each tick and a sleeping one never") {
+    int rehearsals = 0;
+    PeriodicTick spinning({.period = 20ms, .spin = 15ms, .rehearsal = [&] { ++rehearsals; }});
+    for (int i = 0; i < 20; ++i) {
+        const int before = rehearsals;
+        spinning.wait();
+        CHECK(rehearsals - before <= 1);
+    }
+    CHECK(rehearsals > 0); // each one, unless the machine kept the thread from its 15 ms
+
+    rehearsals = 0;
+    PeriodicTick sleeping({.period = 2ms, .rehearsal = [&] { ++rehearsals; }});
+    for (int i = 0; i < 5; ++i) sleeping.wait();
+    CHECK(rehearsals == 0);
+}
+
 TEST_CASE("an interrupted tick ends a long wait without counting a tick") {
     PeriodicTick tick({.period = 1h});
     std::thread waiter([&] { tick.wait(); });

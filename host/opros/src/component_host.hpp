@@ -47,6 +47,9 @@ class ComponentHost {
     std::string execute();
     std::string update();
 
+    /// [executor] Goes the way of execute() without the component's own code: see rt::TickOptions.
+    void rehearse();
+
     /// Runs the component's own code from any thread of the engine, under the same rule.
     std::string guarded(const char* what, const std::function<void()>& code);
 

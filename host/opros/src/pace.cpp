@@ -13,8 +13,9 @@ double ms(std::chrono::nanoseconds time) { return static_cast<double>(time.count
 
 class PeriodicPace : public Pace {
   public:
-    PeriodicPace(const ComponentProfile& profile, std::chrono::nanoseconds spin)
-        : period_(profile.period), tick_({profile.period, profile.phase, true, spin}) {}
+    PeriodicPace(const ComponentProfile& profile, std::chrono::nanoseconds spin,
+                 std::function<void()> rehearsal)
+        : period_(profile.period), tick_({profile.period, profile.phase, true, spin, std::move(rehearsal)}) {}
     bool wait() override {
         tick_.wait();
         return !tick_.interrupted();
@@ -101,14 +102,15 @@ class LoopPace : public CountedPace {
 
 } // namespace
 
-std::unique_ptr<Pace> make_pace(ComponentHost& component, std::chrono::nanoseconds spin) {
+std::unique_ptr<Pace> make_pace(ComponentHost& component, std::chrono::nanoseconds spin,
+                                std::function<void()> rehearsal) {
     switch (component.profile().execution) {
     case Execution::aperiodic:
         return std::make_unique<ArrivalPace>(component);
     case Execution::aperiodic_loop:
         return std::make_unique<LoopPace>(component);
     default:
-        return std::make_unique<PeriodicPace>(component.profile(), spin);
+        return std::make_unique<PeriodicPace>(component.profile(), spin, std::move(rehearsal));
     }
 }
 

@@ -22,6 +22,8 @@ class Pace {
 };
 
 /// The pace that the component's profile asks for: at its period, when an input arrives, or without a pause.
-std::unique_ptr<Pace> make_pace(ComponentHost& component, std::chrono::nanoseconds spin);
+/// A periodic one polls for `spin` before its ticks, and calls `rehearsal` (rt::TickOptions) before that.
+std::unique_ptr<Pace> make_pace(ComponentHost& component, std::chrono::nanoseconds spin,
+                                std::function<void()> rehearsal);
 
 } // namespace tandem::engine

@@ -21,6 +21,11 @@ void ExecutionContextBase::invokeWorker() {
     m_changed.notify_all();
 }
 
+void ExecutionContextBase::rehearse() {
+    std::lock_guard<std::timed_mutex> lock(m_cycle);
+    for (auto& participant : *participants()) participant->rehearse();
+}
+
 bool ExecutionContextBase::busy() {
     for (auto& participant : *participants())
         if (participant->pending() || participant->state() != INACTIVE_STATE) return true;

@@ -68,6 +68,13 @@ void RTObjectStateMachine::execute() {
     if (now == ACTIVE_STATE && call(Action::execute) != RTC_OK) failed();
 }
 
+void RTObjectStateMachine::rehearse() const {
+    if (pending() || state() != ACTIVE_STATE || local_ == nullptr) return;
+    constexpr std::size_t line = 64, lines = 32;
+    const auto* object = static_cast<const char*>(dynamic_cast<const void*>(local_));
+    for (std::size_t at = 0; at < lines * line; at += line) __builtin_prefetch(object + at, 1);
+}
+
 void RTObjectStateMachine::postDo() {
     if (!pending() && state() == ACTIVE_STATE && call(Action::update) != RTC_OK) failed();
 }

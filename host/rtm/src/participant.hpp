@@ -32,6 +32,9 @@ class RTObjectStateMachine {
     /// onStateUpdate.
     void postDo();
 
+    /// Goes the way of execute() without the component's own code, so that it is in the caches.
+    void rehearse() const;
+
     RTC::ReturnCode_t startup();
     RTC::ReturnCode_t shutdown();
     RTC::ReturnCode_t rateChanged();

@@ -45,7 +45,8 @@ PeriodicExecutionContext::Ticks PeriodicExecutionContext::Worker::ticks() const 
 void PeriodicExecutionContext::makeTick(Worker& worker) {
     if (worker.tick) worker.before = worker.ticks();
     const auto spin = RTC::host_options().tick_spin;
-    worker.tick = std::make_shared<PeriodicTick>(tandem::rt::TickOptions{getPeriod(), m_phase, true, spin});
+    worker.tick = std::make_shared<PeriodicTick>(
+        tandem::rt::TickOptions{getPeriod(), m_phase, true, spin, [this] { rehearse(); }});
 }
 
 PeriodicExecutionContext::Ticks PeriodicExecutionContext::ticks() const {

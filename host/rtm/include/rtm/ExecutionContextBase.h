@@ -83,6 +83,8 @@ protected:
     void setObjRef(ExecutionContextService_ptr ref) { m_objref = ExecutionContextService::_duplicate(ref); }
     /// Is there anything to do: a component that is not simply inactive?
     bool busy();
+    /// [cycle's thread] Has what the next cycle needs in the caches.
+    void rehearse();
 
     mutable Logger rtclog;
     coil::Properties m_properties;
