@@ -82,4 +82,5 @@ TEST_CASE("tandem opros info finds device libraries where the host finds them") 
                           .json();
     CHECK(info["properties"]["ApiName"] == library.string());
     CHECK(info["properties"]["APIName"] == library.string());
+    CHECK(info["properties"].size() == 3); // in its three spellings; where the profile lies is not told
 }

@@ -77,6 +77,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     if (request["initialize"]) initialize(*loaded.component, task.library, report);
     report.stage("its ports");
     json description = describe(*loaded.component);
+    for (const char* name : engine::folder_properties) description["properties"].erase(name);
     if (library->has("getVersion")) {
         report.stage("getVersion()");
         description["version"] = library->symbol<const char*()>("getVersion")();

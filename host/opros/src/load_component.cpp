@@ -99,8 +99,8 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
 void give_properties(Component& component, const ComponentProfile& profile, const Properties& more,
                      const std::vector<std::filesystem::path>& dirs) {
     const auto folder = std::filesystem::absolute(profile.place.file).parent_path();
-    component.setProperty("_opros_xx_internal_xx_Component_Path", (folder / "res" / "").string());
-    component.setProperty("opros.component.dir", (folder / "").string());
+    component.setProperty(folder_properties[0], (folder / "res" / "").string());
+    component.setProperty(folder_properties[1], (folder / "").string());
     for (const Properties* properties : {&profile.properties, &more})
         for (const auto& [key, value] : *properties)
             component.setProperty(key, find_device_library(profile, key, value, dirs));

@@ -25,6 +25,9 @@ LoadedComponent open_component(const std::filesystem::path& library);
 std::filesystem::path find_component_library(const ComponentProfile& profile,
                                              const std::vector<std::filesystem::path>& dirs);
 
+/// Properties that tell a component where it lies: `<profile's folder>/res/` and that folder.
+constexpr const char* folder_properties[] = {"_opros_xx_internal_xx_Component_Path", "opros.component.dir"};
+
 /// The component's properties: where it lies, those of its profile, and `more`, which override them. A
 /// property that names a device library (APIName, ApiName, DllName and the like) becomes the path of the
 /// file, found as the component's own library is, or stays as it is if there is none.
