@@ -125,3 +125,72 @@ TEST_CASE("Strings are split, trimmed and converted as component sources expect"
     bool b = false;
     CHECK((coil::stringTo(b, "ON") && b));
 }
+
+TEST_CASE("The active set is what configuration.active_config says and what describes parameters is passed "
+          "through") {
+    Stage stage;
+    auto& counter =
+        stage.create<Counter>("Counter?conf.fast.step=10&configuration.active_config=fast"
+                              "&conf.__widget__.step=slider.1&conf.__constraints__.step=0<=x<=10");
+    CHECK(counter.step_ == 10);
+    SDOPackage::Configuration_var configuration = counter.get_configuration();
+    SDOPackage::ConfigurationSet_var active = configuration->get_active_configuration_set();
+    CHECK(std::string(active->id) == "fast");
+    SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
+    CHECK(sets->length() == 2);
+    SDOPackage::ConfigurationSet_var widgets = configuration->get_configuration_set("__widget__");
+    CHECK(NVUtil::toString(widgets->configuration_data, "step") == "slider.1");
+    RTC::ComponentProfile_var profile = counter.get_component_profile();
+    CHECK(NVUtil::toString(profile->properties, "conf.__constraints__.step") == "0<=x<=10");
+    CHECK_THROWS_AS(configuration->activate_configuration_set("__widget__"), SDOPackage::InvalidParameter);
+    auto& other = stage.create<Counter>("Counter?configuration.active_config=none");
+    CHECK(other.step_ == 1);
+}
+
+namespace {
+
+struct Heard : RTC::ConfigurationParamListener,
+               RTC::ConfigurationSetListener,
+               RTC::ConfigurationSetNameListener {
+    explicit Heard(std::string& s, const char* w) : story(s), what(w) {}
+    void operator()(const char* set, const char* param) override {
+        story += what + "(" + set + "." + param + ") ";
+    }
+    void operator()(const coil::Properties& set) override { story += what + "(" + set.getName() + ") "; }
+    void operator()(const char* set) override { story += what + "(" + set + ") "; }
+    std::string& story;
+    std::string what;
+};
+
+} // namespace
+
+TEST_CASE("Listeners hear of sets that are added set activated and removed and of parameters that change") {
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    std::string story;
+    Heard changed(story, "changed"), set(story, "set"), added(story, "added"), updated(story, "updated"),
+        removed(story, "removed"), activated(story, "activated");
+    counter.addConfigurationParamListener(RTC::ON_UPDATE_CONFIG_PARAM, &changed, false);
+    counter.addConfigurationSetListener(RTC::ON_SET_CONFIG_SET, &set, false);
+    counter.addConfigurationSetListener(RTC::ON_ADD_CONFIG_SET, &added, false);
+    counter.addConfigurationSetNameListener(RTC::ON_UPDATE_CONFIG_SET, &updated, false);
+    counter.addConfigurationSetNameListener(RTC::ON_REMOVE_CONFIG_SET, &removed, false);
+    counter.addConfigurationSetNameListener(RTC::ON_ACTIVATE_CONFIG_SET, &activated, false);
+    SDOPackage::Configuration_var configuration = counter.get_configuration();
+    SDOPackage::ConfigurationSet fresh;
+    fresh.id = CORBA::string_dup("fresh");
+    coil::Properties values;
+    values.setProperty("step", "3");
+    NVUtil::copyFromProperties(fresh.configuration_data, values);
+    CHECK(configuration->add_configuration_set(fresh));
+    CHECK(configuration->activate_configuration_set("fresh"));
+    CHECK(std::exchange(story, "") == "added(fresh) activated(fresh) ");
+    stage.activate(counter);
+    CHECK(std::exchange(story, "") == "changed(fresh.step) updated(fresh) ");
+    CHECK(configuration->set_configuration_set_values(fresh));
+    stage.step(counter);
+    CHECK(std::exchange(story, "") == "set(fresh) updated(fresh) ");
+    CHECK(configuration->activate_configuration_set("default"));
+    CHECK(configuration->remove_configuration_set("fresh"));
+    CHECK(story == "activated(default) removed(fresh) ");
+}

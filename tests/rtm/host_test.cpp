@@ -71,7 +71,7 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
     CHECK_THAT(refusal("manager.modules.preload: TestComponents.so(NoSuchInit)\n"), Contains("NoSuchInit"));
     CHECK_THAT(refusal("manager.modules.preload: "
                        "TestComponents.so(OnlyTellers)\nmanager.components.precreate: Counter\n"),
-               Contains("Counter") && Contains("known: Teller"));
+               Contains("Counter") && Contains("known: ") && Contains("Teller"));
     CHECK_THAT(
         refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter, Teller\n"
                 "manager.components.preconnect: Counter0.out?port=Teller0.inn\n"),
@@ -157,4 +157,21 @@ TEST_CASE("In lock-step components run when they are told to and at no other tim
     CHECK_THROWS_WITH(conductor.step("Nobody"), Catch::Contains("there is no component Nobody"));
     host.send(SIGTERM);
     CHECK(host.wait() == 0);
+}
+
+TEST_CASE("A manager without components leaves by itself unless it is told to stay") {
+    const std::string soon = "manager.auto_shutdown_duration:0.2";
+    CHECK(HostProcess({"-o", soon}).wait() == 0);
+    CHECK(HostProcess({"-i", "-f", "/no/such/rtc.conf", "-o", soon}).wait() == 0);
+    for (const std::vector<std::string>& stay : {std::vector<std::string>{"-d"},
+                                                 {"-o", "manager.shutdown_auto:NO"},
+                                                 {"-o", "manager.is_master:YES"}}) {
+        auto arguments = stay;
+        arguments.insert(arguments.end(), {"-o", soon});
+        HostProcess host(arguments);
+        REQUIRE(host.says("ready\n"));
+        CHECK(host.wait(std::chrono::seconds(1)) == -1000);
+        host.send(SIGTERM);
+        CHECK(host.wait() == 0);
+    }
 }

@@ -89,3 +89,34 @@ TEST_CASE("A provider may be a servant of an interface known at run time") {
     provider.deactivate(0);
     provider.removePort(port);
 }
+
+TEST_CASE(
+    "An explicit mapping chooses the provider whatever its instance name and nil leaves the consumer empty") {
+    Stage stage;
+    auto& first = stage.create<CalculatorProvider>("CalculatorProvider");
+    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    Calculator other;
+    REQUIRE(first.port_.registerProvider("other", "Testing::Calculator", other));
+    stage.activate(first);
+    const std::string required = "CalculatorConsumer0.port.calculator.required.Testing::Calculator.calc";
+    const std::string provided = "CalculatorProvider0.port.calculator.provided.Testing::Calculator.other";
+    auto connect = [&](const std::string& to) {
+        RTC::ConnectorProfile profile;
+        profile.name = CORBA::string_dup("mapped");
+        profile.ports.length(2);
+        profile.ports[0] = first.port_.getPortRef();
+        profile.ports[1] = consumer.port_.getPortRef();
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(required.c_str(), to.c_str()));
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV("port.connection.strictness", "strict"));
+        return first.port_.connect(profile);
+    };
+    REQUIRE(connect(provided) == RTC::RTC_OK);
+    CHECK(sum_of(consumer, {1, 2}) == 3);
+    CHECK(other.calls() == 1);
+    consumer.port_.disconnect_all();
+    CHECK(CORBA::is_nil(consumer.calculator_._ptr()));
+    REQUIRE(connect("nil") == RTC::RTC_OK);
+    CHECK(CORBA::is_nil(consumer.calculator_._ptr()));
+    consumer.port_.disconnect_all();
+    first.deactivate(0);
+}

@@ -49,7 +49,8 @@ ReturnCode_t ExecutionContextBase::transit(LightweightRTObject_ptr comp, LifeCyc
     // Its component is still being created, or was stopped for good: onActivated belongs between start and
     // stop.
     if (to == ACTIVE_STATE && !isRunning()) return PRECONDITION_NOT_MET;
-    if (!participant->goTo(from, to)) return PRECONDITION_NOT_MET;
+    // Asked for already in a callback of a context whose cycles are over: that is done now.
+    if (!participant->goTo(from, to) && !participant->onItsWay(from, to)) return PRECONDITION_NOT_MET;
     if (hasThread()) {
         onRequest();
         return !wait.sync || insideCycle() ? RTC_OK : await(participant, to, wait.timeout);

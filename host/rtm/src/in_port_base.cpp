@@ -53,7 +53,11 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
                                              "; add it to RTC::CdrBufferFactory before connecting");
     }
     if (own || info.properties.findNode("buffer") != nullptr) buffer->init(info.properties.getNode("buffer"));
-    auto* connector = new InPortPushConnector(*this, info, buffer, own);
+    const bool direct = !own && coil::normalize(prop.getProperty("interface_type")) == "direct";
+    const auto lane = direct ? directLane() : nullptr;
+    if (lane != nullptr)
+        if (const auto* node = info.properties.findNode("buffer")) lane->init(*node);
+    auto* connector = new InPortPushConnector(*this, info, buffer, own, lane);
     publish_object(profile, "dataport." + wire_interface(prop) + ".inport", connector->servant().reference(),
                    connector->servant().ior());
     addConnector(connector);
@@ -127,7 +131,7 @@ InPortConnector* InPortBase::readableLocked(const std::string& name, bool or_fir
         if (first == nullptr) first = connector;
         // The only one is what the caller gets, new data or not, and reading it shows which.
         if (or_first && m_connectors.size() == 1) return first;
-        if (connector->getBuffer()->readable() > 0) return connector;
+        if (connector->waiting() > 0) return connector;
     }
     return or_first ? first : nullptr;
 }

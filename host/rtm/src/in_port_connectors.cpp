@@ -56,11 +56,12 @@ DataPortStatus InPortConnector::report(BufferStatus status, ByteData& bytes) {
 BufferStatus InPortConnector::write(ByteData& bytes) { return m_buffer->write(bytes); }
 
 InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer,
-                                         bool own)
+                                         bool own, std::shared_ptr<DirectLaneBase> lane)
     : InPortConnector(info, port.getListeners(), buffer), own_(own),
-      inlet_(std::make_shared<DataInlet>(port, info, *buffer)),
+      inlet_(std::make_shared<DataInlet>(port, info, *buffer, lane)),
       servant_(make_servant(wire_interface(info.properties), inlet_, m_littleEndian)) {
     m_inPlace = inlet_->inPlace();
+    m_lane = std::move(lane);
 }
 
 InPortPushConnector::~InPortPushConnector() {

@@ -12,7 +12,9 @@ namespace RTC {
 class InPortPushConnector : public InPortConnector {
   public:
     /// `own`: the buffer came from CdrBufferFactory for this connector alone.
-    InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer, bool own);
+    /// `lane` of a direct connection, else NULL.
+    InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer, bool own,
+                        std::shared_ptr<DirectLaneBase> lane = nullptr);
     ~InPortPushConnector() override;
     DataPortStatus disconnect() override;
     BufferStatus write(ByteData& bytes) override;

@@ -4,8 +4,9 @@
 
 namespace RTC {
 
-DataInlet::DataInlet(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer)
-    : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer),
+DataInlet::DataInlet(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
+                     std::shared_ptr<DirectLaneBase> lane)
+    : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer), lane_(std::move(lane)),
       in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
       timestamp_(timestampPolicy(info.properties)) {}
@@ -30,11 +31,24 @@ bool DataInlet::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
     return written != BufferStatus::NOT_SUPPORTED;
 }
 
+bool DataInlet::receiveDirect(const DirectPut& put, DataPortStatus& status) {
+    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    // Whoever wants to see or stamp the bytes needs them.
+    if (!open_ || lane_ == nullptr || timestamp_ == TimestampPolicy::on_received || listeners_.toData())
+        return false;
+    const BufferStatus written = put(*lane_);
+    status = written == BufferStatus::OK        ? DataPortStatus::PORT_OK
+             : written == BufferStatus::FULL    ? DataPortStatus::BUFFER_FULL
+             : written == BufferStatus::TIMEOUT ? DataPortStatus::BUFFER_TIMEOUT
+                                                : DataPortStatus::PORT_ERROR;
+    return written != BufferStatus::NOT_SUPPORTED;
+}
+
 DataPortStatus DataInlet::store(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
-    if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && buffer_.full())
+    if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full())
         listeners_.notify(Type::ON_BUFFER_OVERWRITE, info_, bytes, marshaling_type_);
-    switch (buffer_.write(bytes)) {
+    switch (lane_ ? lane_->writeBytes(bytes) : buffer_.write(bytes)) {
     case BufferStatus::OK:
         listeners_.notify(Type::ON_BUFFER_WRITE, info_, bytes, marshaling_type_);
         return DataPortStatus::PORT_OK;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's life: start, activation, run loop, orderly end.
 #include "manager_impl.hpp"
+#include "shared_composite.hpp"
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -76,6 +77,7 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
                                    ECDelete<OpenHRPExecutionContext>);
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,
                                             coil::Destructor<CdrBufferBase, CdrRingBuffer>);
+    add_shared_composite(*manager);
     the_manager = manager.release();
     start_keeper(*the_manager, *the_manager->m_impl);
     publish_manager(*the_manager, *the_manager->m_impl);

@@ -21,6 +21,8 @@ DataPortStatus OutPortConnector::write(ByteDataStreamBase* stream) {
 
 bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return false; }
 
+bool OutPortConnector::writeDirect(const DirectPut&, DataPortStatus&) { return false; }
+
 bool OutPortConnector::sendsLike(const OutPortConnector& other) const {
     auto stamps = [](TimestampPolicy p) {
         return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
@@ -31,8 +33,10 @@ bool OutPortConnector::sendsLike(const OutPortConnector& other) const {
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::shared_ptr<DataInlet> local)
-    : OutPortConnector(info, port.getListeners()), local_(std::move(local)),
-      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {
+    : OutPortConnector(info, port.getListeners()), local_(std::move(local)) {
+    m_direct = local_->lane() != nullptr;
+    if (!m_direct) // who wants values as they are wants them at once
+        publisher_ = Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); });
     if (local_->inPlace() != nullptr && !publisher_) m_longFrom = local_->inPlace()->longFrom();
 }
 
@@ -52,12 +56,22 @@ DataPortStatus OutPortPushConnector::disconnect() {
 }
 
 DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
-    m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_WRITE, m_profile, bytes, m_marshaling_type);
-    return publisher_ ? publisher_->write(bytes) : deliver(bytes);
+    if (!publisher_) return deliver(bytes);
+    using Type = ConnectorDataListenerType;
+    m_listeners->notify(Type::ON_BUFFER_WRITE, m_profile, bytes, m_marshaling_type);
+    if (m_listeners->has(Type::ON_BUFFER_OVERWRITE) && publisher_->buffer().full())
+        m_listeners->notify(Type::ON_BUFFER_OVERWRITE, m_profile, bytes, m_marshaling_type);
+    const DataPortStatus status = publisher_->write(bytes);
+    if (status == DataPortStatus::BUFFER_FULL)
+        m_listeners->notify(Type::ON_BUFFER_FULL, m_profile, bytes, m_marshaling_type);
+    if (status == DataPortStatus::BUFFER_TIMEOUT)
+        m_listeners->notify(Type::ON_BUFFER_WRITE_TIMEOUT, m_profile, bytes, m_marshaling_type);
+    return status;
 }
 
 DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
+    if (publisher_) m_listeners->notify(Type::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
     const DataPortStatus status = local_    ? local_->receive(bytes)
                                   : remote_ ? remote_->write(bytes, alone_)
@@ -82,6 +96,10 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
 
 bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& status) {
     return !m_listeners->toData() && local_->receiveInPlace(marshal, status);
+}
+
+bool OutPortPushConnector::writeDirect(const DirectPut& put, DataPortStatus& status) {
+    return !m_listeners->toData() && local_->receiveDirect(put, status);
 }
 
 OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)

@@ -19,6 +19,7 @@ class OutPortPushConnector : public OutPortConnector {
     using OutPortConnector::write;
     DataPortStatus write(ByteData& bytes) override;
     bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override;
+    bool writeDirect(const DirectPut& put, DataPortStatus& status) override;
     DataPortStatus disconnect() override;
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
 

@@ -35,6 +35,11 @@ bool RTObjectStateMachine::goTo(LifeCycleState from, LifeCycleState to) {
     return true;
 }
 
+bool RTObjectStateMachine::onItsWay(LifeCycleState from, LifeCycleState to) const {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return current_ == from && next_ == to;
+}
+
 bool RTObjectStateMachine::is(RTC::LightweightRTObject_ptr component) const {
     return reference_->_is_equivalent(component);
 }

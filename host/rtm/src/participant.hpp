@@ -21,6 +21,7 @@ class RTObjectStateMachine {
     bool pending() const;
     /// Asks for a transition; false when the component is in another state than `from` or already on its way.
     bool goTo(RTC::LifeCycleState from, RTC::LifeCycleState to);
+    bool onItsWay(RTC::LifeCycleState from, RTC::LifeCycleState to) const;
 
     bool is(RTC::LightweightRTObject_ptr component) const;
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }

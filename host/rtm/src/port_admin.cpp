@@ -9,15 +9,28 @@ std::vector<PortBase*> PortAdmin::ports() const {
     return ports_;
 }
 
+std::vector<PortService_var> PortAdmin::others() const {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return others_;
+}
+
 PortServiceList* PortAdmin::getPortServiceList() const {
     PortServiceList_var list = new PortServiceList;
     for (auto* port : ports()) CORBA_SeqUtil::push_back(list.inout(), PortService_var(port->getPortRef()));
+    for (auto& other : others()) CORBA_SeqUtil::push_back(list.inout(), other);
     return list._retn();
 }
 
 PortProfileList PortAdmin::getPortProfileList() const {
     PortProfileList list;
     for (auto* port : ports()) CORBA_SeqUtil::push_back(list, PortProfile_var(port->get_port_profile()).in());
+    for (auto& other : others()) {
+        try {
+            CORBA_SeqUtil::push_back(list, PortProfile_var(other->get_port_profile()).in());
+        } catch (const CORBA::SystemException&) {
+            continue; // its component is gone
+        }
+    }
     return list;
 }
 
@@ -50,6 +63,19 @@ bool PortAdmin::removePort(PortBase& port) {
     if (found == ports_.end()) return false;
     ports_.erase(found);
     return true;
+}
+
+bool PortAdmin::addPort(PortService_ptr port) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    for (auto& other : others_)
+        if (other->_is_equivalent(port)) return false;
+    others_.emplace_back(PortService::_duplicate(port));
+    return true;
+}
+
+bool PortAdmin::removePort(PortService_ptr port) {
+    std::lock_guard<std::mutex> lock(mutex_);
+    return std::erase_if(others_, [&](auto& other) { return other->_is_equivalent(port); }) > 0;
 }
 
 void PortAdmin::activatePorts() {

@@ -82,7 +82,15 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
 ReturnCode_t PortBase::notify_connect(ConnectorProfile& profile) {
     const ReturnCode_t result = establish(profile);
     if (result == RTC_OK && m_onConnected != nullptr) (*m_onConnected)(profile);
+    tell(PortConnectRetListenerType::ON_CONNECTED, profile, result);
     return result;
+}
+
+void PortBase::tell(PortConnectListenerType type, ConnectorProfile& profile) {
+    m_connectListeners.at(type).forEach([&](auto& listener) { listener(getName(), profile); });
+}
+void PortBase::tell(PortConnectRetListenerType type, ConnectorProfile& profile, ReturnCode_t result) {
+    m_connectListeners.at(type).forEach([&](auto& listener) { listener(getName(), profile, result); });
 }
 
 ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
@@ -95,11 +103,16 @@ ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
         return refuse(PRECONDITION_NOT_MET, std::string(getName()) + " is already connected to that port");
     refuse(RTC_OK, "");
 
+    using Step = PortConnectRetListenerType;
+    tell(PortConnectListenerType::ON_NOTIFY_CONNECT, profile);
     const ReturnCode_t published = publishInterfaces(profile);
+    tell(Step::ON_PUBLISH_INTERFACES, profile, published);
     if (m_onPublishInterfaces != nullptr) (*m_onPublishInterfaces)(profile);
     const ReturnCode_t passed_on = published == RTC_OK ? passOn(profile) : published;
+    tell(Step::ON_CONNECT_NEXTPORT, profile, passed_on);
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
     const ReturnCode_t subscribed = passed_on == RTC_OK ? subscribeInterfaces(profile) : passed_on;
+    tell(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
     // Kept even when it has failed: the disconnection that follows finds by it what to undo.
     updateConnectorProfile(profile);
     if (subscribed == RTC_OK && has_remote_port(profile)) Manager::instance().impl().connections->watch();
@@ -172,7 +185,9 @@ ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
+    tell(PortConnectListenerType::ON_NOTIFY_DISCONNECT, profile);
     const ReturnCode_t result = disconnectNext(profile);
+    tell(PortConnectRetListenerType::ON_DISCONNECT_NEXT, profile, result);
     release(connector_id);
     return result;
 }
@@ -181,7 +196,9 @@ bool PortBase::release(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return false;
     if (m_onUnsubscribeInterfaces != nullptr) (*m_onUnsubscribeInterfaces)(profile);
+    tell(PortConnectListenerType::ON_UNSUBSCRIBE_INTERFACES, profile);
     unsubscribeInterfaces(profile);
+    tell(PortConnectRetListenerType::ON_DISCONNECTED, profile, RTC_OK);
     if (m_onDisconnected != nullptr) (*m_onDisconnected)(profile);
     return eraseConnectorProfile(connector_id);
 }

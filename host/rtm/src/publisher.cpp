@@ -16,8 +16,8 @@ Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver 
         properties.getProperty("publisher.push_policy", properties.getProperty("push_policy")));
     policy_ = policy == "fifo"   ? Policy::fifo
               : policy == "skip" ? Policy::skip
-              : policy == "new"  ? Policy::newest
-                                 : Policy::all;
+              : policy == "all"  ? Policy::all
+                                 : Policy::newest;
     coil::stringTo(
         skip_, properties.getProperty("publisher.skip_count", properties.getProperty("skip_count")).c_str());
     double rate = 10; // Hz, when periodic is asked for without a rate

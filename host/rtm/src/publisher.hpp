@@ -10,7 +10,7 @@
 namespace RTC {
 
 /// A thread between a writer and a slow receiver (subscription types new and periodic). Properties:
-/// `push_policy` all | fifo | skip | new (all), `skip_count`, `push_rate` (Hz, periodic), `buffer.*`.
+/// `push_policy` all | fifo | skip | new (new), `skip_count`, `push_rate` (Hz, periodic), `buffer.*`.
 class Publisher {
   public:
     using Deliver = std::function<DataPortStatus(ByteData&)>;
@@ -29,7 +29,7 @@ class Publisher {
 
     Deliver deliver_;
     CdrRingBuffer buffer_;
-    Policy policy_ = Policy::all;
+    Policy policy_ = Policy::newest;
     unsigned skip_ = 0;
     unsigned skipped_ = 0;
     std::chrono::nanoseconds period_{0}; // 0: at each write

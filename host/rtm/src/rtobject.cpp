@@ -2,6 +2,7 @@
 // A component as an object: construction, life, contexts.
 #include "contexts_wanted.hpp"
 #include "local_object.hpp"
+#include "organization.hpp"
 #include "sdo_configuration.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/ExecutionContextBase.h>
@@ -10,7 +11,9 @@
 namespace RTC {
 
 RTObject_impl::RTObject_impl(Manager* manager)
-    : m_pManager(manager), m_pORB(manager->getORB()), m_pPOA(manager->getPOA()) {
+    : m_pManager(manager), m_pORB(manager->getORB()), m_pPOA(manager->getPOA()),
+      m_ownedOrganizations(std::make_shared<SDOPackage::Organizations>()),
+      m_organizations(std::make_shared<SDOPackage::Organizations>()) {
     m_objref = this->_this();
     m_oid = m_pPOA->servant_to_id(this);
     m_profile.parent = RTC::RTObject::_nil();
@@ -81,6 +84,7 @@ ReturnCode_t RTObject_impl::exit() {
         return RTC_OK;
     }
     if (m_exiting.exchange(true)) return RTC_OK;
+    m_organizations->leave(getInstanceName());
     RTObject_var self = getObjRef();
     ReturnCode_t stopped = RTC_OK;
     for (auto* context : m_eclist) {

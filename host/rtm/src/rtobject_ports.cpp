@@ -76,6 +76,9 @@ bool RTObject_impl::addOutPort(const char* name, OutPortBase& outport) {
     return true;
 }
 
+bool RTObject_impl::addPort(PortService_ptr port) { return m_portAdmin.addPort(port); }
+bool RTObject_impl::removePort(PortService_ptr port) { return m_portAdmin.removePort(port); }
+
 bool RTObject_impl::removeInPort(InPortBase& port) {
     std::erase(m_inports, &port);
     return removePort(static_cast<PortBase&>(port));

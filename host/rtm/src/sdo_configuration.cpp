@@ -25,8 +25,8 @@ bool describes_parameters(const coil::Properties& set) {
 
 } // namespace
 
-Configuration_impl::Configuration_impl(RTC::ConfigAdmin& sets)
-    : sets_(sets), poa_(RTC::Manager::instance().getPOA()) {
+Configuration_impl::Configuration_impl(RTC::ConfigAdmin& sets, std::shared_ptr<Organizations> organizations)
+    : sets_(sets), organizations_(std::move(organizations)), poa_(RTC::Manager::instance().getPOA()) {
     id_ = poa_->activate_object(this);
 }
 
@@ -40,9 +40,11 @@ void Configuration_impl::retire() {
 
 CORBA::Boolean Configuration_impl::set_device_profile(const DeviceProfile&) { return false; }
 CORBA::Boolean Configuration_impl::add_service_profile(const ServiceProfile&) { return false; }
-CORBA::Boolean Configuration_impl::add_organization(Organization_ptr) { return false; }
+CORBA::Boolean Configuration_impl::add_organization(Organization_ptr organization) {
+    return organizations_->add(organization);
+}
 CORBA::Boolean Configuration_impl::remove_service_profile(const char*) { return false; }
-CORBA::Boolean Configuration_impl::remove_organization(const char*) { return false; }
+CORBA::Boolean Configuration_impl::remove_organization(const char* id) { return organizations_->remove(id); }
 ParameterList* Configuration_impl::get_configuration_parameters() { return new ParameterList; }
 
 NVList* Configuration_impl::get_configuration_parameter_values() {
@@ -105,7 +107,7 @@ CORBA::Boolean Configuration_impl::activate_configuration_set(const char* config
 namespace RTC {
 
 SDOPackage::OrganizationList* RTObject_impl::get_owned_organizations() {
-    return new SDOPackage::OrganizationList;
+    return m_ownedOrganizations->list();
 }
 char* RTObject_impl::get_sdo_id() { return CORBA::string_dup(m_profile.instance_name); }
 char* RTObject_impl::get_sdo_type() { return CORBA::string_dup(m_profile.description); }
@@ -121,13 +123,14 @@ SDOPackage::SDOService_ptr RTObject_impl::get_sdo_service(const char*) {
 }
 SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
-    if (m_sdoConfiguration == nullptr) m_sdoConfiguration = new SDOPackage::Configuration_impl(m_configsets);
+    if (m_sdoConfiguration == nullptr)
+        m_sdoConfiguration = new SDOPackage::Configuration_impl(m_configsets, m_organizations);
     return m_sdoConfiguration->_this();
 }
 SDOPackage::Monitoring_ptr RTObject_impl::get_monitoring() {
     throw SDOPackage::InterfaceNotImplemented("no monitoring");
 }
-SDOPackage::OrganizationList* RTObject_impl::get_organizations() { return new SDOPackage::OrganizationList; }
+SDOPackage::OrganizationList* RTObject_impl::get_organizations() { return m_organizations->list(); }
 SDOPackage::NVList* RTObject_impl::get_status_list() { return new SDOPackage::NVList; }
 CORBA::Any* RTObject_impl::get_status(const char*) {
     throw SDOPackage::InvalidParameter("this component has no status");

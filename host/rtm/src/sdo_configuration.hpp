@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "organization.hpp"
 #include <rtm/RTObject.h>
 
 namespace SDOPackage {
@@ -7,7 +8,7 @@ namespace SDOPackage {
 /// The configuration sets of a component as tools see and set them.
 class Configuration_impl : public POA_SDOPackage::Configuration {
   public:
-    explicit Configuration_impl(RTC::ConfigAdmin& sets);
+    Configuration_impl(RTC::ConfigAdmin& sets, std::shared_ptr<Organizations> organizations);
     void retire();
 
     CORBA::Boolean set_device_profile(const DeviceProfile& dProfile) override;
@@ -29,6 +30,7 @@ class Configuration_impl : public POA_SDOPackage::Configuration {
 
   private:
     RTC::ConfigAdmin& sets_;
+    std::shared_ptr<Organizations> organizations_; // that the component is a member of
     PortableServer::POA_var poa_;
     PortableServer::ObjectId_var id_;
 };

@@ -63,6 +63,10 @@ public:
     void setOnRead(OnRead<DataType>* on_read) { m_OnRead = on_read; }
     void setOnReadConvert(OnReadConvert<DataType>* on_rconvert) { m_OnReadConvert = on_rconvert; }
 
+    std::shared_ptr<DirectLaneBase> directLane() override {
+        if (m_lane == nullptr) m_lane = std::make_shared<DirectLane<DataType>>();
+        return m_lane;
+    }
     void stampReceived(ByteData& bytes) override {
         CORBA_CdrSerializer<DataType> stream;
         DataType data = DataType();
@@ -81,7 +85,7 @@ private:
         names.clear();
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
         for (auto* connector : m_connectors)
-            if ((connector->getBuffer()->readable() > 0) == has_data) names.push_back(connector->name());
+            if ((connector->waiting() > 0) == has_data) names.push_back(connector->name());
         return !names.empty();
     }
 
@@ -90,6 +94,7 @@ private:
     OnRead<DataType>* m_OnRead = nullptr;
     OnReadConvert<DataType>* m_OnReadConvert = nullptr;
     DataPortStatusList m_status;
+    std::shared_ptr<DirectLaneBase> m_lane; // one for all connections, as the buffer of the others is
 };
 
 } // namespace RTC

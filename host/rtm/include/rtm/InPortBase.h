@@ -49,6 +49,8 @@ public:
     std::shared_ptr<DataInlet> inlet(const char* connector_id);
     /// Ours: puts the time into a message that has arrived (timestamp_policy on_received).
     virtual void stampReceived(ByteData& bytes);
+    /// Ours: the buffer of `direct` connections; NULL for a port that takes bytes only.
+    virtual std::shared_ptr<DirectLaneBase> directLane() { return nullptr; }
 
 protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;

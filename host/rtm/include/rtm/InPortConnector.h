@@ -2,6 +2,7 @@
 #ifndef RTC_INPORTCONNECTOR_H
 #define RTC_INPORTCONNECTOR_H
 #include <rtm/ConnectorListener.h>
+#include <rtm/DirectLane.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
 #include <typeinfo>
@@ -31,7 +32,10 @@ public:
         auto* stream = serializer<DataType>();
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         DataPortStatus status = DataPortStatus::PORT_OK;
-        if (m_inPlace != nullptr && m_plainCdr) {
+        if (m_lane != nullptr && m_lane->type() == typeid(DataType)) {
+            status = readLane(static_cast<DirectLane<DataType>&>(*m_lane), *stream, data);
+            if (status != DataPortStatus::PORT_OK) return status;
+        } else if (m_inPlace != nullptr && m_plainCdr) {
             CdrUnmarshal<DataType> use(data);
             bool used = false;
             status = read(stream, use, used);
@@ -48,6 +52,8 @@ public:
 
     /// A message from the other end; ON_RECEIVED listeners first, then the buffer. [any-thread]
     virtual BufferStatus write(ByteData& bytes);
+    /// Ours: how many messages wait.
+    std::size_t waiting() { return m_lane ? m_lane->readable() : getBuffer()->readable(); }
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
 
@@ -67,6 +73,21 @@ protected:
         return static_cast<ByteDataStream<DataType>*>(m_typed);
     }
     DataPortStatus report(BufferStatus status, ByteData& bytes);
+    template <class DataType>
+    DataPortStatus readLane(DirectLane<DataType>& lane, ByteDataStream<DataType>& stream, DataType& data) {
+        const BufferStatus status = lane.read(data);
+        if (status != BufferStatus::OK || !m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
+            return report(status, m_bytes);
+        // Listeners see bytes, and may change them.
+        stream.isLittleEndian(true);
+        if (!stream.serialize(data)) return DataPortStatus::BUFFER_ERROR;
+        m_bytes = stream;
+        m_bytes.isLittleEndian(true);
+        const DataPortStatus told = report(status, m_bytes);
+        stream.isLittleEndian(true);
+        stream.writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
+        return stream.deserialize(data) ? told : DataPortStatus::BUFFER_ERROR;
+    }
     /// Ours: the oldest message, if it is long, to `use` where it lies, otherwise into `stream`.
     DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& use, bool& used);
 
@@ -80,6 +101,7 @@ protected:
     ByteDataStreamBase* m_cdr = nullptr;
 
     InPlaceBuffer* m_inPlace = nullptr; // the buffer, if it is one
+    std::shared_ptr<DirectLaneBase> m_lane; // of a direct connection
 
 private:
     bool m_plainCdr = false; // the serializer does what any stream does

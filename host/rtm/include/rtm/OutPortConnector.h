@@ -2,6 +2,7 @@
 #ifndef RTC_OUTPORTCONNECTOR_H
 #define RTC_OUTPORTCONNECTOR_H
 #include <rtm/ConnectorListener.h>
+#include <rtm/DirectLane.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
 #include <typeinfo>
@@ -32,6 +33,11 @@ public:
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         const bool stamps = m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;
         m_sentInPlace = false;
+        if (m_direct && !stamps) {
+            DataPortStatus status = DataPortStatus::PORT_OK;
+            m_sentInPlace = writeDirect(DirectPutOf<DataType>(data), status);
+            if (m_sentInPlace) return status;
+        }
         if (m_bytes.getDataLength() >= m_longFrom && m_plainCdr && m_littleEndian && !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
             m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
@@ -76,6 +82,9 @@ protected:
     /// it could be made; nothing has happened.
     virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
 
+    /// Ours: a value for an InPort of this process, unserialized. False as above.
+    virtual bool writeDirect(const DirectPut& put, DataPortStatus& status);
+
     Logger rtclog{"OutPortConnector"};
     ConnectorInfo m_profile;
     bool m_littleEndian = true;
@@ -85,6 +94,7 @@ protected:
     ByteDataStreamBase* m_cdr = nullptr;
 
     unsigned long m_longFrom = static_cast<unsigned long>(-1); // of the InPlaceBuffer, if there is one
+    bool m_direct = false; // the receiver has a lane
 
 private:
     bool m_plainCdr = false; // the serializer does what any stream does

@@ -18,6 +18,9 @@ public:
     /// False when there is one of that name.
     bool addPort(PortBase& port);
     bool removePort(PortBase& port);
+    /// Ports of other components, which are listed here as well; they stay theirs.
+    bool addPort(PortService_ptr port);
+    bool removePort(PortService_ptr port);
     void activatePorts();
     void deactivatePorts();
     /// Disconnects all and lets no more calls in.
@@ -25,9 +28,11 @@ public:
 
 private:
     std::vector<PortBase*> ports() const;
+    std::vector<PortService_var> others() const;
 
     mutable std::mutex mutex_;
     std::vector<PortBase*> ports_;
+    std::vector<PortService_var> others_;
 };
 
 } // namespace RTC

@@ -6,6 +6,7 @@
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/NVUtil.h>
 #include <rtm/PortCallback.h>
+#include <rtm/PortConnectListener.h>
 #include <rtm/RTC.h>
 #include <rtm/SystemLogger.h>
 #include <string>
@@ -50,6 +51,20 @@ public:
     void setOnUnsubscribeInterfaces(ConnectionCallback* callback) { m_onUnsubscribeInterfaces = callback; }
     void setOnDisconnected(ConnectionCallback* callback) { m_onDisconnected = callback; }
     void setOnConnectionLost(ConnectionCallback* callback) { m_onConnectionLost = callback; }
+
+    void addPortConnectListener(PortConnectListenerType type, PortConnectListener* listener, bool autoclean = true) {
+        m_connectListeners.at(type).addListener(listener, autoclean);
+    }
+    void removePortConnectListener(PortConnectListenerType type, PortConnectListener* listener) {
+        m_connectListeners.at(type).removeListener(listener);
+    }
+    void addPortConnectRetListener(PortConnectRetListenerType type, PortConnectRetListener* listener,
+                                   bool autoclean = true) {
+        m_connectListeners.at(type).addListener(listener, autoclean);
+    }
+    void removePortConnectRetListener(PortConnectRetListenerType type, PortConnectRetListener* listener) {
+        m_connectListeners.at(type).removeListener(listener);
+    }
 
     /// Ours: why the last connect() or notify_connect() was refused; one line, empty when it was not.
     std::string connectError() const;
@@ -109,6 +124,8 @@ private:
     ReturnCode_t establish(ConnectorProfile& connector_profile);
     ReturnCode_t passOn(ConnectorProfile& connector_profile);
     bool release(const char* connector_id);
+    void tell(PortConnectListenerType type, ConnectorProfile& profile);
+    void tell(PortConnectRetListenerType type, ConnectorProfile& profile, ReturnCode_t result);
     bool alreadyConnectedTo(const ConnectorProfile& connector_profile);
 
     PortableServer::POA_var m_poa;
@@ -116,6 +133,7 @@ private:
     bool m_retired = false;
     mutable std::mutex m_errorMutex;
     std::string m_connectError;
+    PortConnectListeners m_connectListeners;
 };
 
 } // namespace RTC

@@ -7,6 +7,7 @@
 #include <rtm/ComponentActionListener.h>
 #include <rtm/ConfigAdmin.h>
 #include <rtm/CorbaPort.h>
+#include <rtm/FsmActionListener.h>
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 #include <rtm/PortAdmin.h>
@@ -21,6 +22,7 @@
 
 namespace SDOPackage {
 class Configuration_impl;
+class Organizations;
 }
 
 namespace RTC {
@@ -120,6 +122,9 @@ public:
 
     bool addPort(PortBase& port);
     bool addPort(CorbaPort& port);
+    /// A port of another component, which is offered as if it were one of this one's.
+    bool addPort(PortService_ptr port);
+    bool removePort(PortService_ptr port);
     bool addInPort(const char* name, InPortBase& inport);
     bool addOutPort(const char* name, OutPortBase& outport);
     bool removeInPort(InPortBase& port);
@@ -168,6 +173,30 @@ public:
                                            ExecutionContextActionListener* listener, bool autoclean = true);
     void removeExecutionContextActionListener(ExecutionContextActionListenerType type,
                                               ExecutionContextActionListener* listener);
+    void addPreFsmActionListener(PreFsmActionListenerType type, PreFsmActionListener* listener, bool autoclean = true) {
+        m_fsmListeners.preaction_.at(m_actionListeners.at(type)).addListener(listener, autoclean);
+    }
+    void removePreFsmActionListener(PreFsmActionListenerType type, PreFsmActionListener* listener) {
+        m_fsmListeners.preaction_.at(m_actionListeners.at(type)).removeListener(listener);
+    }
+    void addPostFsmActionListener(PostFsmActionListenerType type, PostFsmActionListener* listener,
+                                  bool autoclean = true) {
+        m_fsmListeners.postaction_.at(m_actionListeners.at(type)).addListener(listener, autoclean);
+    }
+    void removePostFsmActionListener(PostFsmActionListenerType type, PostFsmActionListener* listener) {
+        m_fsmListeners.postaction_.at(m_actionListeners.at(type)).removeListener(listener);
+    }
+    // Called by the states of its machine.
+    void preOnFsmInit(const char* state);
+    void postOnFsmInit(const char* state, ReturnCode_t ret);
+    void preOnFsmEntry(const char* state);
+    void postOnFsmEntry(const char* state, ReturnCode_t ret);
+    void preOnFsmDo(const char* state);
+    void postOnFsmDo(const char* state, ReturnCode_t ret);
+    void preOnFsmExit(const char* state);
+    void postOnFsmExit(const char* state, ReturnCode_t ret);
+    void preOnFsmStateChange(const char* state);
+    void postOnFsmStateChange(const char* state, ReturnCode_t ret);
     void addConfigurationParamListener(ConfigurationParamListenerType type, ConfigurationParamListener* listener,
                                        bool autoclean = true) {
         m_configsets.addConfigurationParamListener(type, listener, autoclean);
@@ -204,6 +233,8 @@ protected:
     std::vector<ExecutionContextBase*> m_eclist;
     coil::Properties m_properties;
     ConfigAdmin m_configsets{m_properties.getNode("conf")};
+    /// Ours: groups of components that this one leads, and those it is a member of.
+    std::shared_ptr<SDOPackage::Organizations> m_ownedOrganizations, m_organizations;
 
 private:
     template <class Callback>
@@ -218,6 +249,7 @@ private:
     std::vector<ExecutionContext_var> m_ecOther;
     SDOPackage::Configuration_impl* m_sdoConfiguration = nullptr;
     ComponentActionListeners m_actionListeners;
+    FsmActionListeners m_fsmListeners;
     bool m_created = true;
     std::atomic<bool> m_exiting{false};
     bool m_errorReported = false; // onError fails once per cycle, it is said once

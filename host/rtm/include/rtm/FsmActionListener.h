@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Callbacks around the actions of a component's state machine.
+#ifndef RTC_FSMACTIONLISTENER_H
+#define RTC_FSMACTIONLISTENER_H
+#include <array>
+#include <cstdint>
+#include <rtm/ListenerHolder.h>
+#include <rtm/RTC.h>
+
+namespace RTC {
+
+enum class PreFsmActionListenerType : std::uint8_t {
+    PRE_ON_INIT,
+    PRE_ON_ENTRY,
+    PRE_ON_DO,
+    PRE_ON_EXIT,
+    PRE_ON_STATE_CHANGE,
+    PRE_FSM_ACTION_LISTENER_NUM
+};
+enum class PostFsmActionListenerType : std::uint8_t {
+    POST_ON_INIT,
+    POST_ON_ENTRY,
+    POST_ON_DO,
+    POST_ON_EXIT,
+    POST_ON_STATE_CHANGE,
+    POST_FSM_ACTION_LISTENER_NUM
+};
+
+class PreFsmActionListener {
+public:
+    virtual ~PreFsmActionListener() = default;
+    virtual void operator()(const char* state) = 0;
+};
+class PostFsmActionListener {
+public:
+    virtual ~PostFsmActionListener() = default;
+    virtual void operator()(const char* state, ReturnCode_t ret) = 0;
+};
+
+/// A component's FSM listeners by kind. [any-thread]
+class FsmActionListeners {
+public:
+    std::array<RTM::util::ListenerHolder<PreFsmActionListener>,
+               static_cast<std::size_t>(PreFsmActionListenerType::PRE_FSM_ACTION_LISTENER_NUM)>
+        preaction_;
+    std::array<RTM::util::ListenerHolder<PostFsmActionListener>,
+               static_cast<std::size_t>(PostFsmActionListenerType::POST_FSM_ACTION_LISTENER_NUM)>
+        postaction_;
+};
+
+} // namespace RTC
+#endif
