@@ -39,3 +39,4 @@ foreach(component opros rtm)
 endforeach()
 # The program `tandem` is of both models.
 install(TARGETS tandem_opros LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT rtm)
+install(TARGETS tandem_rtm LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT opros OPTIONAL)

@@ -72,8 +72,10 @@ function(tandem_add_rtm_component name)
 
   add_library(${name} MODULE ${arg_SOURCES})
   tandem_add_rtm_idl(${name} ${arg_IDL} INCLUDE_DIRS ${folder}/idl ${folder} ${arg_INCLUDE_DIRS})
-  target_include_directories(${name} PRIVATE ${include_dirs} ${arg_INCLUDE_DIRS})
-  target_link_libraries(${name} PRIVATE Tandem::rtm ${arg_LIBRARIES} ${CMAKE_DL_LIBS})
+  target_include_directories(${name} PRIVATE ${include_dirs} ${arg_INCLUDE_DIRS} ${TANDEM_RTM_IDL_INCLUDE}/rtm/ext)
+  # Camera and manipulator interfaces only for those that have none of their own.
+  target_link_directories(${name} PRIVATE $<TARGET_FILE_DIR:Tandem::rtm>)
+  target_link_libraries(${name} PRIVATE Tandem::rtm ${arg_LIBRARIES} ${CMAKE_DL_LIBS} ${TANDEM_RTM_EXT_LIBRARIES})
   target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
   # Without symbols that are unique in the process the library can be unloaded and built anew; what is missing is told
   # when it is linked and not when it is loaded.
