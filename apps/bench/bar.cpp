@@ -60,13 +60,25 @@ void add_opros(std::vector<BarLine>& lines) {
     lines.push_back({"OPRoS push of a double, ns", Sense::at_most, 300, "ours/opros/push/8", ""});
     lines.push_back(
         {"OPRoS push of vector<double>(1000), ns", Sense::at_most, 1000, "ours/opros/push/8000", ""});
-    lines.push_back(
-        {"OPRoS blocking service call, ns", Sense::at_most, 200, "ours/opros/local-call/8", ""});
+    lines.push_back({"OPRoS blocking service call, ns", Sense::at_most, 200, "ours/opros/local-call/8", ""});
     lines.push_back({"OPRoS event to call-back, low-latency-idle, ns", Sense::at_most, 10'000,
                      "ours/opros/event/8/blocking/low-latency-idle", ""});
     lines.push_back(
         {"OPRoS 1 ms tick with tick-spin, late by ns", Sense::at_most, 1000, "ours/opros/tick/8/spin", ""});
     lines.push_back({"OPRoS 1 ms tick / cyclictest", Sense::at_most, 1.5, "ours/opros/tick/8/blocking",
+                     "peer/cyclictest/tick/8/blocking"});
+}
+
+void add_rtm(std::vector<BarLine>& lines) {
+    lines.push_back({"RTM write of TimedLong, ns", Sense::at_most, 500, "ours/rtm/write/12/direct", ""});
+    lines.push_back(
+        {"RTM write of TimedDoubleSeq of 3, ns", Sense::at_most, 500, "ours/rtm/write/36/direct", ""});
+    lines.push_back({"RTM allocations per 100,000 writes and reads", Sense::at_most, 0,
+                     "ours/rtm/write-allocations/48/direct", ""});
+    lines.push_back({"RTM service call, ns", Sense::at_most, 500, "ours/rtm/local-call/8", ""});
+    lines.push_back(
+        {"RTM 1 ms tick with tick-spin, late by ns", Sense::at_most, 1000, "ours/rtm/tick/8/spin", ""});
+    lines.push_back({"RTM 1 ms tick / cyclictest", Sense::at_most, 1.5, "ours/rtm/tick/8/blocking",
                      "peer/cyclictest/tick/8/blocking"});
 }
 
@@ -97,6 +109,7 @@ void add_rest(std::vector<BarLine>& lines) {
                      "ours/ring/ports/64/spin-then-futex/256 ports",
                      "ours/ring/ports/64/spin-then-futex/1 port"});
     add_opros(lines);
+    add_rtm(lines);
     for (const std::string wake : {"spin", "spin-then-futex"}) {
         lines.push_back({"system calls per 100,000 publishes, " + wake, Sense::at_most, 0,
                          "ours/ring/publish-system-calls/64/" + wake, ""});

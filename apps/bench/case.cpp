@@ -72,6 +72,7 @@ Registry all_cases() {
     add_our_port_cases(registry);
     add_our_opros_cases(registry);
     add_our_publish_count_cases(registry);
+    add_our_rtm_cases(registry);
     add_our_wheelchair_cases(registry);
     add_peer_cases(registry);
     std::map<std::string, std::size_t> order;

@@ -17,6 +17,7 @@ void add_our_call_cases(Registry& registry);
 void add_our_port_cases(Registry& registry);
 void add_our_opros_cases(Registry& registry);
 void add_our_publish_count_cases(Registry& registry);
+void add_our_rtm_cases(Registry& registry);
 void add_our_wheelchair_cases(Registry& registry);
 
 void add_peer_cases(Registry& registry); ///< those that this build has, and the names of the others

@@ -101,7 +101,11 @@ public:
 
     // Not marked override, though those of substates do override: the top state has none above it.
 #pragma GCC diagnostic push
+#ifdef __clang__
+#pragma GCC diagnostic ignored "-Winconsistent-missing-override"
+#else
 #pragma GCC diagnostic ignored "-Wsuggest-override"
+#endif
     virtual ReturnCode_t onEntry() { return RTC_OK; }
     virtual ReturnCode_t onInit() { return RTC_OK; }
     virtual ReturnCode_t onExit() { return RTC_OK; }
