@@ -59,6 +59,16 @@ TEST_CASE("A value a key cannot have is refused with file, line and what it can 
     CHECK(checked("corba.endpoints:\nmanager.shutdown_auto:\n").empty());
 }
 
+TEST_CASE("Keys that do nothing are in the table of differences with a reason and no others") {
+    std::ifstream in(TANDEM_RTM_FOLDER "/DIFFERENCES.md");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string table = text.substr(text.find("accepted and do nothing"));
+    for (const auto& key : RTC::conf_keys()) {
+        CAPTURE(key.name);
+        CHECK((table.find("`" + std::string(key.name) + "`") != std::string::npos) == !key.used);
+    }
+}
+
 TEST_CASE("Other words for yes and no do what they say") {
     coil::Properties conf;
     CHECK(checked("manager.shutdown_auto: false\nmanager.is_master: On\n", conf).empty());

@@ -209,7 +209,7 @@ std::string format_name(const std::string& format, const coil::Properties& compo
             out += config.getProperty("os.hostname");
             break;
         case 'M':
-            out += config.getProperty("manager.instance_name");
+            out += config.getProperty("manager.name");
             break;
         case 'p':
             out += config.getProperty("manager.pid");
