@@ -163,8 +163,50 @@ struct HeardBytes : RTC::ConnectorDataListener {
         return NO_CHANGE;
     }
 };
+// The forms of 1.2 and of 1.0 for bytes
+struct AddsTo : RTC::ConnectorDataListener {
+    USE_CONNLISTENER_STATUS;
+    ReturnCode operator()(RTC::ConnectorInfo&, cdrMemoryStream& stream) override {
+        RTC::TimedLong data;
+        data <<= stream;
+        data.data += 1000;
+        stream.rewindPtrs();
+        data >>= stream;
+        return DATA_CHANGED;
+    }
+};
+struct HeardStream : RTC::ConnectorDataListener {
+    std::vector<long>* values;
+    explicit HeardStream(std::vector<long>& v) : values(&v) {}
+    void operator()(const RTC::ConnectorInfo&, const cdrMemoryStream& stream) override {
+        values->push_back(static_cast<long>(stream.bufSize()));
+    }
+};
+struct Joined : RTC::ConnectorListener {
+    std::vector<std::string>* names;
+    explicit Joined(std::vector<std::string>& n) : names(&n) {}
+    void operator()(const RTC::ConnectorInfo& info) override { names->push_back(info.name); }
+};
 
 } // namespace
+
+TEST_CASE("Listeners of 1.2 may change the stream and those of 1.0 hear streams and connections") {
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    auto& summer = stage.create<Summer>("Summer");
+    std::vector<long> sizes;
+    std::vector<std::string> joined;
+    summer.in_.addConnectorDataListener(RTC::ON_RECEIVED, new AddsTo());
+    summer.in_.addConnectorDataListener(RTC::ON_BUFFER_WRITE, new HeardStream(sizes));
+    counter.out_.addConnectorListener(RTC::ON_CONNECT, new Joined(joined));
+    stage.connect("Counter0.out?port=Summer0.in");
+    CHECK(joined.size() == 1);
+    counter.value_.data = 5;
+    counter.out_.write();
+    CHECK(sizes == std::vector<long>{12});
+    summer.in_.read();
+    CHECK(summer.value_.data == 1005);
+}
 
 TEST_CASE("Listeners hear values or bytes, in the 2.x and the 1.x form, and may change what is received") {
     Stage stage;

@@ -26,7 +26,13 @@ ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInf
     cdrMemoryStream stream;
     stream.setByteSwapFlag(data.getEndian());
     stream.put_octet_array(data.getBuffer(), static_cast<int>(data.getDataLength()));
-    (*this)(static_cast<const ConnectorInfo&>(info), static_cast<const cdrMemoryStream&>(stream));
+    const ReturnCode result = (*this)(info, stream);
+    if (result & DATA_CHANGED)
+        data.writeData(static_cast<const unsigned char*>(stream.bufPtr()), stream.bufSize());
+    return result;
+}
+ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInfo& info, cdrMemoryStream& data) {
+    (*this)(static_cast<const ConnectorInfo&>(info), static_cast<const cdrMemoryStream&>(data));
     return NO_CHANGE;
 }
 void ConnectorDataListener::operator()(const ConnectorInfo&, const cdrMemoryStream&) {}

@@ -79,6 +79,38 @@ RTC::ReturnCode_t set_default_rate(RTObject_ptr rtc, double rate) {
     return CORBA::is_nil(context.in()) ? RTC::BAD_PARAMETER : context->set_rate(rate);
 }
 
+double get_current_rate(RTObject_ptr rtc, UniqueId ec_id) {
+    RTC::ExecutionContext_var context = get_actual_ec(rtc, ec_id);
+    return CORBA::is_nil(context.in()) ? -1.0 : context->get_rate();
+}
+RTC::ReturnCode_t set_current_rate(RTObject_ptr rtc, UniqueId ec_id, double rate) {
+    RTC::ExecutionContext_var context = get_actual_ec(rtc, ec_id);
+    return CORBA::is_nil(context.in()) ? RTC::BAD_PARAMETER : context->set_rate(rate);
+}
+
+UniqueId get_ec_id(RTObject_ptr rtc, RTC::ExecutionContext_ptr context) {
+    return CORBA::is_nil(context) ? -1 : rtc->get_context_handle(context);
+}
+
+RTC::ReturnCode_t add_rtc_to_default_ec(RTObject_ptr rtc, RTObject_ptr other) {
+    RTC::ExecutionContext_var context = get_actual_ec(rtc);
+    return CORBA::is_nil(context.in()) || CORBA::is_nil(other) ? RTC::BAD_PARAMETER
+                                                               : context->add_component(other);
+}
+RTC::ReturnCode_t remove_rtc_to_default_ec(RTObject_ptr rtc, RTObject_ptr other) {
+    RTC::ExecutionContext_var context = get_actual_ec(rtc);
+    return CORBA::is_nil(context.in()) || CORBA::is_nil(other) ? RTC::BAD_PARAMETER
+                                                               : context->remove_component(other);
+}
+
+RTC::RTCList get_participants_rtc(RTObject_ptr rtc) {
+    RTC::ExecutionContext_var context = get_actual_ec(rtc);
+    RTC::ExecutionContextService_var service = RTC::ExecutionContextService::_narrow(context.in());
+    if (CORBA::is_nil(service.in())) return RTC::RTCList();
+    RTC::ExecutionContextProfile_var profile = service->get_profile();
+    return profile->participants;
+}
+
 namespace {
 
 // Names of all ports, or of those of one kind.
@@ -109,69 +141,6 @@ RTC::PortService_ptr get_port_by_name(RTObject_ptr rtc, const std::string& name)
             return RTC::PortService::_duplicate(ports[i]);
     }
     return RTC::PortService::_nil();
-}
-
-RTC::ConnectorProfile* create_connector(const std::string& name, const coil::Properties& properties,
-                                        RTC::PortService_ptr port0, RTC::PortService_ptr port1) {
-    RTC::ConnectorProfile_var profile = new RTC::ConnectorProfile;
-    profile->name = CORBA::string_dup(name.c_str());
-    profile->ports.length(CORBA::is_nil(port1) ? 1 : 2);
-    profile->ports[0] = RTC::PortService::_duplicate(port0);
-    if (!CORBA::is_nil(port1)) profile->ports[1] = RTC::PortService::_duplicate(port1);
-    coil::Properties all(properties);
-    if (all.getProperty("dataport.dataflow_type").empty()) all.setProperty("dataport.dataflow_type", "push");
-    if (all.getProperty("dataport.interface_type").empty())
-        all.setProperty("dataport.interface_type", "corba_cdr");
-    NVUtil::copyFromProperties(profile->properties, all);
-    return profile._retn();
-}
-
-bool already_connected(RTC::PortService_ptr port0, RTC::PortService_ptr port1) {
-    RTC::ConnectorProfileList_var present = port0->get_connector_profiles();
-    for (CORBA::ULong c = 0; c < present->length(); ++c)
-        for (CORBA::ULong p = 0; p < present[c].ports.length(); ++p)
-            if (present[c].ports[p]->_is_equivalent(port1)) return true;
-    return false;
-}
-
-RTC::ReturnCode_t connect(const std::string& name, const coil::Properties& properties,
-                          RTC::PortService_ptr port0, RTC::PortService_ptr port1) {
-    if (CORBA::is_nil(port0)) return RTC::BAD_PARAMETER;
-    RTC::ConnectorProfile_var profile = create_connector(name, properties, port0, port1);
-    return port0->connect(profile.inout());
-}
-
-RTC::ReturnCode_t connect_by_name(const std::string& name, const coil::Properties& properties,
-                                  RTObject_ptr rtc0, const std::string& port0, RTObject_ptr rtc1,
-                                  const std::string& port1) {
-    RTC::PortService_var a = get_port_by_name(rtc0, port0);
-    RTC::PortService_var b = get_port_by_name(rtc1, port1);
-    if (CORBA::is_nil(a.in()) || CORBA::is_nil(b.in())) return RTC::BAD_PARAMETER;
-    return connect(name, properties, a.in(), b.in());
-}
-
-RTC::ReturnCode_t disconnect_all(RTC::PortService_ptr port) { return port->disconnect_all(); }
-
-coil::Properties get_configuration(RTObject_ptr rtc, const std::string& set_name) {
-    SDOPackage::Configuration_var configuration = rtc->get_configuration();
-    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
-    return NVUtil::toProperties(set->configuration_data);
-}
-
-std::string get_active_configuration_name(RTObject_ptr rtc) {
-    SDOPackage::Configuration_var configuration = rtc->get_configuration();
-    SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
-    return static_cast<const char*>(set->id);
-}
-
-bool set_configuration(RTObject_ptr rtc, const std::string& set_name, const std::string& parameter,
-                       const std::string& value) {
-    SDOPackage::Configuration_var configuration = rtc->get_configuration();
-    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
-    coil::Properties change;
-    change.setProperty(parameter, value);
-    NVUtil::mergeFromProperties(set->configuration_data, change);
-    return configuration->set_configuration_set_values(set.in());
 }
 
 } // namespace CORBA_RTCUtil

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's ORB.
 #include "manager_impl.hpp"
-#include "manager_servant.hpp"
 #include <omniORB4/omniPolicy.h>
 
 namespace RTC {
@@ -82,15 +81,16 @@ void start_orb(Manager::Impl& impl) {
 }
 
 void publish_manager(Manager& manager, Manager::Impl& impl) {
+    impl.servant = new RTM::ManagerServant(manager);
     if (!coil::toBool(impl.config.getProperty("manager.corba_servant"), "YES", "NO", true)) return;
     CORBA::Object_var object = impl.orb->resolve_initial_references("omniINSPOA");
     PortableServer::POA_var poa = PortableServer::POA::_narrow(object.in());
-    PortableServer::ServantBase_var servant = new RTM::ManagerServant(manager);
     PortableServer::ObjectId_var id = PortableServer::string_to_ObjectId("manager");
-    poa->activate_object_with_id(id.in(), servant.in());
+    poa->activate_object_with_id(id.in(), impl.servant.in());
     PortableServer::POAManager_var(poa->the_POAManager())->activate();
-    if (!impl.naming) return;
     CORBA::Object_var reference = poa->id_to_reference(id.in());
+    impl.servant->setObjRef(RTM::Manager_var(RTM::Manager::_narrow(reference.in())).in());
+    if (!impl.naming) return;
     Logger& rtclog = impl.log;
     for (const auto& name : manager_names(impl))
         for (const auto& refusal : impl.naming->bind(name, reference.in())) RTC_WARN(("%s", refusal.c_str()));
@@ -121,6 +121,8 @@ void start_keeper(Manager& manager, Manager::Impl& impl) {
         },
         seconds("naming.update.interval", 10));
 }
+
+RTM::ManagerServant& Manager::getManagerServant() { return *m_impl->servant; }
 
 CORBA::ORB_ptr Manager::theORB() { return m_impl->orb.in(); }
 CORBA::ORB_ptr Manager::getORB() { return CORBA::ORB::_duplicate(m_impl->orb.in()); }

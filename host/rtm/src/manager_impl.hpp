@@ -9,6 +9,7 @@
 #include <atomic>
 #include <map>
 #include <rtm/ManagerActionListener.h>
+#include <rtm/ManagerServant.h>
 
 namespace RTC {
 
@@ -24,6 +25,7 @@ struct Manager::Impl {
     PortableServer::POAManager_var poa_manager;
     std::unique_ptr<Naming> naming; // NULL: off
     std::unique_ptr<ConnectionKeeper> connections;
+    PortableServer::Servant_var<RTM::ManagerServant> servant;
 
     struct Module {
         std::string name;

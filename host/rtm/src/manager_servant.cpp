@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "manager_servant.hpp"
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
+#include <rtm/ManagerServant.h>
 #include <rtm/RTObject.h>
 
 namespace RTM {

@@ -2,21 +2,24 @@
 // Name of OpenRTM-aist 1.x.
 #ifndef COIL_MUTEX_H
 #define COIL_MUTEX_H
-#include <mutex>
+#include <pthread.h>
 
 namespace coil {
 
 class Mutex {
-public:
+  public:
     explicit Mutex(const char* /*name*/ = nullptr) {}
-    void lock() { mutex_.lock(); }
-    bool trylock() { return mutex_.try_lock(); }
-    bool try_lock() { return mutex_.try_lock(); }
-    void unlock() { mutex_.unlock(); }
-    std::mutex& native() { return mutex_; }
+    ~Mutex() { ::pthread_mutex_destroy(&mutex_); }
+    Mutex(const Mutex&) = delete;
+    Mutex& operator=(const Mutex&) = delete;
+    void lock() { ::pthread_mutex_lock(&mutex_); }
+    void unlock() { ::pthread_mutex_unlock(&mutex_); }
+    /// As in 1.x: FALSE when the caller has got the lock.
+    bool trylock() { return ::pthread_mutex_trylock(&mutex_) != 0; }
+    /// As of std::mutex: true when the caller has got the lock.
+    bool try_lock() { return ::pthread_mutex_trylock(&mutex_) == 0; }
 
-private:
-    std::mutex mutex_;
+    pthread_mutex_t mutex_ = PTHREAD_MUTEX_INITIALIZER; // components hand it to pthread functions
 };
 
 } // namespace coil

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef COIL_TASK_H
 #define COIL_TASK_H
+#include <atomic>
 #include <thread>
 
 namespace coil {
 
-/// A thread that runs svc(); derive and override.
+/// A thread that runs svc() and then finalize(); derive and override.
 class Task {
-public:
+  public:
     Task() = default;
     virtual ~Task();
     Task(const Task&) = delete;
     Task& operator=(const Task&) = delete;
-    virtual int open(void* args);
-    virtual int close(unsigned long flags);
+    virtual int open(void* args = nullptr);
+    virtual int close(unsigned long flags = 0);
     virtual int svc();
+    /// Nothing happens while svc() runs already.
     virtual void activate();
     virtual int wait();
     virtual int suspend();
@@ -22,8 +24,9 @@ public:
     virtual void reset();
     virtual void finalize();
 
-private:
+  private:
     std::thread thread_;
+    std::atomic<bool> ended_{false};
 };
 
 } // namespace coil

@@ -4,8 +4,12 @@
 #define COIL_TIME_H
 #include <chrono>
 #include <coil/TimeValue.h>
+#include <ctime>
+#include <iostream>
 #include <sys/time.h>
+#include <sys/types.h>
 #include <thread>
+#include <unistd.h>
 
 namespace coil {
 
@@ -14,10 +18,10 @@ inline unsigned int sleep(unsigned int seconds) {
     return 0;
 }
 inline int sleep(TimeValue interval) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(interval.toDouble()));
+    std::this_thread::sleep_for(interval.microseconds());
     return 0;
 }
-inline int usleep(unsigned int microseconds) {
+inline int usleep(useconds_t microseconds) {
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds));
     return 0;
 }

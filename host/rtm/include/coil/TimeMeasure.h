@@ -3,21 +3,25 @@
 #define COIL_TIMEMEASURE_H
 #include <chrono>
 #include <cmath>
+#include <coil/TimeValue.h>
 #include <cstddef>
 
 namespace coil {
 
 /// Statistics of the times between tick() and tack().
 class TimeMeasure {
-public:
+  public:
     struct Statistics {
         double max_interval = 0, min_interval = 0, mean_interval = 0, std_deviation = 0;
     };
     explicit TimeMeasure(int /*buflen*/ = 100) {}
     void tick() { begin_ = std::chrono::steady_clock::now(); }
+    /// Nothing before the first tick().
     void tack() {
+        if (begin_ == std::chrono::steady_clock::time_point()) return;
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
         const double t = taken.count();
+        interval_ = t;
         if (count_ == 0 || t < min_) min_ = t;
         if (count_ == 0 || t > max_) max_ = t;
         ++count_;
@@ -26,6 +30,8 @@ public:
     }
     void reset() { *this = TimeMeasure(); }
     unsigned long count() const { return count_; }
+    /// The last one.
+    TimeValue& interval() { return interval_; }
     bool getStatistics(double& max, double& min, double& mean, double& deviation) const {
         if (count_ == 0) return false;
         const double n = static_cast<double>(count_);
@@ -41,9 +47,10 @@ public:
         return s;
     }
 
-private:
+  private:
     std::chrono::steady_clock::time_point begin_{};
     unsigned long count_ = 0;
+    TimeValue interval_;
     double min_ = 0, max_ = 0, sum_ = 0, squares_ = 0;
 };
 

@@ -109,6 +109,9 @@ bool hexToPtr(T*& ptr, const std::string& str) {
     return ptr != nullptr;
 }
 
+/// 1.x: an `argv` with a NULL behind it. The caller frees each string and the list with delete[].
+char** toArgv(const vstring& args);
+
 /// Owns what an `argv` points to.
 class Argv {
 public:

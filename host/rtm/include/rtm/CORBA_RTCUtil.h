@@ -7,6 +7,7 @@
 #include <coil/stringutil.h>
 #include <rtm/RTC.h>
 #include <string>
+#include <utility>
 
 namespace CORBA_RTCUtil {
 
@@ -26,6 +27,15 @@ bool is_in_active(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);
 bool is_in_error(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id = 0);
 double get_default_rate(RTC::RTObject_ptr rtc);
 RTC::ReturnCode_t set_default_rate(RTC::RTObject_ptr rtc, double rate);
+double get_current_rate(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id);
+RTC::ReturnCode_t set_current_rate(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id, double rate);
+/// Number of a context of the component; -1 when it is none of its own.
+RTC::UniqueId get_ec_id(RTC::RTObject_ptr rtc, RTC::ExecutionContext_ptr context);
+/// `other` takes part in the first context of `rtc`, or no longer does.
+RTC::ReturnCode_t add_rtc_to_default_ec(RTC::RTObject_ptr rtc, RTC::RTObject_ptr other);
+RTC::ReturnCode_t remove_rtc_to_default_ec(RTC::RTObject_ptr rtc, RTC::RTObject_ptr other);
+/// Components in the first context of `rtc`.
+RTC::RTCList get_participants_rtc(RTC::RTObject_ptr rtc);
 
 /// Names `<instance>.<port>`.
 coil::vstring get_port_names(RTC::RTObject_ptr rtc);
@@ -35,6 +45,11 @@ coil::vstring get_svcport_names(RTC::RTObject_ptr rtc);
 /// By `<instance>.<port>` or `<port>`; nil when there is none.
 RTC::PortService_ptr get_port_by_name(RTC::RTObject_ptr rtc, const std::string& name);
 
+coil::vstring get_connector_names(RTC::PortService_ptr port);
+coil::vstring get_connector_names(RTC::RTObject_ptr rtc, const std::string& port_name);
+coil::vstring get_connector_ids(RTC::PortService_ptr port);
+coil::vstring get_connector_ids(RTC::RTObject_ptr rtc, const std::string& port_name);
+
 RTC::ConnectorProfile* create_connector(const std::string& name, const coil::Properties& properties,
                                         RTC::PortService_ptr port0, RTC::PortService_ptr port1);
 bool already_connected(RTC::PortService_ptr port0, RTC::PortService_ptr port1);
@@ -42,10 +57,32 @@ RTC::ReturnCode_t connect(const std::string& name, const coil::Properties& prope
                           RTC::PortService_ptr port1);
 RTC::ReturnCode_t connect_by_name(const std::string& name, const coil::Properties& properties, RTC::RTObject_ptr rtc0,
                                   const std::string& port0, RTC::RTObject_ptr rtc1, const std::string& port1);
+/// Each target by a connection of its own; the first failure is the result, the others are made all the same.
+RTC::ReturnCode_t connect_multi(const std::string& name, const coil::Properties& properties, RTC::PortService_ptr port,
+                                RTC::PortServiceList& target_ports);
+// BAD_PARAMETER: there is no such connection.
+RTC::ReturnCode_t disconnect(const RTC::ConnectorProfile& connector);
+RTC::ReturnCode_t disconnect_connector_name(RTC::PortService_ptr port, const std::string& connector_name);
+RTC::ReturnCode_t disconnect_connector_id(RTC::PortService_ptr port, const std::string& connector_id);
+/// All connections of `port` with the port called `other_name`.
+RTC::ReturnCode_t disconnect_name(RTC::PortService_ptr port, const std::string& other_name);
 RTC::ReturnCode_t disconnect_all(RTC::PortService_ptr port);
+
+/// True for the port of that name, `<instance>.<port>`.
+struct find_port {
+    explicit find_port(std::string name) : m_name(std::move(name)) {}
+    bool operator()(RTC::PortService_ptr port) const;
+    std::string m_name;
+};
 
 coil::Properties get_configuration(RTC::RTObject_ptr rtc, const std::string& set_name);
 std::string get_active_configuration_name(RTC::RTObject_ptr rtc);
+coil::Properties get_active_configuration(RTC::RTObject_ptr rtc);
+std::string get_parameter_by_key(RTC::RTObject_ptr rtc, const std::string& set_name, const std::string& parameter);
+bool set_active_configuration(RTC::RTObject_ptr rtc, const std::string& parameter, const std::string& value);
+/// Changes `set` and hands it to the component.
+bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration, SDOPackage::ConfigurationSet& set,
+                                 const std::string& parameter, const std::string& value);
 bool set_configuration(RTC::RTObject_ptr rtc, const std::string& set_name, const std::string& parameter,
                        const std::string& value);
 

@@ -73,5 +73,18 @@ void clear(CorbaSequence& seq) {
     seq.length(0);
 }
 
+/// Stringified references.
+template <class CorbaRefSequence>
+coil::vstring refToVstring(const CorbaRefSequence& objlist) {
+    int argc = 0;
+    CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr); // the process has one: this is it
+    coil::vstring iors;
+    for (CORBA::ULong i = 0; i < objlist.length(); ++i) {
+        CORBA::String_var ior = orb->object_to_string(objlist[i]);
+        iors.emplace_back(ior.in());
+    }
+    return iors;
+}
+
 } // namespace CORBA_SeqUtil
 #endif

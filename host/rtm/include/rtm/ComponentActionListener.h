@@ -41,6 +41,36 @@ enum class PostComponentActionListenerType : std::uint8_t {
 enum class PortActionListenerType : std::uint8_t { ADD_PORT, REMOVE_PORT, PORT_ACTION_LISTENER_NUM };
 enum class ExecutionContextActionListenerType : std::uint8_t { EC_ATTACHED, EC_DETACHED, EC_ACTION_LISTENER_NUM };
 
+// Plain names, as components written for 1.x say them.
+constexpr auto PRE_ON_INITIALIZE = PreComponentActionListenerType::PRE_ON_INITIALIZE;
+constexpr auto PRE_ON_FINALIZE = PreComponentActionListenerType::PRE_ON_FINALIZE;
+constexpr auto PRE_ON_STARTUP = PreComponentActionListenerType::PRE_ON_STARTUP;
+constexpr auto PRE_ON_SHUTDOWN = PreComponentActionListenerType::PRE_ON_SHUTDOWN;
+constexpr auto PRE_ON_ACTIVATED = PreComponentActionListenerType::PRE_ON_ACTIVATED;
+constexpr auto PRE_ON_DEACTIVATED = PreComponentActionListenerType::PRE_ON_DEACTIVATED;
+constexpr auto PRE_ON_ABORTING = PreComponentActionListenerType::PRE_ON_ABORTING;
+constexpr auto PRE_ON_ERROR = PreComponentActionListenerType::PRE_ON_ERROR;
+constexpr auto PRE_ON_RESET = PreComponentActionListenerType::PRE_ON_RESET;
+constexpr auto PRE_ON_EXECUTE = PreComponentActionListenerType::PRE_ON_EXECUTE;
+constexpr auto PRE_ON_STATE_UPDATE = PreComponentActionListenerType::PRE_ON_STATE_UPDATE;
+constexpr auto PRE_ON_RATE_CHANGED = PreComponentActionListenerType::PRE_ON_RATE_CHANGED;
+constexpr auto POST_ON_INITIALIZE = PostComponentActionListenerType::POST_ON_INITIALIZE;
+constexpr auto POST_ON_FINALIZE = PostComponentActionListenerType::POST_ON_FINALIZE;
+constexpr auto POST_ON_STARTUP = PostComponentActionListenerType::POST_ON_STARTUP;
+constexpr auto POST_ON_SHUTDOWN = PostComponentActionListenerType::POST_ON_SHUTDOWN;
+constexpr auto POST_ON_ACTIVATED = PostComponentActionListenerType::POST_ON_ACTIVATED;
+constexpr auto POST_ON_DEACTIVATED = PostComponentActionListenerType::POST_ON_DEACTIVATED;
+constexpr auto POST_ON_ABORTING = PostComponentActionListenerType::POST_ON_ABORTING;
+constexpr auto POST_ON_ERROR = PostComponentActionListenerType::POST_ON_ERROR;
+constexpr auto POST_ON_RESET = PostComponentActionListenerType::POST_ON_RESET;
+constexpr auto POST_ON_EXECUTE = PostComponentActionListenerType::POST_ON_EXECUTE;
+constexpr auto POST_ON_STATE_UPDATE = PostComponentActionListenerType::POST_ON_STATE_UPDATE;
+constexpr auto POST_ON_RATE_CHANGED = PostComponentActionListenerType::POST_ON_RATE_CHANGED;
+constexpr auto ADD_PORT = PortActionListenerType::ADD_PORT;
+constexpr auto REMOVE_PORT = PortActionListenerType::REMOVE_PORT;
+constexpr auto EC_ATTACHED = ExecutionContextActionListenerType::EC_ATTACHED;
+constexpr auto EC_DETACHED = ExecutionContextActionListenerType::EC_DETACHED;
+
 class PreComponentActionListener {
 public:
     virtual ~PreComponentActionListener() = default;

@@ -77,13 +77,15 @@ constexpr auto ON_CONNECT = ConnectorListenerType::ON_CONNECT;
 constexpr auto ON_DISCONNECT = ConnectorListenerType::ON_DISCONNECT;
 
 /// Listens to the bytes. It runs in the thread that caused the event: writer, reader or ORB thread.
-/// Override the 2.x form, or the 1.x one (const arguments, void); DATA_CHANGED hands changed bytes on.
+/// Override one form: that of 2.x (ByteData), of 1.2 (a stream) or of 1.0 (const arguments, void). DATA_CHANGED
+/// hands changed bytes on.
 class ConnectorDataListener : public ConnectorListenerStatus {
 public:
     USE_CONNLISTENER_STATUS;
     static const char* toString(ConnectorDataListenerType type);
     virtual ~ConnectorDataListener();
     virtual ReturnCode operator()(ConnectorInfo& info, ByteData& data, const std::string& marshalingtype);
+    virtual ReturnCode operator()(ConnectorInfo& info, cdrMemoryStream& data);
     virtual void operator()(const ConnectorInfo& info, const cdrMemoryStream& data);
 };
 
@@ -117,6 +119,7 @@ public:
         }
         return result;
     }
+    ReturnCode operator()(ConnectorInfo&, cdrMemoryStream&) override { return NO_CHANGE; }
     void operator()(const ConnectorInfo&, const cdrMemoryStream&) override {}
 
 private:

@@ -19,6 +19,10 @@
 #include <thread>
 #include <vector>
 
+namespace RTM {
+class ManagerServant;
+}
+
 namespace RTC {
 
 class Manager;
@@ -133,6 +137,8 @@ public:
     PortableServer::POA_ptr getShortCutPOA();
     PortableServer::POAManager_ptr thePOAManager();
     PortableServer::POAManager_ptr getPOAManager();
+    /// The manager as a CORBA object.
+    RTM::ManagerServant& getManagerServant();
 
     struct Impl;
     Impl& impl() { return *m_impl; }

@@ -7,8 +7,15 @@
 // Component sources count on these being there.
 #include <algorithm>
 #include <chrono>
+#include <climits>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <fstream>
 #include <functional>
 #include <iostream>
+#include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -19,7 +26,12 @@
 #include <omnithread.h>
 #include <rtm/idl/OpenRTMSkel.h>
 
+#include <coil/Guard.h>
+#include <coil/Mutex.h>
 #include <coil/Properties.h>
+#include <coil/Task.h>
+#include <coil/Time.h>
+#include <coil/stringutil.h>
 
 #define DLL_EXPORT
 #define WINAPI

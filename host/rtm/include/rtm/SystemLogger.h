@@ -39,14 +39,15 @@ private:
 
 } // namespace RTC
 
+// Components write these with and without a semicolon behind them.
 #define RTC_LOG(LV, fmt)                                                                                           \
-    do {                                                                                                           \
-        if (rtclog.isValid(LV)) rtclog.write(LV, ::coil::sprintf fmt);                                             \
-    } while (0)
+    if (rtclog.isValid(LV)) {                                                                                      \
+        rtclog.write(LV, ::coil::sprintf fmt);                                                                     \
+    }
 #define RTC_LOG_STR(LV, str)                                                                                       \
-    do {                                                                                                           \
-        if (rtclog.isValid(LV)) rtclog.write(LV, str);                                                             \
-    } while (0)
+    if (rtclog.isValid(LV)) {                                                                                      \
+        rtclog.write(LV, str);                                                                                     \
+    }
 
 #define RTC_FATAL(fmt) RTC_LOG(::RTC::Logger::RTL_FATAL, fmt)
 #define RTC_FATAL_STR(str) RTC_LOG_STR(::RTC::Logger::RTL_FATAL, str)

@@ -207,6 +207,17 @@ std::string flatten(vstring sv, const std::string& delimiter) {
     return out;
 }
 
+char** toArgv(const vstring& args) {
+    char** argv = new char*[args.size() + 1];
+    for (std::size_t i = 0; i < args.size(); ++i) {
+        argv[i] = new char[args[i].size() + 1];
+        args[i].copy(argv[i], args[i].size());
+        argv[i][args[i].size()] = '\0';
+    }
+    argv[args.size()] = nullptr;
+    return argv;
+}
+
 Argv::Argv(const vstring& args) {
     for (const auto& arg : args) {
         args_.emplace_back(arg.begin(), arg.end());

@@ -12,7 +12,14 @@ int Task::open(void*) { return 0; }
 int Task::close(unsigned long) { return 0; }
 int Task::svc() { return 0; }
 void Task::activate() {
-    if (!thread_.joinable()) thread_ = std::thread([this] { svc(); });
+    if (ended_ && thread_.joinable()) thread_.join();
+    if (thread_.joinable()) return;
+    ended_ = false;
+    thread_ = std::thread([this] {
+        svc();
+        ended_ = true;
+        finalize(); // may delete the task: the last thing done with it
+    });
 }
 int Task::wait() {
     if (thread_.joinable()) thread_.join();

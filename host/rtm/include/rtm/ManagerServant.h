@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#pragma once
+#ifndef RTM_MANAGERSERVANT_H
+#define RTM_MANAGERSERVANT_H
 #include <rtm/Manager.h>
 #include <rtm/idl/ManagerSkel.h>
 
@@ -7,7 +8,7 @@ namespace RTM {
 
 /// The manager as tools see it, at corbaloc:iiop:HOST:PORT/manager. Masters and slaves are not supported: it
 /// stands alone. [ORB threads]
-class ManagerServant : public POA_RTM::Manager {
+class ManagerServant : public virtual POA_RTM::Manager, public virtual PortableServer::RefCountServantBase {
   public:
     explicit ManagerServant(RTC::Manager& manager) : manager_(manager) {}
 
@@ -36,8 +37,15 @@ class ManagerServant : public POA_RTM::Manager {
     RTC::ReturnCode_t restart() override;
     CORBA::Object_ptr get_service(const char* name) override;
 
+    /// Nil when manager.corba_servant is NO.
+    RTM::Manager_ptr getObjRef() const { return RTM::Manager::_duplicate(m_objref.in()); }
+    /// Ours: what getObjRef() gives from now on.
+    void setObjRef(RTM::Manager_ptr ref) { m_objref = RTM::Manager::_duplicate(ref); }
+
   private:
     RTC::Manager& manager_;
+    RTM::Manager_var m_objref;
 };
 
 } // namespace RTM
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef COIL_AFFINITY_H
+#define COIL_AFFINITY_H
+#include <string>
+#include <vector>
+
+namespace coil {
+
+/// Numbers of the processors on which a thread may run.
+using CpuMask = std::vector<unsigned int>;
+
+bool getProcCpuAffinity(CpuMask& cpu_mask);
+bool setProcCpuAffinity(const CpuMask& cpu_mask);
+/// `0,2`
+bool setProcCpuAffinity(const std::string& cpu_mask);
+bool getThreadCpuAffinity(CpuMask& cpu_mask);
+bool setThreadCpuAffinity(const CpuMask& cpu_mask);
+bool setThreadCpuAffinity(const std::string& cpu_mask);
+
+} // namespace coil
+#endif

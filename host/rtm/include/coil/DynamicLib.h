@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef COIL_DYNAMICLIB_H
+#define COIL_DYNAMICLIB_H
+#include <dlfcn.h>
+#include <string>
+
+#define COIL_DEFAULT_DYNLIB_MODE RTLD_LAZY
+
+namespace coil {
+
+/// A shared library; closed with the object unless told otherwise.
+class DynamicLib {
+  public:
+    explicit DynamicLib(int close_handle_on_destruction = 1) : m_closeflag(close_handle_on_destruction) {}
+    DynamicLib(const char* dynlib_name, int open_mode = COIL_DEFAULT_DYNLIB_MODE,
+               int close_handle_on_destruction = 1);
+    virtual ~DynamicLib();
+    /// Opens the library once more.
+    DynamicLib(const DynamicLib& rhs);
+    DynamicLib& operator=(const DynamicLib& rhs);
+
+    /// 0, or -1: error() says why.
+    virtual int open(const char* dll_name, int open_mode = COIL_DEFAULT_DYNLIB_MODE,
+                     int close_handle_on_destruction = 1);
+    virtual int close();
+    void* symbol(const char* symbol_name);
+    static const char* error() { return ::dlerror(); }
+
+  private:
+    std::string m_name;
+    int m_mode = COIL_DEFAULT_DYNLIB_MODE;
+    int m_closeflag;
+    void* m_handle = nullptr;
+};
+
+} // namespace coil
+#endif

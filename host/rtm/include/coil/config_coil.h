@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
+// What component sources ask about the system.
+#ifndef COIL_CONFIG_H
+#define COIL_CONFIG_H
+
+#define COIL_OS_LINUX
+#define COIL_HAS_IOSTREAM
+#endif

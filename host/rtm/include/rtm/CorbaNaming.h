@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_CORBANAMING_H
+#define RTC_CORBANAMING_H
+#include <omniORB4/Naming.hh>
+#include <rtm/RTC.h>
+#include <string>
+#include <vector>
+
+namespace RTC {
+
+/// One CORBA name server. Names as strings: `id.kind/id.kind`. Unless said otherwise the functions throw
+/// CORBA::SystemException and the exceptions of CosNaming; references they return are the caller's.
+class CorbaNaming {
+  public:
+    using SystemException = CORBA::SystemException;
+    using NotFound = CosNaming::NamingContext::NotFound;
+    using CannotProceed = CosNaming::NamingContext::CannotProceed;
+    using InvalidName = CosNaming::NamingContext::InvalidName;
+    using AlreadyBound = CosNaming::NamingContext::AlreadyBound;
+    using NotEmpty = CosNaming::NamingContext::NotEmpty;
+    using InvalidAddress = CosNaming::NamingContextExt::InvalidAddress;
+    using ObjectList = std::vector<CORBA::Object_ptr>;
+
+    explicit CorbaNaming(CORBA::ORB_ptr orb);
+    /// `host`, `host:port`, or a corbaloc; std::bad_alloc, as in OpenRTM-aist, when there is no name server.
+    CorbaNaming(CORBA::ORB_ptr orb, const char* name_server);
+    virtual ~CorbaNaming() = default;
+    void init(const char* name_server);
+    /// Does the server answer?
+    bool isAlive();
+
+    // `force`: makes the contexts on the way.
+    void bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force = true);
+    void bindByString(const char* string_name, CORBA::Object_ptr obj, bool force = true);
+    void bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                       CORBA::Object_ptr obj);
+    void rebind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force = true);
+    void rebindByString(const char* string_name, CORBA::Object_ptr obj, bool force = true);
+    void rebindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                         CORBA::Object_ptr obj);
+    void bindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt, bool force = true);
+    void bindContext(const char* string_name, CosNaming::NamingContext_ptr name_cxt, bool force = true);
+    void bindContextRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                              CosNaming::NamingContext_ptr name_cxt);
+    void rebindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt, bool force = true);
+    void rebindContext(const char* string_name, CosNaming::NamingContext_ptr name_cxt, bool force = true);
+    void rebindContextRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                                CosNaming::NamingContext_ptr name_cxt);
+
+    CORBA::Object_ptr resolve(const CosNaming::Name& name);
+    CORBA::Object_ptr resolve(const char* string_name);
+    CORBA::Object_ptr resolveStr(const char* string_name) { return resolve(string_name); }
+    void unbind(const CosNaming::Name& name);
+    void unbind(const char* string_name);
+
+    CosNaming::NamingContext_ptr newContext();
+    CosNaming::NamingContext_ptr bindNewContext(const CosNaming::Name& name, bool force = true);
+    CosNaming::NamingContext_ptr bindNewContext(const char* string_name, bool force = true);
+    static void destroy(CosNaming::NamingContext_ptr context);
+    /// Empties the context and the contexts in it. Objects stay alive.
+    void destroyRecursive(CosNaming::NamingContext_ptr context);
+    /// Empties the server.
+    void clearAll();
+
+    static void list(CosNaming::NamingContext_ptr name_cxt, CORBA::ULong how_many,
+                     CosNaming::BindingList_var& bl, CosNaming::BindingIterator_var& bi);
+    /// All entries of a context.
+    void list(const char* string_name, CosNaming::BindingList_var& bl);
+    void listByKind(const char* string_name, const char* string_kind, CosNaming::BindingList_var& bl);
+
+    /// The caller frees it with CORBA::string_free().
+    static char* toString(const CosNaming::Name& name);
+    static CosNaming::Name toName(const char* string_name);
+    char* toUrl(char* addr, char* string_name);
+
+    /// Binds, or gives what is bound already.
+    static CORBA::Object_ptr bindOrResolve(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                                           CORBA::Object_ptr obj);
+    static CosNaming::NamingContext_ptr bindOrResolveContext(CosNaming::NamingContext_ptr context,
+                                                             const CosNaming::Name& name,
+                                                             CosNaming::NamingContext_ptr new_context);
+    CosNaming::NamingContext_ptr bindOrResolveContext(CosNaming::NamingContext_ptr context,
+                                                      const CosNaming::Name& name);
+
+    const char* getNameServer() { return m_nameServer.c_str(); }
+    CosNaming::NamingContext_ptr getRootContext() {
+        return CosNaming::NamingContext::_duplicate(m_rootContext.in());
+    }
+    /// False also for what cannot be reached.
+    static bool isNamingContext(CORBA::Object_ptr obj);
+    bool isNamingContext(const CosNaming::Name& name);
+    bool isNamingContext(const char* string_name);
+    /// Elements begin ... end, both included; negative end: to the last.
+    static CosNaming::Name subName(const CosNaming::Name& name, CORBA::Long begin, CORBA::Long end = -1);
+
+  protected:
+    CORBA::ORB_var m_varORB;
+    std::string m_nameServer;
+    CosNaming::NamingContextExt_var m_rootContext;
+    CORBA::ULong m_blLength = 100; // how many entries one call asks for
+};
+
+} // namespace RTC
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_INPORTCONSUMER_H
+#define RTC_INPORTCONSUMER_H
+#include <coil/Factory.h>
+#include <coil/Properties.h>
+#include <rtm/ByteData.h>
+#include <rtm/DataPortStatus.h>
+#include <rtm/idl/SDOPackageSkel.h>
+
+namespace RTC {
+
+/// The sending end of a transport for push: hands one message to the InPort's provider.
+class InPortConsumer {
+  public:
+    virtual ~InPortConsumer() = default;
+    virtual void init(coil::Properties& prop) = 0;
+    virtual DataPortStatus put(ByteData& data) = 0;
+    virtual void publishInterfaceProfile(SDOPackage::NVList& properties) = 0;
+    /// Finds the provider in what the InPort has published; false when it is not there.
+    virtual bool subscribeInterface(const SDOPackage::NVList& properties) = 0;
+    virtual void unsubscribeInterface(const SDOPackage::NVList& properties) = 0;
+};
+/// By interface type.
+using InPortConsumerFactory = ::coil::GlobalFactory<InPortConsumer>;
+
+} // namespace RTC
+
+extern template class coil::GlobalFactory<RTC::InPortConsumer>;
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_OUTPORTPROVIDER_H
+#define RTC_OUTPORTPROVIDER_H
+#include <coil/Factory.h>
+#include <coil/Properties.h>
+#include <rtm/BufferBase.h>
+#include <rtm/DataPortStatus.h>
+#include <rtm/NVUtil.h>
+#include <rtm/OutPortConnector.h>
+#include <rtm/SystemLogger.h>
+#include <string>
+
+namespace RTC {
+
+/// The sending end of a transport for pull: has what the OutPort's connector wrote fetched.
+class OutPortProvider {
+  public:
+    OutPortProvider();
+    virtual ~OutPortProvider();
+    virtual void init(coil::Properties& prop);
+    virtual void setBuffer(CdrBufferBase* buffer) = 0;
+    virtual void setListener(ConnectorInfo& info, ConnectorListenersBase* listeners) = 0;
+    virtual void setConnector(OutPortConnector* connector) = 0;
+    /// Its types, for the port's profile.
+    virtual void publishInterfaceProfile(SDOPackage::NVList& prop);
+    /// Its address, for a connection of its interface type; false for others.
+    virtual bool publishInterface(SDOPackage::NVList& prop);
+
+  protected:
+    void setPortType(const char* port_type);
+    void setDataType(const char* data_type);
+    void setInterfaceType(const char* interface_type);
+    void setDataFlowType(const char* dataflow_type);
+    void setSubscriptionType(const char* subs_type);
+
+    /// What publishInterface() publishes.
+    SDOPackage::NVList m_properties;
+    mutable Logger rtclog;
+
+  private:
+    std::string m_portType, m_dataType;
+    std::string m_interfaceType, m_dataflowType, m_subscriptionType;
+};
+/// By interface type.
+using OutPortProviderFactory = ::coil::GlobalFactory<OutPortProvider>;
+
+} // namespace RTC
+
+extern template class coil::GlobalFactory<RTC::OutPortProvider>;
+#endif

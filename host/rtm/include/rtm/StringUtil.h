@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+// Former name.
+#ifndef RTM_STRINGUTIL_H
+#define RTM_STRINGUTIL_H
+#include <coil/stringutil.h>
+#endif

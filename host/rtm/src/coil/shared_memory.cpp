@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <coil/SharedMemory.h>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace coil {
+
+SharedMemory::~SharedMemory() {
+    SharedMemory::close();
+    if (m_created) SharedMemory::unlink();
+}
+
+int SharedMemory::map(int descriptor, unsigned long long size, const std::string& address) {
+    void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+    ::close(descriptor);
+    if (data == MAP_FAILED) return -1;
+    m_data = static_cast<char*>(data);
+    m_size = size;
+    m_address = address;
+    return 0;
+}
+
+int SharedMemory::create(std::string shm_address, unsigned long long memory_size) {
+    SharedMemory::close();
+    const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (descriptor < 0) return -1;
+    if (memory_size == 0 || ::ftruncate(descriptor, static_cast<off_t>(memory_size)) != 0) {
+        ::close(descriptor);
+        return -1;
+    }
+    if (map(descriptor, memory_size, shm_address) != 0) return -1;
+    m_created = true;
+    return 0;
+}
+
+int SharedMemory::open(std::string shm_address, unsigned long long memory_size) {
+    SharedMemory::close();
+    const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CLOEXEC, 0);
+    if (descriptor < 0) return -1;
+    struct stat state {};
+    // Touching what lies behind the end would end the process.
+    if (::fstat(descriptor, &state) != 0 || memory_size == 0 ||
+        static_cast<unsigned long long>(state.st_size) < memory_size) {
+        ::close(descriptor);
+        return -1;
+    }
+    return map(descriptor, memory_size, shm_address);
+}
+
+int SharedMemory::write(const char* data, unsigned long long pos, unsigned long long size) {
+    if (!within(pos, size)) return -1;
+    std::memcpy(m_data + pos, data, size);
+    return 0;
+}
+
+int SharedMemory::read(char* data, unsigned long long pos, unsigned long long size) {
+    if (!within(pos, size)) return -1;
+    std::memcpy(data, m_data + pos, size);
+    return 0;
+}
+
+int SharedMemory::close() {
+    if (m_data == nullptr) return 0;
+    const int result = ::munmap(m_data, m_size);
+    m_data = nullptr;
+    m_size = 0;
+    return result;
+}
+
+int SharedMemory::unlink() {
+    m_created = false;
+    return ::shm_unlink(m_address.c_str());
+}
+
+} // namespace coil
