@@ -14,6 +14,8 @@ using Bytes = std::vector<unsigned char>;
 
 template <class Data>
 Bytes bytes_of(const Data& data, bool little_endian = true) {
+    int argc = 0;
+    static const CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr); // it brings the code sets of strings
     RTC::CORBA_CdrSerializer<Data> stream;
     stream.isLittleEndian(little_endian);
     REQUIRE(stream.serialize(data));
