@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of CORBA_RTCUtil about connections and configurations.
+#include "remote_names.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/CORBA_SeqUtil.h>
+#include <rtm/Manager.h>
 #include <rtm/NVUtil.h>
 
 namespace CORBA_RTCUtil {
@@ -126,6 +128,47 @@ RTC::ReturnCode_t disconnect_name(RTC::PortService_ptr port, const std::string& 
     });
 }
 RTC::ReturnCode_t disconnect_all(RTC::PortService_ptr port) { return port->disconnect_all(); }
+
+RTC::PortService_ptr get_port_by_url(const std::string& port_name) {
+    const std::string component = port_name.substr(0, port_name.rfind('.'));
+    const std::string port = port_name.substr(port_name.rfind('.') + 1);
+    RTC::Manager& manager = RTC::Manager::instance();
+    if (component.find("://") == std::string::npos) {
+        RTC::RTObject_impl* local = manager.getComponent(component.c_str());
+        if (local == nullptr) return RTC::PortService::_nil();
+        RTC::RTObject_var rtc = local->getObjRef();
+        return get_port_by_name(rtc.in(), port);
+    }
+    const auto servers = coil::split(manager.getConfig().getProperty("corba.nameservers"), ",", true);
+    try {
+        RTC::RTObject_var rtc = RTC::find_component(manager.theORB(), component, servers);
+        return get_port_by_name(rtc.in(), port);
+    } catch (const RTC::NotThere&) { // the answer is nil, as in OpenRTM-aist
+        return RTC::PortService::_nil();
+    }
+}
+
+namespace {
+
+template <class Call>
+RTC::ReturnCode_t at_port(const std::string& port_name, Call call) {
+    RTC::PortService_var port = get_port_by_url(port_name);
+    return CORBA::is_nil(port.in()) ? RTC::BAD_PARAMETER : call(port.in());
+}
+
+} // namespace
+
+RTC::ReturnCode_t disconnect_connector_name(const std::string& port_name, const std::string& connector_name) {
+    return at_port(port_name,
+                   [&](RTC::PortService_ptr p) { return disconnect_connector_name(p, connector_name); });
+}
+RTC::ReturnCode_t disconnect_connector_id(const std::string& port_name, const std::string& connector_id) {
+    return at_port(port_name,
+                   [&](RTC::PortService_ptr p) { return disconnect_connector_id(p, connector_id); });
+}
+RTC::ReturnCode_t disconnect_all(const std::string& port_name) {
+    return at_port(port_name, [](RTC::PortService_ptr p) { return disconnect_all(p); });
+}
 
 coil::Properties get_configuration(RTObject_ptr rtc, const std::string& set_name) {
     SDOPackage::Configuration_var configuration = rtc->get_configuration();

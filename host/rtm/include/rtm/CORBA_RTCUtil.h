@@ -67,6 +67,12 @@ RTC::ReturnCode_t disconnect_connector_id(RTC::PortService_ptr port, const std::
 /// All connections of `port` with the port called `other_name`.
 RTC::ReturnCode_t disconnect_name(RTC::PortService_ptr port, const std::string& other_name);
 RTC::ReturnCode_t disconnect_all(RTC::PortService_ptr port);
+// The same for a port given by `Name0.port`, rtcname://HOST:PORT/CONTEXT/Name0.port or rtcloc://HOST:PORT/Name0.port;
+// BAD_PARAMETER, or nil, when it is not there.
+RTC::ReturnCode_t disconnect_connector_name(const std::string& port_name, const std::string& connector_name);
+RTC::ReturnCode_t disconnect_connector_id(const std::string& port_name, const std::string& connector_id);
+RTC::ReturnCode_t disconnect_all(const std::string& port_name);
+RTC::PortService_ptr get_port_by_url(const std::string& port_name);
 
 /// True for the port of that name, `<instance>.<port>`.
 struct find_port {
