@@ -109,9 +109,12 @@ TEST_CASE(
     CHECK_THAT(wrong.output, Catch::Contains("unknown option --wings"));
     // As makefiles of rtc-template use it.
     tree.folder.write("x.cpp",
-                      "#include <rtm/Manager.h>\nint main() { return RTC::Manager::init(0, 0) == 0; }\n");
+                      "#include <CameraCommonInterfaceSkel.h>\n#include <rtm/Manager.h>\n"
+                      "int main() { return RTC::Manager::init(0, 0) == 0 || !Img::_tc_TimedCameraImage; }\n");
     run("bash -c \"c++ " + tree.at("x.cpp") + " -o " + tree.at("x") + " $(" + config +
         "--cflags --libs | tr \"\\n\" \" \")\"");
+    const auto needed = run("readelf -d " + tree.at("x"));
+    CHECK_THAT(needed, Catch::Contains("librtmCamera2.so") && !Catch::Contains("librtmManipulator2.so"));
     for (const std::string package : {"openrtm-aist", "openrtm2"})
         CHECK_THAT(
             run("env PKG_CONFIG_PATH=" + tree.moved + "/" LIBDIR "/pkgconfig pkg-config --cflags " + package),
