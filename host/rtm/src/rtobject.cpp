@@ -45,6 +45,10 @@ ReturnCode_t RTObject_impl::initialize() {
     const ReturnCode_t result = on_initialize();
     if (result != RTC_OK) return result;
     m_created = false;
+    if (!SdoServiceProviderFactory::instance().getIdentifiers().empty()) {
+        SDOPackage::Configuration_var made = get_configuration();
+        m_sdoConfiguration->services().start_providers();
+    }
     for (auto* context : m_eclist) context->start();
     return RTC_OK;
 }

@@ -25,12 +25,15 @@ bool describes_parameters(const coil::Properties& set) {
 
 } // namespace
 
-Configuration_impl::Configuration_impl(RTC::ConfigAdmin& sets, std::shared_ptr<Organizations> organizations)
-    : sets_(sets), organizations_(std::move(organizations)), poa_(RTC::Manager::instance().getPOA()) {
+Configuration_impl::Configuration_impl(RTC::RTObject_impl& owner, RTC::ConfigAdmin& sets,
+                                       std::shared_ptr<Organizations> organizations)
+    : sets_(sets), services_(owner, RTC::Manager::instance().getConfig()),
+      organizations_(std::move(organizations)), poa_(RTC::Manager::instance().getPOA()) {
     id_ = poa_->activate_object(this);
 }
 
 void Configuration_impl::retire() {
+    services_.finalize();
     try {
         poa_->deactivate_object(id_.in());
     } catch (const CORBA::Exception&) {
@@ -39,11 +42,15 @@ void Configuration_impl::retire() {
 }
 
 CORBA::Boolean Configuration_impl::set_device_profile(const DeviceProfile&) { return false; }
-CORBA::Boolean Configuration_impl::add_service_profile(const ServiceProfile&) { return false; }
+CORBA::Boolean Configuration_impl::add_service_profile(const ServiceProfile& profile) {
+    return services_.add_consumer(profile);
+}
 CORBA::Boolean Configuration_impl::add_organization(Organization_ptr organization) {
     return organizations_->add(organization);
 }
-CORBA::Boolean Configuration_impl::remove_service_profile(const char*) { return false; }
+CORBA::Boolean Configuration_impl::remove_service_profile(const char* id) {
+    return services_.remove_consumer(id);
+}
 CORBA::Boolean Configuration_impl::remove_organization(const char* id) { return organizations_->remove(id); }
 ParameterList* Configuration_impl::get_configuration_parameters() { return new ParameterList; }
 
@@ -113,18 +120,21 @@ char* RTObject_impl::get_sdo_id() { return CORBA::string_dup(m_profile.instance_
 char* RTObject_impl::get_sdo_type() { return CORBA::string_dup(m_profile.description); }
 SDOPackage::DeviceProfile* RTObject_impl::get_device_profile() { return new SDOPackage::DeviceProfile; }
 SDOPackage::ServiceProfileList* RTObject_impl::get_service_profiles() {
-    return new SDOPackage::ServiceProfileList;
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().profiles();
 }
-SDOPackage::ServiceProfile* RTObject_impl::get_service_profile(const char*) {
-    throw SDOPackage::InvalidParameter("this component has no SDO services");
+SDOPackage::ServiceProfile* RTObject_impl::get_service_profile(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return new SDOPackage::ServiceProfile(m_sdoConfiguration->services().profile(id));
 }
-SDOPackage::SDOService_ptr RTObject_impl::get_sdo_service(const char*) {
-    throw SDOPackage::InvalidParameter("this component has no SDO services");
+SDOPackage::SDOService_ptr RTObject_impl::get_sdo_service(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return SDOPackage::SDOService::_duplicate(m_sdoConfiguration->services().profile(id).service);
 }
 SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
     if (m_sdoConfiguration == nullptr)
-        m_sdoConfiguration = new SDOPackage::Configuration_impl(m_configsets, m_organizations);
+        m_sdoConfiguration = new SDOPackage::Configuration_impl(*this, m_configsets, m_organizations);
     return m_sdoConfiguration->_this();
 }
 SDOPackage::Monitoring_ptr RTObject_impl::get_monitoring() {

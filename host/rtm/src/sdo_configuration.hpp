@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "organization.hpp"
+#include "sdo_services.hpp"
 #include <rtm/RTObject.h>
 
 namespace SDOPackage {
@@ -8,7 +9,9 @@ namespace SDOPackage {
 /// The configuration sets of a component as tools see and set them.
 class Configuration_impl : public POA_SDOPackage::Configuration {
   public:
-    Configuration_impl(RTC::ConfigAdmin& sets, std::shared_ptr<Organizations> organizations);
+    Configuration_impl(RTC::RTObject_impl& owner, RTC::ConfigAdmin& sets,
+                       std::shared_ptr<Organizations> organizations);
+    RTC::SdoServices& services() { return services_; }
     void retire();
 
     CORBA::Boolean set_device_profile(const DeviceProfile& dProfile) override;
@@ -30,6 +33,7 @@ class Configuration_impl : public POA_SDOPackage::Configuration {
 
   private:
     RTC::ConfigAdmin& sets_;
+    RTC::SdoServices services_;
     std::shared_ptr<Organizations> organizations_; // that the component is a member of
     PortableServer::POA_var poa_;
     PortableServer::ObjectId_var id_;
