@@ -19,6 +19,7 @@ bool returns(std::function<void()> call) {
         return false;
     }
     thread.join();
+    done.get(); // what it threw is the caller's
     return true;
 }
 
