@@ -116,10 +116,10 @@ const std::vector<ConfKey>& conf_keys() {
         {"ec.**", K::text, true},
         {"port.**", K::text, true},
         {"sdo.service.provider.available_services", K::text, false},
-        {"sdo.service.provider.enabled_services", K::text, false},
+        {"sdo.service.provider.enabled_services", K::text, true},
         {"sdo.service.provider.providing_services", K::text, false},
         {"sdo.service.consumer.available_services", K::text, false},
-        {"sdo.service.consumer.enabled_services", K::text, false},
+        {"sdo.service.consumer.enabled_services", K::text, true},
         {"opensplice.**", K::text, false},
     };
     return keys;
