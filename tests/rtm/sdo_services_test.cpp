@@ -69,6 +69,18 @@ TEST_CASE("A component offers the SDO services whose providers a library has bro
     CHECK(finalized == 1);
 }
 
+TEST_CASE("A component adds and removes SDO services of its own") {
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    CHECK(counter.addSdoServiceProvider(profile_of("mine", "IDL:test/Offered:1.0"), new Offered));
+    SDOPackage::ServiceProfile_var found = counter.get_service_profile("mine");
+    CHECK(std::string(found->interface_type) == "IDL:test/Offered:1.0");
+    CHECK(counter.removeSdoServiceProvider("mine"));
+    CHECK(finalized == 1);
+    CHECK_FALSE(counter.removeSdoServiceProvider("mine"));
+    CHECK_FALSE(counter.addSdoServiceConsumer(profile_of("a", "IDL:test/Unknown:1.0")));
+}
+
 TEST_CASE("A component uses the SDO services that a tool gives it until they are taken away") {
     RTC::SdoServiceConsumerFactory::instance().addFactory(
         "IDL:test/Used:1.0", coil::Creator<RTC::SdoServiceConsumerBase, Used>,

@@ -131,6 +131,23 @@ SDOPackage::SDOService_ptr RTObject_impl::get_sdo_service(const char* id) {
     SDOPackage::Configuration_var made = get_configuration();
     return SDOPackage::SDOService::_duplicate(m_sdoConfiguration->services().profile(id).service);
 }
+bool RTObject_impl::addSdoServiceProvider(const SDOPackage::ServiceProfile& profile,
+                                          SdoServiceProviderBase* provider) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().add_provider(profile, provider);
+}
+bool RTObject_impl::removeSdoServiceProvider(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().remove_provider(id);
+}
+bool RTObject_impl::addSdoServiceConsumer(const SDOPackage::ServiceProfile& profile) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().add_consumer(profile);
+}
+bool RTObject_impl::removeSdoServiceConsumer(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().remove_consumer(id);
+}
 SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
     if (m_sdoConfiguration == nullptr)

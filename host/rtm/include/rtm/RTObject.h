@@ -28,6 +28,7 @@ class Organizations;
 namespace RTC {
 class ExecutionContextBase;
 class Manager;
+class SdoServiceProviderBase;
 
 /// A component. Derive (from DataFlowComponentBase), override the on...() callbacks, add ports in
 /// onInitialize(). An execution context calls it; any result but RTC_OK, and any exception, of onActivated,
@@ -140,6 +141,13 @@ public:
     const std::vector<OutPortBase*>& getOutPorts() const { return m_outports; }
     /// Ours: all ports; get_ports() as local objects.
     PortAdmin& getPortAdmin() { return m_portAdmin; }
+
+    /// The provider is the component's from now on. False: there is one of that id, or its init() is.
+    bool addSdoServiceProvider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider);
+    bool removeSdoServiceProvider(const char* id);
+    /// False: no library has brought a consumer for its interface type.
+    bool addSdoServiceConsumer(const SDOPackage::ServiceProfile& profile);
+    bool removeSdoServiceConsumer(const char* id);
 
     ExecutionContext_ptr getExecutionContext(UniqueId ec_id) { return get_context(ec_id); }
     double getExecutionRate(UniqueId ec_id);
