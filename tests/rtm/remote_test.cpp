@@ -1,53 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two processes: components of another rtm_host by CORBA alone.
 #include "fixture.hpp"
-#include "host_process.hpp"
-#include <netinet/in.h>
+#include "other_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
-#include <rtm/idl/ManagerSkel.h>
-#include <sys/socket.h>
 
 using namespace testing;
 
 namespace {
 
-std::string free_port() {
-    const int fd = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    bind(fd, reinterpret_cast<sockaddr*>(&address), size);
-    getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-    close(fd);
-    return std::to_string(ntohs(address.sin_port));
-}
-
-/// Another host with components, reached through its manager's well-known name.
-struct Other {
-    std::string port = free_port();
-    HostProcess host{{"-o", "manager.modules.load_path:" TANDEM_TEST_PLUGINS, "-o",
-                      "manager.modules.preload:TestComponents.so", "-o",
-                      "manager.components.precreate:Counter,Teller,CalculatorProvider", "-o",
-                      "exec_cxt.periodic.rate:200", "-p", port}};
-
+struct Other : OtherHost {
     RTC::RTObject_ptr component(Stage& stage, const char* name) {
-        CORBA::Object_var object = stage.manager().theORB()->string_to_object(
-            ("corbaloc:iiop:127.0.0.1:" + port + "/manager").c_str());
-        RTM::Manager_var manager = RTM::Manager::_narrow(object.in());
-        RTC::RTCList_var found = manager->get_components_by_name(name);
-        return found->length() == 1 ? RTC::RTObject::_duplicate(found[0]) : RTC::RTObject::_nil();
+        return OtherHost::component(stage.manager().theORB(), name);
     }
 };
-
-template <class Condition>
-bool soon(Condition condition) {
-    for (int i = 0; i < 10000; ++i) {
-        if (condition()) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
-}
 
 } // namespace
 

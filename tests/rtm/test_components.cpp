@@ -2,6 +2,8 @@
 // A library of components for rtm_host, with some that behave badly.
 #include "components.hpp"
 #include <cstdio>
+#include <cstdlib>
+#include <thread>
 
 namespace {
 
@@ -56,6 +58,32 @@ class Hanger : public RTC::DataFlowComponentBase {
 };
 
 /// Never returns from the callback that the parameter `in` names.
+/// Has an InPort `dies` in whose notify_connect() the process ends, and one `hangs` that does not return from it.
+class BadPeer : public RTC::DataFlowComponentBase {
+  public:
+    explicit BadPeer(RTC::Manager* manager)
+        : DataFlowComponentBase(manager), dies_("dies", value_), hangs_("hangs", value_) {}
+    RTC::ReturnCode_t onInitialize() override {
+        struct Die : RTC::ConnectionCallback {
+            void operator()(RTC::ConnectorProfile&) override { std::_Exit(3); }
+        };
+        struct Hang : RTC::ConnectionCallback {
+            void operator()(RTC::ConnectorProfile&) override { std::this_thread::sleep_for(std::chrono::hours(1)); }
+        };
+        static Die die;
+        static Hang hang;
+        dies_.setOnPublishInterfaces(&die);
+        hangs_.setOnPublishInterfaces(&hang);
+        addInPort("dies", dies_);
+        addInPort("hangs", hangs_);
+        return RTC::RTC_OK;
+    }
+
+  private:
+    RTC::TimedLong value_{};
+    RTC::InPort<RTC::TimedLong> dies_, hangs_;
+};
+
 class Sleeper : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
@@ -95,5 +123,6 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_as<Thrower>(*manager, "Thrower");
     register_as<Hanger>(*manager, "Hanger");
     register_as<Sleeper>(*manager, "Sleeper");
+    register_as<BadPeer>(*manager, "BadPeer");
 }
 extern "C" void OnlyTellers(RTC::Manager* manager) { register_as<Teller>(*manager, "Teller"); }

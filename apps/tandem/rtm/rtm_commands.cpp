@@ -2,6 +2,7 @@
 // The command line of `tandem rtm`.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/rtm/commands.hpp"
+#include "apps/tandem/rtm/running.hpp"
 
 #include <memory>
 
@@ -46,10 +47,11 @@ void add_build(CLI::App& rtm, Run& chosen) {
 } // namespace
 
 void add_rtm(CLI::App& tandem, Run& chosen) {
-    CLI::App* rtm = tandem.add_subcommand("rtm", "RT-Components: make and build them");
+    CLI::App* rtm = tandem.add_subcommand("rtm", "RT-Components: make and build them, look at and control those that run");
     rtm->require_subcommand(1);
     add_new(*rtm, chosen);
     add_build(*rtm, chosen);
+    add_running(*rtm, chosen);
 }
 
 } // namespace tandem::command

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running.hpp"
+#include "apps/tandem/rtm/survey.hpp"
+#include "apps/tandem/text.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::command {
+
+int rtm_list(const PeerOptions& options) {
+    const Peers peers(options);
+    const auto places = survey(peers);
+    nlohmann::json json = nlohmann::json::array();
+    Table table({"INSTANCE", "TYPE", "STATE", ">PORTS", "ADDRESS"});
+    bool answered = false;
+    for (const auto& place : places) {
+        answered = answered || place.trouble.empty();
+        for (const auto& seen : place.components) {
+            json.push_back({{"instance", seen.instance},
+                            {"type", seen.type},
+                            {"category", seen.category},
+                            {"state", seen.trouble.empty() ? seen.state : "UNREACHABLE"},
+                            {"ports", seen.ports},
+                            {"address", seen.address},
+                            {"trouble", seen.trouble}});
+            if (seen.trouble.empty())
+                table.add({seen.instance, seen.type, seen.state, std::to_string(seen.ports), seen.address});
+            else
+                table.add({"-", "-", "UNREACHABLE", "-", seen.address + " (" + seen.trouble + ")"});
+        }
+    }
+    if (options.json)
+        print_json(json);
+    else if (!table.empty())
+        print_text(table.text());
+    if (!answered) {
+        std::string reasons;
+        for (const auto& place : places) reasons += (reasons.empty() ? "" : "; ") + place.trouble;
+        if (peers.managers().empty()) reasons += "; none of your processes here is a manager";
+        throw std::runtime_error(reasons + "; start rtm_host or omniNames, or name one with --nameserver or "
+                                           "--manager");
+    }
+    return 0;
+}
+
+} // namespace tandem::command
