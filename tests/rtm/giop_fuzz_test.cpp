@@ -69,10 +69,13 @@ class Mutator {
             m.resize(pick(m.size()));
             break;
         case 2: // a length that is not so
-            write(m, 8, pick(2) == 0 ? static_cast<std::uint32_t>(random_()) : static_cast<std::uint32_t>(pick(64)));
+            write(m, 8,
+                  pick(2) == 0 ? static_cast<std::uint32_t>(random_())
+                               : static_cast<std::uint32_t>(pick(64)));
             break;
         case 3: // a number within
-            write(m, 12 + 4 * pick((m.size() - 12) / 4), pick(2) == 0 ? 0xffffffffu : static_cast<std::uint32_t>(random_()));
+            write(m, 12 + 4 * pick((m.size() - 12) / 4),
+                  pick(2) == 0 ? 0xffffffffu : static_cast<std::uint32_t>(random_()));
             break;
         case 4: // more than there should be
             for (std::size_t i = 0, n = pick(64); i < n; ++i) m.push_back(byte());

@@ -62,15 +62,17 @@ struct Observer {
 
 } // namespace
 
-TEST_CASE("Names are bound in a name server that comes later and in one that has lost them and go at the end") {
+TEST_CASE(
+    "Names are bound in a name server that comes later and in one that has lost them and go at the end") {
     const std::string port = free_port(), server = "127.0.0.1:" + port;
     OtherHost host("Counter", free_port(),
-                   {"corba.nameservers:" + server, "naming.update.interval:0.1", "naming.formats:t.host_cxt/%n.rtc",
-                    "manager.naming_formats:t.host_cxt/%n.mgr"});
+                   {"corba.nameservers:" + server, "naming.update.interval:0.1",
+                    "naming.formats:t.host_cxt/%n.rtc", "manager.naming_formats:t.host_cxt/%n.mgr"});
     REQUIRE(host.host.says("ready\n")); // it does not wait for the server
     Observer observer;
     auto both = [&] {
-        return observer.sees(server, "t.host_cxt/Counter0.rtc") && observer.sees(server, "t.host_cxt/manager.mgr");
+        return observer.sees(server, "t.host_cxt/Counter0.rtc") &&
+               observer.sees(server, "t.host_cxt/manager.mgr");
     };
     {
         const NameServer names(port);
@@ -80,8 +82,9 @@ TEST_CASE("Names are bound in a name server that comes later and in one that has
         CHECK_FALSE(CORBA::is_nil(counter.in()));
         counter = RTC::find_component(observer.orb.in(), "rtcname://*/*/Counter0", {server});
         CHECK_FALSE(CORBA::is_nil(counter.in()));
-        CHECK_THROWS_WITH(RTC::find_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/No0", {}),
-                          Catch::Contains("has no such entry"));
+        CHECK_THROWS_WITH(
+            RTC::find_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/No0", {}),
+            Catch::Contains("has no such entry"));
     }
     const NameServer names(port);
     CHECK(soon(both));

@@ -38,10 +38,12 @@ struct OtherHost {
 
     static std::vector<std::string> arguments(const std::string& components, const std::string& port,
                                               const std::vector<std::string>& settings) {
-        std::vector<std::string> all{"-f", "/dev/null", "-o", "manager.modules.load_path:" TANDEM_TEST_PLUGINS,
-                                     "-o", "manager.modules.preload:TestComponents.so", "-o",
-                                     "manager.components.precreate:" + components, "-o",
-                                     "exec_cxt.periodic.rate:200", "-p", port};
+        std::vector<std::string> all{"-f", "/dev/null",
+                                     "-o", "manager.modules.load_path:" TANDEM_TEST_PLUGINS,
+                                     "-o", "manager.modules.preload:TestComponents.so",
+                                     "-o", "manager.components.precreate:" + components,
+                                     "-o", "exec_cxt.periodic.rate:200",
+                                     "-p", port};
         for (const auto& setting : settings) {
             all.push_back("-o");
             all.push_back(setting);
@@ -49,7 +51,8 @@ struct OtherHost {
         return all;
     }
     RTM::Manager_ptr manager(CORBA::ORB_ptr orb) const {
-        CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:127.0.0.1:" + port + "/manager").c_str());
+        CORBA::Object_var object =
+            orb->string_to_object(("corbaloc:iiop:127.0.0.1:" + port + "/manager").c_str());
         return RTM::Manager::_narrow(object.in());
     }
     RTC::RTObject_ptr component(CORBA::ORB_ptr orb, const char* name) const {

@@ -28,7 +28,8 @@ RTC::ReturnCode_t connect(RTC::PortBase& ours, RTC::RTObject_ptr theirs, const c
 
 } // namespace
 
-TEST_CASE("A preconnect waits for a process that comes later and is made again when that has died and is back") {
+TEST_CASE(
+    "A preconnect waits for a process that comes later and is made again when that has died and is back") {
     const std::string port = free_port();
     Stage stage(false, {quick_watch, "exec_cxt.periodic.rate:200"});
     auto& summer = stage.create<Summer>("Summer");
@@ -63,7 +64,8 @@ TEST_CASE("A kept connection that somebody ends on purpose stays ended") {
 TEST_CASE("A name that cannot be is an error and one that is not there yet is not") {
     Stage stage;
     stage.create<Summer>("Summer");
-    CHECK_THROWS_WITH(stage.connect("Summer0.in?port=rtcloc://127.0.0.1:9/noport"), Catch::Contains("is no port"));
+    CHECK_THROWS_WITH(stage.connect("Summer0.in?port=rtcloc://127.0.0.1:9/noport"),
+                      Catch::Contains("is no port"));
     CHECK_THROWS_WITH(stage.connect("Summer0.nope?port=rtcloc://127.0.0.1:9/Counter0.out"),
                       Catch::Contains("has no port nope"));
     CHECK_NOTHROW(stage.connect("Summer0.in?port=rtcname://127.0.0.1:9/a.host_cxt/Counter0.out"));
@@ -136,7 +138,8 @@ TEST_CASE("data_service and both byte orders carry values between processes by p
             INFO(interface_type << " " << order);
             const long before = summer.received_;
             REQUIRE(connect(summer.in_, there.in(), "out",
-                            {{"interface_type", interface_type}, {"serializer.cdr.endian", order}}) == RTC::RTC_OK);
+                            {{"interface_type", interface_type}, {"serializer.cdr.endian", order}}) ==
+                    RTC::RTC_OK);
             CHECK(soon([&] { return summer.received_ > before + 3; }));
             CHECK(summer.value_.data > 0);
             CHECK(summer.value_.data < 1000000); // bytes in the wrong order would be more
@@ -153,7 +156,8 @@ TEST_CASE("data_service and both byte orders carry values between processes by p
             CHECK(summer.in_.disconnect_all() == RTC::RTC_OK);
             CORBA_RTCUtil::activate(here.in());
         }
-    CHECK(connect(summer.in_, there.in(), "out", {{"serializer.cdr.endian", "middle"}}) == RTC::BAD_PARAMETER);
+    CHECK(connect(summer.in_, there.in(), "out", {{"serializer.cdr.endian", "middle"}}) ==
+          RTC::BAD_PARAMETER);
     CHECK_THAT(summer.in_.connectError(), Catch::Contains("expected little or big"));
 }
 

@@ -58,7 +58,8 @@ class Hanger : public RTC::DataFlowComponentBase {
 };
 
 /// Never returns from the callback that the parameter `in` names.
-/// Has an InPort `dies` in whose notify_connect() the process ends, and one `hangs` that does not return from it.
+/// Has an InPort `dies` in whose notify_connect() the process ends, and one `hangs` that does not return from
+/// it.
 class BadPeer : public RTC::DataFlowComponentBase {
   public:
     explicit BadPeer(RTC::Manager* manager)
@@ -68,7 +69,9 @@ class BadPeer : public RTC::DataFlowComponentBase {
             void operator()(RTC::ConnectorProfile&) override { std::_Exit(3); }
         };
         struct Hang : RTC::ConnectionCallback {
-            void operator()(RTC::ConnectorProfile&) override { std::this_thread::sleep_for(std::chrono::hours(1)); }
+            void operator()(RTC::ConnectorProfile&) override {
+                std::this_thread::sleep_for(std::chrono::hours(1));
+            }
         };
         static Die die;
         static Hang hang;

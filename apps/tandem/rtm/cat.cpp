@@ -29,8 +29,9 @@ int rtm_cat(const PeerOptions& options, const StreamOptions& what) {
     const std::string type = data_type(theirs, "DataOutPort");
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(type_code(type));
     if (CORBA::is_nil(code.in()) && !what.raw)
-        fmt::print(stderr, "{} carries {}, which is not known here: bytes are shown; --types LIBRARY names the "
-                           "component's library\n",
+        fmt::print(stderr,
+                   "{} carries {}, which is not known here: bytes are shown; --types LIBRARY names the "
+                   "component's library\n",
                    theirs.name, type);
     AnyIn port("in", type.c_str());
     const StreamConnection connection(theirs, port, what.properties, "tandem-cat");
@@ -43,12 +44,14 @@ int rtm_cat(const PeerOptions& options, const StreamOptions& what) {
         if (!port.arrivals().next(bytes, std::chrono::milliseconds(100))) continue;
         ++seen;
         // A line for each, so that others can read along.
-        print_text(shown(code.in(), bytes, what.raw).dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+        print_text(shown(code.in(), bytes, what.raw).dump(-1, ' ', false, Json::error_handler_t::replace) +
+                   "\n");
         std::fflush(stdout);
     }
     if (what.count > 0 && seen < what.count && !interrupted())
-        throw std::runtime_error(fmt::format("{} of {} samples came within {} s; is {} active?", seen, what.count,
-                                             what.seconds, theirs.name.substr(0, theirs.name.rfind('.'))));
+        throw std::runtime_error(fmt::format("{} of {} samples came within {} s; is {} active?", seen,
+                                             what.count, what.seconds,
+                                             theirs.name.substr(0, theirs.name.rfind('.'))));
     return 0;
 }
 

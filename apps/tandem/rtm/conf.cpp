@@ -26,8 +26,8 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         const std::string name = assignment.substr(0, equals);
         const CORBA::Long index = NVUtil::find_index(set->configuration_data, name.c_str());
         if (index < 0)
-            throw std::runtime_error(fmt::format("configuration set {} has no parameter {} (it has: {})", id, name,
-                                                 listed(set->configuration_data)));
+            throw std::runtime_error(fmt::format("configuration set {} has no parameter {} (it has: {})", id,
+                                                 name, listed(set->configuration_data)));
         set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
             assignment.substr(equals + 1).c_str();
     }

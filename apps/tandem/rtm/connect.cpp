@@ -23,19 +23,21 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
 
 namespace {
 
-std::string fact(const Port& port, const char* key) { return NVUtil::toString(port.profile->properties, key); }
+std::string fact(const Port& port, const char* key) {
+    return NVUtil::toString(port.profile->properties, key);
+}
 
 // What the ports themselves would refuse without saying why.
 void check(const Port& a, const Port& b) {
     const std::string ka = fact(a, "port.port_type"), kb = fact(b, "port.port_type");
     const bool services = ka == "CorbaPort" && kb == "CorbaPort";
     if (!services && (ka == kb || ka == "CorbaPort" || kb == "CorbaPort"))
-        throw std::runtime_error(fmt::format("{} is a {}, {} is a {}: they cannot be connected", a.name, ka,
-                                             b.name, kb));
+        throw std::runtime_error(
+            fmt::format("{} is a {}, {} is a {}: they cannot be connected", a.name, ka, b.name, kb));
     const std::string ta = fact(a, "dataport.data_type"), tb = fact(b, "dataport.data_type");
     if (!services && ta != tb && ta != "any" && tb != "any")
-        throw std::runtime_error(fmt::format("{} carries {}, {} carries {}: connect ports of one type", a.name,
-                                             ta, b.name, tb));
+        throw std::runtime_error(
+            fmt::format("{} carries {}, {} carries {}: connect ports of one type", a.name, ta, b.name, tb));
     if (CORBA_RTCUtil::already_connected(a.object.in(), b.object.in()))
         throw std::runtime_error(a.name + " and " + b.name + " are connected already");
 }

@@ -74,8 +74,8 @@ json info_json(const Component& component) {
 std::string word(const json& properties, const char* key) { return properties.value(key, std::string()); }
 
 std::string text_of_info(const json& info) {
-    std::string text = fmt::format("{}  {}\n", info["instance"].get<std::string>(),
-                                   info["address"].get<std::string>());
+    std::string text =
+        fmt::format("{}  {}\n", info["instance"].get<std::string>(), info["address"].get<std::string>());
     for (const char* key : {"type", "description", "version", "vendor", "category", "state", "configuration"})
         text += fmt::format("  {:<14} {}\n", key, info[key].get<std::string>());
     for (const auto& context : info["contexts"])
@@ -91,10 +91,10 @@ std::string text_of_info(const json& info) {
             text += fmt::format("    {} {} as {}\n", one["provided"].get<bool>() ? "provides" : "requires",
                                 one["type"].get<std::string>(), one["instance"].get<std::string>());
         for (const auto& one : port["connections"])
-            text += fmt::format("    connection {}  {} {} {}\n", one["id"].get<std::string>(),
-                                one["name"].get<std::string>(),
-                                word(one["properties"], "dataport.dataflow_type"),
-                                word(one["properties"], "dataport.interface_type"));
+            text +=
+                fmt::format("    connection {}  {} {} {}\n", one["id"].get<std::string>(),
+                            one["name"].get<std::string>(), word(one["properties"], "dataport.dataflow_type"),
+                            word(one["properties"], "dataport.interface_type"));
     }
     return text;
 }

@@ -35,19 +35,21 @@ int rtm_inject(const PeerOptions& options, const StreamOptions& what) {
     const std::string type = data_type(theirs, "DataInPort");
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(type_code(type));
     if (CORBA::is_nil(code.in()))
-        throw std::runtime_error(fmt::format(
-            "{} carries {}, which is not known here; name the component's library with --types", theirs.name,
-            type));
+        throw std::runtime_error(
+            fmt::format("{} carries {}, which is not known here; name the component's library with --types",
+                        theirs.name, type));
     AnyOut port("out", type.c_str());
     const StreamConnection connection(theirs, port, what.properties, "tandem-inject");
     unsigned long sent = 0;
     auto send = [&](const std::string& text) {
-        if (sent > 0 && what.rate > 0) std::this_thread::sleep_for(std::chrono::duration<double>(1 / what.rate));
+        if (sent > 0 && what.rate > 0)
+            std::this_thread::sleep_for(std::chrono::duration<double>(1 / what.rate));
         port.send(message(code.in(), text, port.littleEndian()));
         ++sent;
     };
     const unsigned long rounds = what.count == 0 ? 1 : what.count;
-    for (const auto& value : what.values) message(code.in(), value == "-" ? "{}" : value, true); // all are sound
+    for (const auto& value : what.values)
+        message(code.in(), value == "-" ? "{}" : value, true); // all are sound
     for (unsigned long round = 0; round < rounds && !interrupted(); ++round)
         for (const auto& value : what.values) {
             if (value != "-") {
@@ -57,8 +59,7 @@ int rtm_inject(const PeerOptions& options, const StreamOptions& what) {
             for (std::string line; !interrupted() && std::getline(std::cin, line);)
                 if (!line.empty()) send(line);
         }
-    if (options.json)
-        print_json({{"port", theirs.name}, {"type", type}, {"sent", sent}});
+    if (options.json) print_json({{"port", theirs.name}, {"type", type}, {"sent", sent}});
     return 0;
 }
 

@@ -94,8 +94,8 @@ Component Peers::find(const std::string& name) const {
         if (auto component = attempt("rtcloc://" + manager + "/" + plain)) return *component;
     for (const auto& server : name_servers_)
         if (auto component = attempt("rtcname://" + server + "/*/" + plain)) return *component;
-    throw std::runtime_error(fmt::format("there is no component {} ({}); see tandem rtm list", name,
-                                         fmt::join(reasons, "; ")));
+    throw std::runtime_error(
+        fmt::format("there is no component {} ({}); see tandem rtm list", name, fmt::join(reasons, "; ")));
 }
 
 Port port_of(const Component& component, const std::string& port) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the sub-commands for running RT-Components share: the ORB, the options, and finding components by name.
+// What the sub-commands for running RT-Components share: the ORB, the options, and finding components by
+// name.
 #pragma once
-#include <nlohmann/json.hpp>
 #include <coil/Properties.h>
+#include <nlohmann/json.hpp>
 #include <rtm/RTC.h>
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sub-commands of `tandem rtm` for components that run, here or elsewhere. Each returns the exit code, and
-// throws std::runtime_error with one line.
+// The sub-commands of `tandem rtm` for components that run, here or elsewhere. Each returns the exit code,
+// and throws std::runtime_error with one line.
 #pragma once
 #include "apps/tandem/rtm/peers.hpp"
 

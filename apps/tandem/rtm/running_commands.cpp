@@ -37,14 +37,16 @@ void add_looks(CLI::App& rtm, Chosen& chosen) {
         "A name whose component does not answer is listed as UNREACHABLE.")
         ->callback([=, &chosen] { chosen = [list] { return rtm_list(*list); }; });
     auto tree = std::make_shared<PeerOptions>();
-    add(rtm, "tree", "The same with ports and what they are connected with", *tree)
-        ->callback([=, &chosen] { chosen = [tree] { return rtm_tree(*tree); }; });
+    add(rtm, "tree", "The same with ports and what they are connected with", *tree)->callback([=, &chosen] {
+        chosen = [tree] { return rtm_tree(*tree); };
+    });
     struct Info {
         PeerOptions peers;
         std::string component;
     };
     auto info = std::make_shared<Info>();
-    CLI::App* command = add(rtm, "info", "What a component is: profile, contexts, ports, connections", info->peers);
+    CLI::App* command =
+        add(rtm, "info", "What a component is: profile, contexts, ports, connections", info->peers);
     command->add_option("COMPONENT", info->component, "which one")->required();
     command->callback([=, &chosen] { chosen = [info] { return rtm_info(info->peers, info->component); }; });
 }
@@ -81,7 +83,8 @@ void add_connections(CLI::App& rtm, Chosen& chosen) {
     command->add_option("-p,--property", connect->what.properties, "KEY=VALUE (repeatable)")
         ->allow_extra_args(false);
     command->add_option("--name", connect->what.name, "name of the connection");
-    command->callback([=, &chosen] { chosen = [connect] { return rtm_connect(connect->peers, connect->what); }; });
+    command->callback(
+        [=, &chosen] { chosen = [connect] { return rtm_connect(connect->peers, connect->what); }; });
 
     struct Disconnect {
         PeerOptions peers;
@@ -106,7 +109,8 @@ void add_conf(CLI::App& rtm, Chosen& chosen) {
     command->add_option("NAME=VALUE", options->what.values, "parameters to set");
     command->add_option("--set", options->what.set, "configuration set (the active one)");
     command->add_option("--activate", options->what.activate, "configuration set to make the active one");
-    command->callback([=, &chosen] { chosen = [options] { return rtm_conf(options->peers, options->what); }; });
+    command->callback(
+        [=, &chosen] { chosen = [options] { return rtm_conf(options->peers, options->what); }; });
 }
 
 struct Stream {
@@ -114,10 +118,13 @@ struct Stream {
     StreamOptions what;
 };
 
-CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char* brief, const char* details) {
+CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char* brief,
+                     const char* details) {
     CLI::App* command = add(rtm, name, brief, stream.peers, details);
     command->add_option("PORT", stream.what.port, "which one")->required();
-    command->add_option("--types", stream.what.types, "library of a component, for its own data types (repeatable)")
+    command
+        ->add_option("--types", stream.what.types,
+                     "library of a component, for its own data types (repeatable)")
         ->allow_extra_args(false);
     command->add_option("-p,--property", stream.what.properties, "KEY=VALUE of the connection (repeatable)")
         ->allow_extra_args(false);
@@ -129,20 +136,23 @@ void add_streams(CLI::App& rtm, Chosen& chosen) {
     CLI::App* command = add_stream(rtm, *cat, "cat", "Prints what an OutPort sends, one line of JSON each",
                                    "A type that is not known is printed as the bytes of its CDR form.");
     command->add_option("-n,--count", cat->what.count, "leave after so many samples");
-    command->add_option("--for", cat->what.seconds, "leave after so many seconds")->check(CLI::Range(0.01, 1e6));
+    command->add_option("--for", cat->what.seconds, "leave after so many seconds")
+        ->check(CLI::Range(0.01, 1e6));
     command->add_flag("--raw", cat->what.raw, "print bytes in any case");
     command->callback([=, &chosen] { chosen = [cat] { return rtm_cat(cat->peers, cat->what); }; });
 
     auto inject = std::make_shared<Stream>();
-    command = add_stream(rtm, *inject, "inject", "Sends values to an InPort",
-                         "VALUE is JSON: {\"tm\": {\"sec\": 1}, \"data\": [1, 2.5]}; a plain one stands for data, so\n"
-                         "`42` will do for a TimedLong; `-` reads one value from each line of standard input.");
+    command = add_stream(
+        rtm, *inject, "inject", "Sends values to an InPort",
+        "VALUE is JSON: {\"tm\": {\"sec\": 1}, \"data\": [1, 2.5]}; a plain one stands for data, so\n"
+        "`42` will do for a TimedLong; `-` reads one value from each line of standard input.");
     // Not a list for the parser: it would take [1,2] apart.
     auto value = std::make_shared<std::string>();
     command->add_option("VALUE", *value, "what to send; more may follow")->required();
     command->allow_extras();
     command->add_option("-n,--count", inject->what.count, "send all so many times (1)");
-    command->add_option("--rate", inject->what.rate, "values per second (at once)")->check(CLI::Range(0., 1e6));
+    command->add_option("--rate", inject->what.rate, "values per second (at once)")
+        ->check(CLI::Range(0., 1e6));
     command->callback([=, &chosen] {
         inject->what.values = {*value};
         for (const auto& more : command->remaining()) {

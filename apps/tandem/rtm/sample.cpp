@@ -104,9 +104,9 @@ template <class T>
 void put(const Json& value, cdrStream& out) {
     if constexpr (std::is_integral_v<T>) {
         if (value.is_number_float()) throw NoSuchValue(value.dump() + " is no integer");
-        const bool fits = value.is_number_unsigned() ? std::in_range<T>(value.get<std::uint64_t>())
-                                                     : !value.is_number_integer() ||
-                                                           std::in_range<T>(value.get<std::int64_t>());
+        const bool fits = value.is_number_unsigned()
+                              ? std::in_range<T>(value.get<std::uint64_t>())
+                              : !value.is_number_integer() || std::in_range<T>(value.get<std::int64_t>());
         if (!fits) throw NoSuchValue(value.dump() + " does not fit");
     }
     const T number = value.is_null() ? T() : value.get<T>();
@@ -125,8 +125,9 @@ void write_list(CORBA::TypeCode_ptr element, const Json& value, std::optional<CO
         throw NoSuchValue(fmt::format("{}: {} elements, expected {}", place, given, *length));
     if (!length) given >>= out;
     for (CORBA::ULong i = 0; i < length.value_or(given); ++i) {
-        const Json one = given == 0 ? Json() : as_hex ? Json(std::stoul(digits.substr(i * 2, 2), nullptr, 16))
-                                                      : value[i];
+        const Json one = given == 0 ? Json()
+                         : as_hex   ? Json(std::stoul(digits.substr(i * 2, 2), nullptr, 16))
+                                    : value[i];
         write(element, one, out, place + "[" + std::to_string(i) + "]");
     }
 }
@@ -134,7 +135,8 @@ void write_list(CORBA::TypeCode_ptr element, const Json& value, std::optional<CO
 void write_enum(CORBA::TypeCode_ptr type, const Json& value, cdrStream& out, const std::string& place) {
     CORBA::ULong number = value.is_number_unsigned() ? value.get<CORBA::ULong>() : 0;
     if (value.is_string())
-        while (number < type->member_count() && value.get<std::string>() != type->member_name(number)) ++number;
+        while (number < type->member_count() && value.get<std::string>() != type->member_name(number))
+            ++number;
     if (number >= type->member_count())
         throw NoSuchValue(place + ": " + value.dump() + " is no value of " + type->name());
     number >>= out;
@@ -177,12 +179,13 @@ void write_plain(CORBA::TypeCode_ptr type, const Json& value, cdrStream& out) {
     case CORBA::tk_octet:
         return out.marshalOctet(value.is_null() ? CORBA::Octet(0) : value.get<CORBA::Octet>());
     case CORBA::tk_char:
-        return out.marshalChar(value.is_null() || value.get<std::string>().empty() ? '\0'
-                                                                                   : value.get<std::string>()[0]);
+        return out.marshalChar(
+            value.is_null() || value.get<std::string>().empty() ? '\0' : value.get<std::string>()[0]);
     case CORBA::tk_string:
         return out.marshalString(value.is_null() ? "" : value.get<std::string>().c_str(), 0);
     default:
-        throw NoSuchValue("a type that cannot be given as text (any, union, wide characters, object reference)");
+        throw NoSuchValue(
+            "a type that cannot be given as text (any, union, wide characters, object reference)");
     }
 }
 

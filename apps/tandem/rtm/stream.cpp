@@ -56,7 +56,8 @@ void AnyOut::send(const RTC::ByteData& bytes) {
 std::string data_type(const Port& port, const std::string& kind) {
     const std::string is = NVUtil::toString(port.profile->properties, "port.port_type");
     if (is != kind)
-        throw std::runtime_error(fmt::format("{} is a {}, expected a {}", port.name, is.empty() ? "port" : is, kind));
+        throw std::runtime_error(
+            fmt::format("{} is a {}, expected a {}", port.name, is.empty() ? "port" : is, kind));
     return NVUtil::toString(port.profile->properties, "dataport.data_type");
 }
 

@@ -6,7 +6,7 @@ namespace tandem::command {
 
 /// One component as list and tree show it.
 struct Seen {
-    std::string address;  ///< rtcname://... or rtcloc://...
+    std::string address; ///< rtcname://... or rtcloc://...
     std::string instance, type, state, category;
     CORBA::ULong ports = 0;
     RTC::RTObject_var object;

@@ -37,7 +37,8 @@ std::string state_after(const Component& component, const std::string& wanted, d
 std::string change(const Component& component, Transition transition, double seconds) {
     if (transition == Transition::exit) {
         const RTC::ReturnCode_t code = component.object->exit();
-        if (code != RTC::RTC_OK) throw std::runtime_error(component.instance + " does not exit: " + text_of(code));
+        if (code != RTC::RTC_OK)
+            throw std::runtime_error(component.instance + " does not exit: " + text_of(code));
         return "exited";
     }
     const std::string wanted = wanted_state(transition);

@@ -11,8 +11,8 @@ namespace tandem::command {
 /// std::runtime_error.
 void load_types(const std::filesystem::path& library);
 
-/// TypeCode of a data type, by its repository id (`IDL:RTC/TimedLong:1.0`); nil when no library has it. All of
-/// OpenRTM's own are known.
+/// TypeCode of a data type, by its repository id (`IDL:RTC/TimedLong:1.0`); nil when no library has it. All
+/// of OpenRTM's own are known.
 CORBA::TypeCode_ptr type_code(const std::string& repository_id);
 
 } // namespace tandem::command

@@ -9,11 +9,12 @@
 
 namespace RTC {
 
-/// What lets peers in other processes put messages into an inlet, or fetch them from an outlet. `interface_type`:
-/// corba_cdr or data_service.
+/// What lets peers in other processes put messages into an inlet, or fetch them from an outlet.
+/// `interface_type`: corba_cdr or data_service.
 PortableServer::ServantBase* make_servant(const std::string& interface_type, std::shared_ptr<DataInlet> inlet,
                                           bool little_endian);
-PortableServer::ServantBase* make_servant(const std::string& interface_type, std::shared_ptr<DataOutlet> outlet);
+PortableServer::ServantBase* make_servant(const std::string& interface_type,
+                                          std::shared_ptr<DataOutlet> outlet);
 
 /// Activates a servant in the root POA for as long as it lives; the servant is deleted with its last call.
 class ServantHolder {

@@ -15,7 +15,8 @@ bool has_connection(PortService_ptr port, const std::string& id) {
     return profile->ports.length() > 0;
 }
 
-/// The object behind the reference is gone for good, or its process is. A process that does not answer may live.
+/// The object behind the reference is gone for good, or its process is. A process that does not answer may
+/// live.
 bool is_dead(PortService_ptr port) {
     omniORB::setClientCallTimeout(port, call_bound_ms);
     try {
@@ -177,15 +178,18 @@ void ConnectionKeeper::restore(Kept& kept) {
         kept.first = find_port(manager_, kept.line.ports[0]);
         kept.second = find_port(manager_, kept.line.ports[kept.other]);
         kept.id = connect_ports(kept.line, kept.other, kept.first.in(), kept.second.in());
-        RTC_INFO(("%s and %s are connected", kept.line.ports[0].c_str(), kept.line.ports[kept.other].c_str()));
+        RTC_INFO(
+            ("%s and %s are connected", kept.line.ports[0].c_str(), kept.line.ports[kept.other].c_str()));
         kept.said.clear();
-    } catch (const std::runtime_error& e) { // NotThere, or a refusal that may be over when the other side is new
+    } catch (
+        const std::runtime_error& e) { // NotThere, or a refusal that may be over when the other side is new
         if (kept.said != e.what()) RTC_WARN(("%s; tried again until it works", e.what()));
         kept.said = e.what();
     } catch (const CORBA::SystemException& e) {
         const std::string why = meaning(e);
         if (kept.said != why)
-            RTC_WARN(("%s: %s; tried again until it works", kept.line.ports[kept.other].c_str(), why.c_str()));
+            RTC_WARN(
+                ("%s: %s; tried again until it works", kept.line.ports[kept.other].c_str(), why.c_str()));
         kept.said = why;
     }
 }

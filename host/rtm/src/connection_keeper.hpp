@@ -9,8 +9,9 @@
 namespace RTC {
 
 /// Looks after connections with other processes, in a thread that begins with the first of them: ports whose
-/// process has died are let go, and what preconnect asks for is made when the other side comes, and again when
-/// it has been away. What somebody disconnects on purpose stays disconnected. Every call ends after a time.
+/// process has died are let go, and what preconnect asks for is made when the other side comes, and again
+/// when it has been away. What somebody disconnects on purpose stays disconnected. Every call ends after a
+/// time.
 class ConnectionKeeper {
   public:
     ConnectionKeeper(Manager& manager, std::chrono::nanoseconds interval)
@@ -18,7 +19,8 @@ class ConnectionKeeper {
     ~ConnectionKeeper() { stop(); }
 
     /// A pair of a line that shall stay connected: made already (`id`), or not yet (empty).
-    void keep(const ConnectionLine& line, std::size_t other, const std::string& id, const std::string& why_not);
+    void keep(const ConnectionLine& line, std::size_t other, const std::string& id,
+              const std::string& why_not);
     /// There is a connection with a remote port now.
     void watch();
     /// A connection has ended because its other side was lost; that side is told, in case it still lives.

@@ -103,8 +103,8 @@ PortService_ptr find_port(Manager& manager, const std::string& port_name) {
     try {
         PortService_var found = CORBA_RTCUtil::get_port_by_name(component.in(), port);
         if (!CORBA::is_nil(found.in())) return found._retn();
-        throw NotThere(component_name + " has no port " + port + " (it has: " +
-                       coil::flatten(CORBA_RTCUtil::get_port_names(component.in())) + ")");
+        throw NotThere(component_name + " has no port " + port +
+                       " (it has: " + coil::flatten(CORBA_RTCUtil::get_port_names(component.in())) + ")");
     } catch (const CORBA::SystemException& e) {
         throw NotThere(port_name + ": " + meaning(e));
     }
@@ -124,9 +124,10 @@ std::string connect_ports(const ConnectionLine& line, std::size_t other, PortSer
         auto* here = local_object<PortBase>(is_remote(line.ports[0]) ? second : first);
         const ReturnCode_t result = here ? here->connect(profile) : first->connect(profile);
         if (result == RTC_OK) return static_cast<const char*>(profile.connector_id);
-        throw ManagerError(names + " cannot be connected: " +
-                           (here ? here->connectError() : "the first refuses, with code " +
-                                                              std::to_string(static_cast<int>(result))));
+        throw ManagerError(
+            names + " cannot be connected: " +
+            (here ? here->connectError()
+                  : "the first refuses, with code " + std::to_string(static_cast<int>(result))));
     } catch (const CORBA::SystemException& e) {
         throw NotThere(names + " cannot be connected: " + meaning(e));
     }

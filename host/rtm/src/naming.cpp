@@ -78,8 +78,9 @@ std::vector<std::string> Naming::bind(const std::string& path, CORBA::Object_ptr
             bind_in(root.in(), path, object);
         } catch (const NotThere& e) {
             set_there(server.address, false);
-            refusals.push_back(std::string(e.what()) +
-                               "; names are bound when it comes; start omniNames there or set naming.enable: NO");
+            refusals.push_back(
+                std::string(e.what()) +
+                "; names are bound when it comes; start omniNames there or set naming.enable: NO");
         } catch (const CORBA::Exception& e) {
             refusals.push_back("name server " + server.address + " does not take " + path + " (" + e._name() +
                                ")");

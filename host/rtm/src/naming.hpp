@@ -7,8 +7,8 @@
 
 namespace RTC {
 
-/// The entries of this process in CORBA name servers. A server that is away holds nobody up: what it missed is
-/// made up for by update(), when it is there again. [any-thread]
+/// The entries of this process in CORBA name servers. A server that is away holds nobody up: what it missed
+/// is made up for by update(), when it is there again. [any-thread]
 class Naming {
   public:
     /// `host` or `host:port` each.
@@ -19,8 +19,8 @@ class Naming {
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
     /// Removes the entry where it is still ours.
     void unbind(const std::string& path);
-    /// All entries again in servers that were away, or have forgotten everything; with `rebind` wherever one is
-    /// missing. Returns one line for each server that has come or gone.
+    /// All entries again in servers that were away, or have forgotten everything; with `rebind` wherever one
+    /// is missing. Returns one line for each server that has come or gone.
     std::vector<std::string> update(bool rebind);
     std::vector<std::string> servers() const;
 

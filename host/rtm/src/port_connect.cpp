@@ -119,7 +119,8 @@ ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
     return subscribed;
 }
 
-// A peer that dies or hangs in its notify_connect() leaves us with half a connection, which connect() takes back.
+// A peer that dies or hangs in its notify_connect() leaves us with half a connection, which connect() takes
+// back.
 ReturnCode_t PortBase::passOn(ConnectorProfile& profile) {
     try {
         return connectNext(profile);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other end of a data connection when it is in another process, by interface type: corba_cdr, data_service.
+// The other end of a data connection when it is in another process, by interface type: corba_cdr,
+// data_service.
 #pragma once
 #include <memory>
 #include <optional>
@@ -35,8 +36,8 @@ class RemoteSender {
                                               const std::string& interface_type);
 };
 
-/// The interface type that carries a connection between processes: data_service if that is what its properties
-/// ask for, else corba_cdr.
+/// The interface type that carries a connection between processes: data_service if that is what its
+/// properties ask for, else corba_cdr.
 std::string wire_interface(const coil::Properties& connector_properties);
 
 } // namespace RTC
