@@ -1,10 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/sleep_alarm.hpp"
 
-#include <climits>
 #include <csignal>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 namespace tandem::shm {
+
+namespace {
+
+constexpr int alarm_signal = SIGURG;
+thread_local pid_t this_thread = 0; // once it has let the signal through
+
+pid_t let_signal_through() {
+    sigset_t ours;
+    sigemptyset(&ours);
+    sigaddset(&ours, alarm_signal);
+    pthread_sigmask(SIG_UNBLOCK, &ours, nullptr);
+    return static_cast<pid_t>(syscall(SYS_gettid));
+}
+
+/// False: somebody else uses the signal.
+bool handle_signal() {
+    struct sigaction before {};
+    if (sigaction(alarm_signal, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return false;
+    struct sigaction action {};
+    action.sa_handler = [](int) {}; // and no SA_RESTART: the sleep ends
+    return sigaction(alarm_signal, &action, nullptr) == 0;
+}
+
+} // namespace
 
 SleepAlarm& SleepAlarm::of_process() {
     static SleepAlarm alarm;
@@ -27,15 +52,19 @@ void SleepAlarm::forget_thread() {
     pthread_mutex_init(&starting_, nullptr); // its holder may not be here
     for (Slot& slot : slots_) {
         slot.deadline.store(never);
-        slot.word.store(nullptr);
+        slot.thread.store(0);
     }
+    this_thread = 0;
     next_.store(never);
     state_.store(State::unborn);
 }
 
 bool SleepAlarm::start() {
     pthread_mutex_lock(&starting_);
+    const bool handled = signal_handled_ || (signal_handled_ = handle_signal());
+    if (state_.load() == State::unborn && !handled) state_.store(State::refused);
     if (state_.load() == State::unborn) {
+        process_ = getpid();
         sigset_t all, before;
         sigfillset(&all);
         pthread_sigmask(SIG_SETMASK, &all, &before); // the program's signals are for the program's threads
@@ -58,18 +87,19 @@ bool SleepAlarm::start() {
 //
 // At least one of the two sees the other: the alarm goes to sleep for d, or the sleeper nudges it.
 bool SleepAlarm::sleep(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline) {
-    if (state_.load(std::memory_order_acquire) != State::runs && !start()) return false;
-    // One word has one sleeper, as a rule, and so finds its slot free, and in its core's cache.
-    const auto hash = reinterpret_cast<std::uintptr_t>(&word) / 64 % slots_.size();
+    const State state = state_.load(std::memory_order_acquire);
+    if (state == State::refused || (state == State::unborn && !start())) return false;
+    if (this_thread == 0) this_thread = let_signal_through();
+    const auto first = static_cast<std::size_t>(this_thread); // its slot as a rule, in its core's cache
     for (std::size_t i = 0; i < slots_.size(); ++i) {
-        Slot& slot = slots_[(hash + i) % slots_.size()];
-        std::atomic<std::uint32_t>* nobody = nullptr;
-        if (!slot.word.compare_exchange_strong(nobody, &word, std::memory_order_acquire)) continue;
+        Slot& slot = slots_[(first + i) % slots_.size()];
+        pid_t nobody = 0;
+        if (!slot.thread.compare_exchange_strong(nobody, this_thread, std::memory_order_acquire)) continue;
         slot.deadline.store(deadline);
         if (next_.load() > deadline) nudge();
         futex_wait_forever(word, expected);
         slot.deadline.store(never, std::memory_order_relaxed);
-        slot.word.store(nullptr, std::memory_order_release);
+        slot.thread.store(0, std::memory_order_release);
         return true;
     }
     return false;
@@ -83,11 +113,11 @@ void SleepAlarm::nudge() {
 void SleepAlarm::run() {
     while (!stop_.load()) {
         const std::uint32_t nudges = nudges_.load();
-        std::uint64_t next = never, earliest = wake_late_sleepers(now_ns());
+        std::uint64_t next = never, earliest = interrupt_late_sleepers(now_ns());
         do {
             next = earliest;
             next_.store(next);
-            earliest = std::min(next, wake_late_sleepers(now_ns()));
+            earliest = std::min(next, interrupt_late_sleepers(now_ns()));
         } while (earliest < next);
         if (next == never) // nobody sleeps: whoever is next will nudge
             futex_wait_forever(nudges_, nudges);
@@ -96,9 +126,9 @@ void SleepAlarm::run() {
     }
 }
 
-/// Returns the earliest deadline that is still to come. A sleeper that was woken and has not left his slot by
-/// the next look, because he had announced himself and not slept yet, is woken again.
-std::uint64_t SleepAlarm::wake_late_sleepers(std::uint64_t now) {
+/// Returns the earliest deadline that is still to come. A sleeper that was interrupted before he slept,
+/// between his slot and the system call, is interrupted again.
+std::uint64_t SleepAlarm::interrupt_late_sleepers(std::uint64_t now) {
     std::uint64_t next = never;
     for (Slot& slot : slots_) {
         const std::uint64_t deadline = slot.deadline.load();
@@ -106,8 +136,9 @@ std::uint64_t SleepAlarm::wake_late_sleepers(std::uint64_t now) {
             next = std::min(next, deadline);
             continue;
         }
-        // The sleeper may leave meanwhile, and his word's memory with him: the call is then made for nothing.
-        if (auto* const word = slot.word.load(); word != nullptr) futex_wake(*word, INT_MAX);
+        // He may leave meanwhile: then the signal meets nobody, or somebody to whom it does nothing.
+        if (const pid_t thread = slot.thread.load(); thread != 0)
+            syscall(SYS_tgkill, process_, thread, alarm_signal);
         next = std::min(next, now + again_ns);
     }
     return next;

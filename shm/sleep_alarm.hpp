@@ -17,8 +17,8 @@ class SleepAlarm {
     static SleepAlarm& of_process();
 
     /// [any-thread] Sleeps while `word` holds `expected`, at most until now_ns() reaches `deadline` or a
-    /// little later; may return early. False, without having slept: there is no slot or no thread to be had,
-    /// the caller sets a timer of his own.
+    /// little later; may return early. False, without having slept: no slot, no thread or no signal is to be
+    /// had, the caller sets a timer of his own.
     bool sleep(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
 
     SleepAlarm(const SleepAlarm&) = delete;
@@ -28,9 +28,9 @@ class SleepAlarm {
     static constexpr std::uint64_t never = ~std::uint64_t{0};
     static constexpr std::uint64_t again_ns = 1'000'000;
 
-    /// A sleeper. The word is set first and cleared last; with a deadline of `never` nobody looks at it.
+    /// A sleeper. With a deadline of `never` nobody looks at the thread's number.
     struct alignas(64) Slot {
-        std::atomic<std::atomic<std::uint32_t>*> word{nullptr};
+        std::atomic<pid_t> thread{0};
         std::atomic<std::uint64_t> deadline{never};
     };
     enum class State { unborn, runs, refused };
@@ -39,7 +39,7 @@ class SleepAlarm {
     ~SleepAlarm();
     bool start();
     void run();
-    std::uint64_t wake_late_sleepers(std::uint64_t now);
+    std::uint64_t interrupt_late_sleepers(std::uint64_t now);
     void nudge();
     void forget_thread(); // in a fork()ed child, which has none
 
@@ -50,6 +50,8 @@ class SleepAlarm {
     std::atomic<bool> stop_{false};
     pthread_mutex_t starting_ = PTHREAD_MUTEX_INITIALIZER;
     pthread_t thread_{};
+    pid_t process_ = 0;
+    bool signal_handled_ = false; // stays so in a fork()ed child
 };
 
 } // namespace tandem::shm

@@ -3,6 +3,7 @@
 
 #include "shm/sleep_alarm.hpp"
 
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -71,6 +72,25 @@ TEST_CASE("sleepers that come and go under the alarm all end") {
         });
     for (auto& sleeper : sleepers) sleeper.join();
     CHECK(sleeps == 90);
+}
+
+TEST_CASE("a sleep ends at its bound though the file behind its word was truncated meanwhile") {
+    const int file = memfd_create("word", MFD_CLOEXEC);
+    REQUIRE(ftruncate(file, 4096) == 0);
+    void* const page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    REQUIRE(page != MAP_FAILED);
+    auto& word = *new (page) std::atomic<std::uint32_t>(1);
+    std::atomic<bool> ended{false};
+    std::thread sleeper([&] {
+        futex_wait(word, 1, deadline_after(200ms));
+        ended = true;
+    });
+    std::this_thread::sleep_for(20ms); // most likely it sleeps by now
+    CHECK(ftruncate(file, 0) == 0);
+    CHECK(eventually([&] { return ended.load(); }));
+    sleeper.join();
+    munmap(page, 4096);
+    close(file);
 }
 
 TEST_CASE("a forked child has an alarm of its own") {
