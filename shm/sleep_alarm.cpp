@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/sleep_alarm.hpp"
 
+#include <climits>
 #include <csignal>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -95,6 +96,7 @@ bool SleepAlarm::sleep(std::atomic<std::uint32_t>& word, std::uint32_t expected,
         Slot& slot = slots_[(first + i) % slots_.size()];
         pid_t nobody = 0;
         if (!slot.thread.compare_exchange_strong(nobody, this_thread, std::memory_order_acquire)) continue;
+        slot.word.store(&word, std::memory_order_relaxed);
         slot.deadline.store(deadline);
         if (next_.load() > deadline) nudge();
         futex_wait_forever(word, expected);
@@ -113,11 +115,11 @@ void SleepAlarm::nudge() {
 void SleepAlarm::run() {
     while (!stop_.load()) {
         const std::uint32_t nudges = nudges_.load();
-        std::uint64_t next = never, earliest = interrupt_late_sleepers(now_ns());
+        std::uint64_t next = never, earliest = end_late_sleeps(now_ns());
         do {
             next = earliest;
             next_.store(next);
-            earliest = std::min(next, interrupt_late_sleepers(now_ns()));
+            earliest = std::min(next, end_late_sleeps(now_ns()));
         } while (earliest < next);
         if (next == never) // nobody sleeps: whoever is next will nudge
             futex_wait_forever(nudges_, nudges);
@@ -126,9 +128,9 @@ void SleepAlarm::run() {
     }
 }
 
-/// Returns the earliest deadline that is still to come. A sleeper that was interrupted before he slept,
-/// between his slot and the system call, is interrupted again.
-std::uint64_t SleepAlarm::interrupt_late_sleepers(std::uint64_t now) {
+/// Returns the earliest deadline that is still to come. A sleeper who was between his slot and the system
+/// call is met again by the next look.
+std::uint64_t SleepAlarm::end_late_sleeps(std::uint64_t now) {
     std::uint64_t next = never;
     for (Slot& slot : slots_) {
         const std::uint64_t deadline = slot.deadline.load();
@@ -136,7 +138,9 @@ std::uint64_t SleepAlarm::interrupt_late_sleepers(std::uint64_t now) {
             next = std::min(next, deadline);
             continue;
         }
-        // He may leave meanwhile: then the signal meets nobody, or somebody to whom it does nothing.
+        // He may leave meanwhile, and his word's memory with him. The wake is then for nothing or for
+        // somebody who looks again, and the signal meets nobody, or somebody to whom it does nothing.
+        if (auto* const word = slot.word.load(std::memory_order_relaxed)) futex_wake(*word, INT_MAX);
         if (const pid_t thread = slot.thread.load(); thread != 0)
             syscall(SYS_tgkill, process_, thread, alarm_signal);
         next = std::min(next, now + again_ns);

@@ -9,7 +9,11 @@ namespace tandem::shm {
 
 /// Ends long sleeps at their bound without a kernel timer in each of them: setting and cancelling one costs a
 /// sleep 0.1 us and more, of 2. A thread of this process, started by the first such sleep, keeps the one
-/// timer for all: it sleeps until the earliest deadline and wakes whoever has slept past his.
+/// timer for all: it sleeps until the earliest deadline, and ends the sleep of whoever has slept past his in
+/// two ways. It wakes his word, which works whatever signals his thread blocks; and it sends him a SIGURG
+/// that does nothing, which works when the file behind his word is truncated and nobody can wake him by it
+/// any more. Only both together leave a sleeper without a bound: such a file, and a thread that blocks our
+/// signal or a program that takes our handler away, later than the thread's first sleep here.
 class SleepAlarm {
   public:
     static constexpr std::uint64_t shortest_ns = 10'000'000; ///< below it a timer is cheaper than the thread
@@ -28,9 +32,11 @@ class SleepAlarm {
     static constexpr std::uint64_t never = ~std::uint64_t{0};
     static constexpr std::uint64_t again_ns = 1'000'000;
 
-    /// A sleeper. With a deadline of `never` nobody looks at the thread's number.
+    /// A sleeper. The thread is set first and cleared last; with a deadline of `never` nobody looks at the
+    /// rest.
     struct alignas(64) Slot {
         std::atomic<pid_t> thread{0};
+        std::atomic<std::atomic<std::uint32_t>*> word{nullptr};
         std::atomic<std::uint64_t> deadline{never};
     };
     enum class State { unborn, runs, refused };
@@ -39,7 +45,7 @@ class SleepAlarm {
     ~SleepAlarm();
     bool start();
     void run();
-    std::uint64_t interrupt_late_sleepers(std::uint64_t now);
+    std::uint64_t end_late_sleeps(std::uint64_t now);
     void nudge();
     void forget_thread(); // in a fork()ed child, which has none
 

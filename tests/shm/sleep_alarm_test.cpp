@@ -3,6 +3,7 @@
 
 #include "shm/sleep_alarm.hpp"
 
+#include <csignal>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <thread>
@@ -91,6 +92,23 @@ TEST_CASE("a sleep ends at its bound though the file behind its word was truncat
     sleeper.join();
     munmap(page, 4096);
     close(file);
+}
+
+TEST_CASE("a thread that has blocked all signals sleeps no longer than its bound") {
+    std::atomic<bool> ended{false};
+    std::atomic<std::uint32_t> word{1};
+    std::thread sleeper([&] {
+        sleep_out(15ms); // the alarm knows the thread
+        sigset_t all;
+        sigfillset(&all);
+        pthread_sigmask(SIG_SETMASK, &all, nullptr);
+        futex_wait(word, 1, deadline_after(30ms));
+        ended = true;
+    });
+    CHECK(eventually([&] { return ended.load(); }, 5s));
+    word = 0; // if it has failed
+    futex_wake(word, 1);
+    sleeper.join();
 }
 
 #ifndef __SANITIZE_THREAD__ // which lets no forked child start a thread
