@@ -4,6 +4,7 @@
 #include "apps/bench/cases.hpp"
 #include "apps/bench/regime.hpp"
 #include "apps/bench/session.hpp"
+#include "apps/bench/time_each.hpp"
 
 #include <condition_variable>
 #include <mutex>
@@ -13,23 +14,6 @@
 namespace tandem::bench {
 
 namespace {
-
-template <class Work>
-void time_each(Session& session, Work&& work) {
-    const auto loop = [&] {
-        for (double value = 1; session.more(); ++value) {
-            const std::uint64_t before = ticks();
-            work(value);
-            const std::uint64_t now = ticks();
-            session.sample(now - before, now);
-        }
-    };
-    session.begin_warm_up();
-    loop();
-    session.begin();
-    loop();
-    session.end();
-}
 
 /// The newest 15 values.
 template <class T>

@@ -5,6 +5,7 @@
 #include "apps/bench/opros/BenchParts.hpp"
 #include "apps/bench/regime.hpp"
 #include "apps/bench/session.hpp"
+#include "apps/bench/time_each.hpp"
 
 #include "host/opros/src/application.hpp"
 #include <fmt/format.h>
@@ -78,24 +79,6 @@ class Components {
     fs::path folder_;
     engine::Application application_;
 };
-
-/// Times the work, one after the other.
-template <class Work>
-void time_each(Session& session, Work&& work) {
-    const auto loop = [&] {
-        for (double value = 1; session.more(); ++value) {
-            const std::uint64_t before = ticks();
-            work(value);
-            const std::uint64_t now = ticks();
-            session.sample(now - before, now);
-        }
-    };
-    session.begin_warm_up();
-    loop();
-    session.begin();
-    loop();
-    session.end();
-}
 
 void push_double(Session& session) {
     Components components(session, "BenchParts.xml");

@@ -5,6 +5,7 @@
 #include "apps/bench/allocation_count.hpp"
 #include "apps/bench/cases.hpp"
 #include "apps/bench/session.hpp"
+#include "apps/bench/time_each.hpp"
 
 #include "BenchEchoSkel.h"
 #include "host/rtm/src/manager_options.hpp"
@@ -102,28 +103,11 @@ class Components {
     RTC::Manager& manager_;
 };
 
-template <class Work>
-void time_each(Session& session, Work&& work) {
-    const auto loop = [&] {
-        while (session.more()) {
-            const std::uint64_t before = ticks();
-            work();
-            const std::uint64_t now = ticks();
-            session.sample(now - before, now);
-        }
-    };
-    session.begin_warm_up();
-    loop();
-    session.begin();
-    loop();
-    session.end();
-}
-
 void write_long(Session& session) {
     Components components(session.measured().detail);
     Parts& from = components.part("From");
     Parts& to = components.part("To");
-    time_each(session, [&] {
+    time_each(session, [&](double) {
         ++from.out_long.data;
         from.long_out.write();
     });
@@ -135,7 +119,7 @@ void write_seq(Session& session) {
     Components components(session.measured().detail);
     Parts& from = components.part("From");
     Parts& to = components.part("To");
-    time_each(session, [&] {
+    time_each(session, [&](double) {
         from.out_seq.data[0] += 1;
         from.seq_out.write();
     });
@@ -147,7 +131,7 @@ void call(Session& session) {
     Components components("direct");
     Parts& from = components.part("From");
     double value = 0;
-    time_each(session, [&] {
+    time_each(session, [&](double) {
         value += 1;
         if (from.echo->twice(value) != 2 * value) throw std::runtime_error("wrong result of a call");
     });
