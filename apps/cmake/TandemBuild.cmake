@@ -18,6 +18,8 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 
 # g++ 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105329).
 add_compile_options(-Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+# __FILE__ (omniORB's generated code keeps it) tells nobody where the tree was built.
+add_compile_options(-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/= -fmacro-prefix-map=${PROJECT_BINARY_DIR}/=)
 if(TANDEM_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
