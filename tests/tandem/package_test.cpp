@@ -17,7 +17,8 @@ void run(const std::string& command) {
 TEST_CASE("an installed tree that was moved builds components by find_package and by its own command") {
     const Folder folder;
     const std::string moved = folder.path() / "moved", bin = moved + "/bin/", arm = folder.path() / "Arm";
-    run("cmake --install " BUILD_TREE " --strip --component opros --prefix " + (folder.path() / "first").string());
+    run("cmake --install " BUILD_TREE " --strip --component opros --prefix " +
+        (folder.path() / "first").string());
     std::filesystem::rename(folder.path() / "first", moved);
     run(bin + "tandem opros new Arm --in " + folder.path().string());
 
