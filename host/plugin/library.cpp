@@ -2,33 +2,50 @@
 #include "host/plugin/library.hpp"
 
 #include <algorithm>
+#include <dlfcn.h>
 
 namespace tandem::plugin {
 namespace {
 
-// Boost wraps the dynamic linker's own text, which alone says which symbol or which file is missing.
-std::string linker_reason(std::string text) {
-    const std::string marker = "dlerror system message: ";
-    if (const auto at = text.find(marker); at != std::string::npos) text.erase(0, at + marker.size());
-    if (const auto end = text.rfind("): "); end != std::string::npos) text.erase(end);
+// Why the dynamic linker has refused a file: it alone says which symbol or which other file is missing.
+std::string linker_reason() {
+    const char* said = dlerror();
+    std::string text = said ? said : "the dynamic linker gives no reason";
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }
 
 } // namespace
 
+// An exception is the library's own: the C library ends the process when a static constructor throws, but the
+// dlopen() of the sanitizers lets it through.
 Library::Library(const std::filesystem::path& file)
     : path_(std::filesystem::absolute(file)), contents_(read_contents(path_)) {
+    boost::dll::fs::error_code refused;
+    std::string thrown;
     try {
-        library_.load(path_, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
+        library_.load(path_, refused, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
     } catch (const std::exception& error) {
-        throw Error(Reason::not_loadable,
-                    "library " + path_.string() + " cannot be loaded: " + linker_reason(error.what()));
+        thrown = std::string(": ") + error.what();
+    } catch (...) {
+        thrown = " of unknown type";
     }
+    if (!thrown.empty())
+        throw Error(Reason::not_loadable,
+                    "library " + path_.string() + " threw an exception in its static constructors" + thrown);
+    if (refused)
+        throw Error(Reason::not_loadable,
+                    "library " + path_.string() + " cannot be loaded: " + linker_reason());
 }
 
 std::shared_ptr<Library> Library::load(const std::filesystem::path& file) {
     return std::shared_ptr<Library>(new Library(file));
+}
+
+bool Library::is_loaded(const std::filesystem::path& file) {
+    void* const handle = dlopen(std::filesystem::absolute(file).c_str(), RTLD_LAZY | RTLD_NOLOAD);
+    if (handle) dlclose(handle);
+    return handle != nullptr;
 }
 
 void Library::require(const std::string& name) const {

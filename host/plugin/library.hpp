@@ -18,6 +18,9 @@ class Library {
     /// [any-thread] Throws Error: those of read_contents(), or not_loadable with the dynamic linker's reason.
     static std::shared_ptr<Library> load(const std::filesystem::path& file);
 
+    /// Whether the file is loaded in this process, by whomever.
+    static bool is_loaded(const std::filesystem::path& file);
+
     bool has(const std::string& name) const { return library_.has(name); }
 
     /// The exported function or variable of type F. Throws Error that names symbol and file.
