@@ -134,15 +134,53 @@ TEST_CASE("a host whose component hangs in the set-up can be ended") {
     CHECK_THAT(host.said, Catch::Contains("onInitialize of component M does not come back within 0.1 s"));
 }
 
-TEST_CASE("a host whose component hangs at its end says which and ends") {
-    const std::string step = GENERATE("stop", "destroy");
+TEST_CASE("a host whose component hangs at its end says which and in what and ends") {
+    const std::string where =
+        GENERATE("stop hangs", "destroy hangs", "its destructor hangs", "its static destructors hang");
     const Folder folder;
-    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
-                  one_component(folder, "maker", step + " hangs")});
+    Process host(
+        {OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1", one_component(folder, "maker", where)});
     REQUIRE(host.says("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("component M does not come back from " + step + " within 0.1 s"));
+    CHECK_THAT(host.said, Catch::Contains("component M does not come back from " +
+                                          where.substr(0, where.rfind(' ')) + " within 0.1 s"));
+}
+
+TEST_CASE("a library that stays loaded and hangs at the very end is named and the host ends") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  one_component(folder, "lasting_maker", "its static destructors hang")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said,
+               Catch::Contains("the library hangs\nopros_host: component M does not come back from "
+                               "its static destructors within 0.1 s; the host ends without it\n"));
+}
+
+TEST_CASE("a component that hangs in its destructor takes no other one's end from it") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>",
+                     "<property name=\"trouble\">its destructor hangs</property>");
+    folder.component("Hardware", "maker", "<type>passive</type>");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  folder.application(Folder::sub("M", "M.xml") + Folder::sub("Hardware", "Hardware.xml"))});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("Hardware is gone\n"));
+}
+
+TEST_CASE("a set-up that fails ends also when a component hangs in its destructor") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>",
+                     "<property name=\"trouble\">its destructor hangs</property>");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1", "--strict",
+                  folder.application(Folder::sub("M", "M.xml"),
+                                     Folder::connect("data", "M", "numbers", "M", "none"))});
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("'none'"));
 }
 
 TEST_CASE("the host prints what its executors have counted when asked to") {

@@ -31,7 +31,7 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
 }
 
 Application::~Application() {
-    end();
+    unload();
     if (stuck_.empty()) return;
     for (auto& link : links_) static_cast<void>(link.release());
     for (auto& component : components_) static_cast<void>(component.release());
@@ -147,13 +147,17 @@ void Application::stop_component(ComponentHost& component) {
     const auto mine = std::find_if(executors_.begin(), executors_.end(),
                                    [&](const auto& executor) { return executor->runs(component); });
     const bool alone = mine == executors_.end() || (*mine)->ends_within(options_.grace);
-    if (!finishes_within(options_.grace, [&component] { component.stop(); })) left_behind(component);
+    bounded(component, &ComponentHost::stop);
     if (!alone && !(*mine)->ends_within(options_.grace)) {
         for (ComponentHost* each : (*mine)->components())
             if (each->busy_with()) left_behind(*each);
         static_cast<void>(mine->release()); // its thread uses it as long as the process lives
     }
     if (mine != executors_.end()) executors_.erase(mine);
+}
+
+void Application::bounded(ComponentHost& component, void (ComponentHost::*step)()) {
+    if (!finishes_within(options_.grace, [&component, step] { (component.*step)(); })) left_behind(component);
 }
 
 void Application::left_behind(const ComponentHost& component) {
@@ -178,9 +182,26 @@ void Application::end() {
     end_workers();
     if (stuck_.empty()) links_.clear();
     for (auto component = order_.rbegin(); component != order_.rend(); ++component)
-        if (std::find(stuck_.begin(), stuck_.end(), (*component)->name()) == stuck_.end() &&
-            !finishes_within(options_.grace, [&each = **component] { each.destroy(); }))
-            left_behind(**component);
+        if (std::find(stuck_.begin(), stuck_.end(), (*component)->name()) == stuck_.end())
+            bounded(**component, &ComponentHost::destroy);
+}
+
+// What hangs may use the others, and a static destructor that hangs keeps the dynamic linker from everybody.
+void Application::unload() {
+    end();
+    if (unloaded_ || !stuck_.empty()) return;
+    unloaded_ = true;
+    for (const auto& component : components_) bounded(*component, &ComponentHost::release);
+    if (!stuck_.empty()) return;
+    libraries_.clear();
+    std::vector<std::filesystem::path> files;
+    for (const auto& component : components_) {
+        files.push_back(component->library()->path());
+        bounded(*component, &ComponentHost::unload);
+        if (!stuck_.empty()) return;
+    }
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (plugin::Library::is_loaded(files[i])) still_loaded_.push_back(components_[i]->name());
 }
 
 void Application::step(const std::string& name) {

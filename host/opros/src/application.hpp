@@ -44,11 +44,17 @@ class Application {
     void start();
     /// In the reverse order of start: ends each component's executor, then stops the component.
     void stop();
-    /// Stops, disconnects and destroys; the destructor does, too.
+    /// Stops, disconnects and destroys.
     void end();
-    /// Components that did not come back from a call-back within the grace time of stop() or end(). What they
-    /// may still use stays in memory for good, and the process had better leave without unloading anything.
+    /// Ends what has not ended yet, then the instances, then lets go of the libraries. Nothing of a component
+    /// may be used afterwards. The destructor does it, too.
+    void unload();
+    /// Components that did not come back from a call-back or a destructor within the grace time of stop(),
+    /// end() or unload(). What they may still use stays in memory for good, and the process had better leave
+    /// without unloading anything.
     const std::vector<std::string>& stuck() const { return stuck_; }
+    /// Components whose libraries have stayed loaded after unload(): a library may ask for that.
+    const std::vector<std::string>& still_loaded() const { return still_loaded_; }
     /// A line for each executor with what it has counted, from stop() on.
     const std::vector<std::string>& stats() const { return stats_; }
 
@@ -70,6 +76,7 @@ class Application {
     void demand_success(const ComponentHost& component, const char* step) const;
     void stop_component(ComponentHost& component);
     void end_workers();
+    void bounded(ComponentHost& component, void (ComponentHost::*step)());
     void left_behind(const ComponentHost& component);
 
     ApplicationOptions options_;
@@ -81,8 +88,8 @@ class Application {
     std::vector<std::unique_ptr<Link>> links_;
     std::vector<std::unique_ptr<Executor>> executors_;
     std::shared_ptr<rt::StepServer> step_server_;
-    std::vector<std::string> stuck_, stats_;
-    bool started_ = false, ended_ = false;
+    std::vector<std::string> stuck_, still_loaded_, stats_;
+    bool started_ = false, ended_ = false, unloaded_ = false;
 };
 
 } // namespace tandem::engine

@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/bounded.hpp"
 
+#include <atomic>
 #include <future>
 #include <thread>
 
 namespace tandem::engine {
+namespace {
+
+std::atomic<int> under_way{0};
+
+struct Done {
+    ~Done() { --under_way; }
+};
+
+} // namespace
 
 bool finishes_within(std::chrono::nanoseconds grace, std::function<void()> work) {
-    std::packaged_task<void()> task(std::move(work));
+    ++under_way;
+    std::packaged_task<void()> task([work = std::move(work)] {
+        const Done counted;
+        work();
+    });
     std::future<void> end = task.get_future();
     std::thread thread(std::move(task));
     if (end.wait_for(grace) == std::future_status::timeout) {
@@ -18,5 +32,7 @@ bool finishes_within(std::chrono::nanoseconds grace, std::function<void()> work)
     end.get();
     return true;
 }
+
+bool work_goes_on() { return under_way != 0; }
 
 } // namespace tandem::engine

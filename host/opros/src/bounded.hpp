@@ -10,4 +10,7 @@ namespace tandem::engine {
 /// then goes on alone: what it uses must stay.
 bool finishes_within(std::chrono::nanoseconds grace, std::function<void()> work);
 
+/// Whether such a thread still goes on in this process.
+bool work_goes_on();
+
 } // namespace tandem::engine

@@ -144,6 +144,16 @@ void ComponentHost::destroy() {
         lifecycle("destroy", &LifecycleInterface::destroy);
 }
 
+void ComponentHost::release() {
+    const Busy busy(busy_with_, "its destructor");
+    component_.reset();
+}
+
+void ComponentHost::unload() {
+    const Busy busy(busy_with_, "its static destructors");
+    library_.reset();
+}
+
 // Real components return errors for passing conditions such as no input, and the real engine takes no notice:
 // so it is said once, and the component stays ACTIVE.
 void ComponentHost::report_code(const char* what, ReturnType code, ReturnType& last) {

@@ -41,6 +41,9 @@ class ComponentHost {
     void start();
     void stop();
     void destroy();
+    /// Ends the instance; then lets go of the library. Nothing of the component may be used any more.
+    void release();
+    void unload();
 
     /// [executor] The two passes of a cycle; nothing happens unless the component is ACTIVE. An exception
     /// puts it in ERROR and comes back as text, empty otherwise.

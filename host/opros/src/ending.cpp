@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/ending.hpp"
 
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <mutex>
 #include <semaphore>
+#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <thread>
+#include <unistd.h>
 
 namespace tandem::engine {
+namespace {
+
+// Made before main(), so gone after all that a component's library has made. The flag outlives it.
+std::atomic<bool> libraries_are_done{false};
+struct Last {
+    ~Last() { libraries_are_done = true; }
+} const last;
+
+} // namespace
 
 using namespace std::chrono_literals;
 
@@ -17,6 +29,23 @@ void leave(int code) {
     std::cout.flush();
     std::cerr.flush();
     std::_Exit(code);
+}
+
+void bound_exit(std::chrono::nanoseconds grace, const std::vector<std::string>& components) {
+    if (components.empty()) return;
+    std::string names;
+    for (const std::string& name : components) names += (names.empty() ? "component " : " or ") + name;
+    const double seconds = std::chrono::duration<double>(grace).count();
+    // All of the text now, and no logger: the program's own statics may be gone when it is needed.
+    std::thread([grace,
+                 text = fmt::format("opros_host: {} does not come back from its static destructors within "
+                                    "{} s; the host ends without it\n",
+                                    names, seconds)] {
+        std::this_thread::sleep_for(grace);
+        if (libraries_are_done) return;
+        [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
+        std::_Exit(1);
+    }).detach();
 }
 
 struct Ending::State {

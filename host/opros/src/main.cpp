@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/src/application.hpp"
+#include "host/opros/src/bounded.hpp"
 #include "host/opros/src/ending.hpp"
 #include "host/opros/src/plugin_path.hpp"
 #include "host/opros/src/probe_component.hpp"
@@ -65,7 +66,9 @@ int run(Options options) {
     application.end();
     if (options.stats)
         for (const std::string& line : application.stats()) std::cout << line << "\n";
+    application.unload();
     if (!application.stuck().empty()) tandem::engine::leave(1);
+    tandem::engine::bound_exit(options.host.grace, application.still_loaded());
     return 0;
 }
 
@@ -89,6 +92,7 @@ int main(int argc, char** argv) {
         return run(options);
     } catch (const std::exception& error) {
         std::cerr << "opros_host: " << error.what() << std::endl;
+        if (tandem::engine::work_goes_on()) tandem::engine::leave(1);
         return 1;
     }
 }
