@@ -111,6 +111,43 @@ TEST_CASE("what cannot be built is one last line with the first error and leaves
     CHECK_THAT(failed({old}), Catch::Contains("several component profiles") && Catch::Contains("--profile"));
 }
 
+TEST_CASE("names that no build can have are told as such before anything is built") {
+    const Folder folder;
+    old_component(folder, "");
+    folder.component("Old/profile/Old", "Old $(date)");
+    const auto refused = [&](std::vector<std::string> arguments) {
+        const auto result = build(std::move(arguments));
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        return result.errors;
+    };
+    CHECK_THAT(refused({folder.path() / "Old"}),
+               Catch::Contains("Old.xml:3: no library can be built as 'Old $(date)'"));
+    folder.component("Old/profile/Old", "Old.dll");
+    fs::rename(folder.path() / "Old", folder.path() / "O;d");
+    CHECK_THAT(refused({folder.path() / "O;d"}), Catch::Contains("O;d has a ';' in its name"));
+}
+
+TEST_CASE("a plugin that cannot be put in its place leaves nothing there") {
+    const Folder folder;
+    old_component(folder, "");
+    fs::create_directory(folder.path() / "Old/profile/Old.so");
+    const auto result = build({folder.path() / "Old", "-I", folder.path() / "neighbour"});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::Contains("Old.so cannot be written: Is a directory"));
+    CHECK(files_in(folder.path() / "Old/profile") ==
+          std::vector<std::string>{"Old.so", "Old.xml", "OldService.xml"});
+}
+
+TEST_CASE("what CMake says is the last line in its own words") {
+    const Folder folder;
+    folder.component("Empty/Empty", "Empty.dll");
+    const auto result = build({folder.path() / "Empty"});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::Contains("no C++ source in"));
+}
+
 TEST_CASE("a function that forgets its return goes on behind its call as with compilers of old") {
     const Folder folder;
     folder.write("Old/Old.cpp",

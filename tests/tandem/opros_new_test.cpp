@@ -32,6 +32,8 @@ TEST_CASE("tandem opros new refuses in one line what it cannot make and touches 
     CHECK_THAT(refused("2Arms", folder.path()), Catch::Contains("'2Arms'"));
     CHECK_THAT(refused("../Arm", folder.path()), Catch::Contains("expected letters"));
     CHECK_THAT(refused("", folder.path()), Catch::Contains("expected letters"));
+    CHECK_THAT(refused("virtual", folder.path()), Catch::Contains("a word of C++"));
+    CHECK_THAT(refused("Component", folder.path()), Catch::Contains("the OPRoS API"));
     CHECK_THAT(refused("Arm", folder.path() / "nowhere"), Catch::Contains("cannot be made"));
     const auto left = std::filesystem::directory_iterator(folder.path());
     CHECK(std::distance(begin(left), end(left)) == 1);

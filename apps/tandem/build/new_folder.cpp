@@ -6,7 +6,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
 namespace tandem::command {
 namespace {
@@ -19,6 +21,22 @@ void write(const fs::path& file, const std::string& text) {
     if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
 }
 
+const std::set<std::string_view> taken{
+    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char8_t",
+    "char16_t",    "char32_t", "class",      "co_await",  "co_return", "co_yield",     "compl",
+    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+    "static_cast", "std",      "struct",     "switch",    "template",  "this",         "thread_local",
+    "throw",       "true",     "try",        "typedef",   "typeid",    "typename",     "union",
+    "unsigned",    "using",    "virtual",    "void",      "volatile",  "wchar_t",      "while",
+    "xor",         "xor_eq"};
+
 } // namespace
 
 void require_identifier(const std::string& name) {
@@ -29,6 +47,8 @@ void require_identifier(const std::string& name) {
         throw std::runtime_error("'" + printable(name) +
                                  "' cannot be the name of a component, expected letters, "
                                  "digits and _ as for a C++ class, e.g. LaserFilter");
+    if (taken.count(name) != 0)
+        throw std::runtime_error("'" + name + "' cannot be the name of a component, it is a word of C++");
 }
 
 void write_new_folder(const fs::path& folder, const FilesWithText& files) {

@@ -80,6 +80,26 @@ void run(const std::vector<std::string>& command, double seconds, const std::str
                              " (the compiler's output is above)");
 }
 
+// A list of CMake's would fall apart there.
+void require_no_semicolon(const fs::path& place) {
+    const std::string whole = place.empty() ? "" : fs::absolute(place).lexically_normal().string();
+    if (whole.find(';') != std::string::npos)
+        throw std::runtime_error(whole +
+                                 " has a ';' in its name, at which CMake takes it apart; build in a folder "
+                                 "without one");
+}
+
+// The library replaces the old one when it is whole: a running host may have that one mapped.
+void replace(const fs::path& made, const fs::path& library) {
+    const fs::path fresh = library.parent_path() / ("." + library.filename().string() + ".new");
+    std::error_code error, ignored;
+    if (fs::copy_file(made, fresh, fs::copy_options::overwrite_existing, error))
+        fs::rename(fresh, library, error);
+    if (!error) return;
+    fs::remove(fresh, ignored);
+    throw std::runtime_error(library.string() + " cannot be written: " + error.message());
+}
+
 } // namespace
 
 void add_build_options(CLI::App* command, PluginBuild& options, const char* where) {
@@ -109,8 +129,9 @@ fs::path build_plugin(const std::string& model, const std::string& name, const P
                       const fs::path& place) {
     for (const auto& dir : options.include_dirs) require_folder(dir);
     const fs::path output = fs::absolute(options.output.empty() ? place : options.output).lexically_normal();
+    for (const auto& dir : options.include_dirs) require_no_semicolon(dir);
+    for (const auto& dir : {options.folder, output, options.build}) require_no_semicolon(dir);
     const BuildFolder build(options.build);
-    // The library replaces the old one when it is whole: a running host may have that one mapped.
     const fs::path made = build.path() / "made";
     std::ofstream(build.path() / "CMakeLists.txt") << project_text(model, name, options, made);
     const std::string bin = (build.path() / "bin").string();
@@ -119,9 +140,8 @@ fs::path build_plugin(const std::string& model, const std::string& name, const P
         options.seconds, name, "cannot be set up");
     run({"cmake", "--build", bin, "--parallel"}, options.seconds, name, "does not compile");
     fs::create_directories(output);
-    const fs::path library = output / (name + ".so"), fresh = output / ("." + name + ".so.new");
-    fs::copy_file(made / (name + ".so"), fresh, fs::copy_options::overwrite_existing);
-    fs::rename(fresh, library);
+    const fs::path library = output / (name + ".so");
+    replace(made / library.filename(), library);
     if (!options.output.empty())
         for (const auto& entry : fs::directory_iterator(made))
             if (entry.path().filename() != library.filename())

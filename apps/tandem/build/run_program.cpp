@@ -147,13 +147,27 @@ ProgramEnd run_program(const std::vector<std::string>& command, std::chrono::mil
     return {false, WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content(output.get())};
 }
 
+namespace {
+
+// CMake's own errors: a line with the place, then the text, indented and broken into lines, then an empty
+// one.
+std::string cmake_error(std::string text, std::istream& lines) {
+    for (std::string line; std::getline(lines, line) && line.rfind("  ", 0) == 0;)
+        text += line.substr(1); // one of the two spaces is between the words
+    return text;
+}
+
+} // namespace
+
 std::string first_error(const std::string& output) {
     std::istringstream lines(output);
     std::string line, last;
     while (std::getline(lines, line)) {
-        for (const char* word : {"error: ", "undefined reference", "CMake Error", "undefined symbol",
-                                 // omniidl's
-                                 ": Syntax error", ": Error in ", ": No such file or directory"})
+        if (line.find("CMake Error at ") != std::string::npos) return cmake_error(line, lines);
+        for (const char* word :
+             {"error: ", "undefined reference", "multiple definition", "CMake Error", "undefined symbol",
+              // omniidl's
+              ": Syntax error", ": Error in ", ": No such file or directory"})
             if (line.find(word) != std::string::npos) return line;
         if (line.find_first_not_of(" \t") != std::string::npos) last = line;
     }

@@ -5,6 +5,9 @@
 #include "host/opros/src/profile.hpp"
 #include "host/plugin/find_library.hpp"
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -44,11 +47,17 @@ engine::ComponentProfile the_profile(const BuildOptions& options) {
 }
 
 // X.dll, libX.so -> X, under which the host finds it again.
-std::string library_stem(const std::string& library_name) {
-    return fs::path(plugin::library_file_names(fs::path(library_name).filename().string()).back())
-        .stem()
-        .stem()
-        .string();
+std::string library_stem(const engine::ComponentProfile& profile) {
+    const auto file = fs::path(profile.library_name).filename().string();
+    auto stem = fs::path(plugin::library_file_names(file).back()).stem().stem().string();
+    const auto good = [](unsigned char c) {
+        return c < 128 && (std::isalnum(c) || std::strchr("_-+.", c) != nullptr);
+    };
+    if (stem.empty() || !std::all_of(stem.begin(), stem.end(), good))
+        throw engine::SetupError(profile.library_place,
+                                 "no library can be built as '" + printable(stem) +
+                                     "', expected letters, digits, and _ - + . of ASCII");
+    return stem;
 }
 
 } // namespace
@@ -57,7 +66,7 @@ int opros_build(const BuildOptions& options) {
     require_folder(options.folder);
     const auto profile = the_profile(options);
     const auto library =
-        build_plugin("opros", library_stem(profile.library_name), options, profile.place.file.parent_path());
+        build_plugin("opros", library_stem(profile), options, profile.place.file.parent_path());
     print_text(library.string() + "\n");
     return 0;
 }

@@ -6,10 +6,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
 namespace tandem::command {
+namespace {
+
+// What the skeleton uses of the API: a class of the same name would be another one.
+constexpr std::array<const char*, 5> of_the_api{"Component", "Event", "InputDataPort", "OutputDataPort",
+                                                "ReturnType"};
+
+} // namespace
 
 int opros_new(const std::string& name, const std::filesystem::path& parent) {
     require_identifier(name);
+    if (std::find(of_the_api.begin(), of_the_api.end(), name) != of_the_api.end())
+        throw std::runtime_error("'" + name +
+                                 "' cannot be the name of a component, the OPRoS API has one of it");
     const auto folder = parent / name;
     write_new_folder(folder, component_skeleton(name));
     const std::string shown = folder.lexically_normal().string();
