@@ -2,6 +2,7 @@
 // tandem: one command with sub-commands. See --help.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
+#include "apps/tandem/text.hpp"
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ int main(int argc, char** argv) {
     try {
         return chosen();
     } catch (const std::exception& failure) {
-        fmt::print(stderr, "tandem: {}\n", failure.what());
+        fmt::print(stderr, "tandem: {}\n", tandem::command::in_one_line(failure.what()));
         return 1;
     }
 }

@@ -85,6 +85,12 @@ std::string printable(const std::string& text) {
     return safe;
 }
 
+std::string in_one_line(std::string text) {
+    for (char& c : text)
+        if ((c >= 0 && c < ' ') || c == 0x7f) c = '?';
+    return text;
+}
+
 void print_text(const std::string& text) {
     std::fputs(text.c_str(), stdout);
     std::fflush(stdout);

@@ -29,6 +29,7 @@ std::string
 age_text(std::uint64_t then_ns); ///< from a point of shm::now_ns() until now; "-" if that is not in the past
 std::string user_text(uid_t user);              ///< the name, or the number if there is none
 std::string printable(const std::string& text); ///< bytes that are not printable ASCII become '?'
+std::string in_one_line(std::string text); ///< control characters become '?', letters of all scripts stay
 
 void print_text(const std::string& text);
 void print_json(const nlohmann::json& value,

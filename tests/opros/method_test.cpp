@@ -23,6 +23,9 @@ class Math : public IMath {
     }
     std::string name(const std::string& first, const char* second) const { return first + second; }
 };
+std::vector<std::string> names_and_points(std::map<std::string, std::vector<Point>>, std::wstring) {
+    return {};
+}
 int twice(int value) { return 2 * value; }
 
 void connect(MathRequired& required, MathProvided& provided) {
@@ -71,6 +74,12 @@ TEST_CASE("methods of other types are not connected, and say what they are") {
     CHECK(add->Connect(other.get()) == OPROS_BAD_INPUT_PARAMETER);
     CHECK(add->signature() == "double (double, double)");
     CHECK(other->signature() == "int (int)");
+}
+
+TEST_CASE("a signature names standard types as people write them") {
+    const std::unique_ptr<Method> method(makeProvidedMethod(&names_and_points, "f"));
+    CHECK(method->signature() ==
+          "std::vector<std::string> (std::map<std::string, std::vector<Point>>, std::wstring)");
 }
 
 TEST_CASE("a call with another number or other types of arguments is refused, not made") {

@@ -72,6 +72,14 @@ TEST_CASE("tandem opros info runs onInitialize only when it is told to") {
     CHECK_THAT(initialized.errors, Catch::Contains("no device"));
 }
 
+TEST_CASE("a property with control characters stays in its line") {
+    const Folder folder;
+    folder.component("M", FIXTURES "/libmaker.so", "<type>passive</type>",
+                     "<property name=\"a&#10;b\">x&#27;[31my</property>");
+    const auto info = tandem_program({"opros", "info", folder.path() / "M.xml"});
+    CHECK_THAT(info.output, Catch::Contains("a?b       x?[31my\n"));
+}
+
 TEST_CASE("tandem opros info finds device libraries where the host finds them") {
     const Folder folder;
     const auto library = folder.write("devices/libLaserApi.so", "");

@@ -98,7 +98,8 @@ std::string text_of(const json& info, const Found& found, const LookOptions& opt
             "ports that onInitialize makes are shown with --initialize, which runs it in a child process\n";
     if (!info["properties"].empty()) {
         Table table({"property", "value"});
-        for (const auto& [name, value] : info["properties"].items()) table.add({name, value});
+        for (const auto& [name, value] : info["properties"].items())
+            table.add({in_one_line(name), in_one_line(value)});
         text += "\n" + table.text();
     }
     return text;

@@ -24,7 +24,7 @@
 template <typename T> std::string getTypeName(T* unused = 0);
 
 namespace opros {
-/// "std::vector<int, std::allocator<int> >" for the implementation's name of the type.
+/// "std::vector<Point>" for the implementation's name of the type.
 std::string readable_name(const std::type_info& type);
 } // namespace opros
 
