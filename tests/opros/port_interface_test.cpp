@@ -77,6 +77,8 @@ TEST_CASE("exported variables are read and written through the symbol port in ei
     call(*port, "setEncodingRule", OPROS_SYMBOL_ENCODING_BIN);
     const std::string binary = value();
     CHECK(binary == std::string("I\4\16\0\0\0", 6));
+    call(*port, "setEncodingRule", static_cast<SymbolEncodingRule>(7)); // no such rule
+    CHECK(value() == binary);
     component.level = 0;
     call(*port, "setSymbolvalue", name, binary);
     CHECK(component.level == 14);

@@ -15,7 +15,7 @@
 #include <RequiredServicePort.h>
 #include <archive/opros_archive.h>
 
-enum SymbolEncodingRule { OPROS_SYMBOL_ENCODING_STR = 0, OPROS_SYMBOL_ENCODING_BIN = 1 };
+enum SymbolEncodingRule : int { OPROS_SYMBOL_ENCODING_STR = 0, OPROS_SYMBOL_ENCODING_BIN = 1 };
 
 class SymbolObject {
   public:

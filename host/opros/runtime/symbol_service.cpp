@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <SymbolService.h>
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -23,7 +24,10 @@ class SymbolPort : public ProvidedServicePort {
 
     /// Takes the object.
     void addSymbol(std::string name, SymbolObject* object) { symbols_[name].reset(object); }
-    void setEncodingRule(SymbolEncodingRule rule) { rule_ = rule; }
+    /// Any number may come from outside: there are two rules, and others change nothing.
+    void setEncodingRule(SymbolEncodingRule rule) {
+        if (rule == OPROS_SYMBOL_ENCODING_STR || rule == OPROS_SYMBOL_ENCODING_BIN) rule_ = rule;
+    }
     SymbolEncodingRule getEncodingRule() { return rule_; }
 
     std::vector<std::string> getSymbolList() {
@@ -63,7 +67,7 @@ class SymbolPort : public ProvidedServicePort {
 
   private:
     std::map<std::string, std::unique_ptr<SymbolObject>> symbols_;
-    SymbolEncodingRule rule_ = OPROS_SYMBOL_ENCODING_STR;
+    std::atomic<SymbolEncodingRule> rule_{OPROS_SYMBOL_ENCODING_STR};
 };
 
 } // namespace
