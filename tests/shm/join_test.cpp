@@ -33,8 +33,7 @@ TEST_CASE("a killed peer is dead at once and nothing is left after the survivor 
     Link link;
     auto first = join(link, Side::first);
     Child second = stays_in(link, Side::second);
-    REQUIRE(
-        eventually([&] { return first->peer() == PeerState::alive || first->peer() == PeerState::late; }));
+    REQUIRE(eventually([&] { return first->peer() == PeerState::alive; }));
     second.kill_now();
     CHECK(first->peer() == PeerState::dead);
     first.reset();
