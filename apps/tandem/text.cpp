@@ -6,8 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <pwd.h>
+#include <stdexcept>
 
 namespace tandem::command {
 
@@ -92,8 +95,8 @@ std::string in_one_line(std::string text) {
 }
 
 void print_text(const std::string& text) {
-    std::fputs(text.c_str(), stdout);
-    std::fflush(stdout);
+    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+        throw std::runtime_error(std::string("standard output cannot be written: ") + std::strerror(errno));
 }
 
 void print_json(const nlohmann::json& value, bool one_line) {

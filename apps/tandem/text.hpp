@@ -31,7 +31,7 @@ std::string user_text(uid_t user);              ///< the name, or the number if 
 std::string printable(const std::string& text); ///< bytes that are not printable ASCII become '?'
 std::string in_one_line(std::string text); ///< control characters become '?', letters of all scripts stay
 
-void print_text(const std::string& text);
+void print_text(const std::string& text); ///< throws std::runtime_error when it cannot all be written
 void print_json(const nlohmann::json& value,
                 bool one_line = false); ///< bytes that are not UTF-8 are replaced
 

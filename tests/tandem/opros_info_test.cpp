@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program.hpp"
+#include "shell.hpp"
 #include "tests/opros/folder.hpp"
 
 #include <algorithm>
@@ -78,6 +79,15 @@ TEST_CASE("a property with control characters stays in its line") {
                      "<property name=\"a&#10;b\">x&#27;[31my</property>");
     const auto info = tandem_program({"opros", "info", folder.path() / "M.xml"});
     CHECK_THAT(info.output, Catch::Contains("a?b       x?[31my\n"));
+}
+
+TEST_CASE("an output that cannot be written is an error") {
+    const Folder folder;
+    folder.component("M", FIXTURES "/libmaker.so");
+    const auto full = tandem::test::shell(std::string(TANDEM_PROGRAM " opros info ") +
+                                          (folder.path() / "M.xml").string() + " 2>&1 >/dev/full");
+    CHECK(full.exit_code == 1);
+    CHECK_THAT(full.output, Catch::Contains("standard output cannot be written: No space left on device"));
 }
 
 TEST_CASE("tandem opros info finds device libraries where the host finds them") {

@@ -19,7 +19,9 @@ class BuildFolder {
   public:
     explicit BuildFolder(const fs::path& wanted) : temporary_(wanted.empty()) {
         if (temporary_) {
-            std::string name = (fs::temp_directory_path() / "tandem-build-XXXXXX").string();
+            std::error_code error;
+            std::string name = (fs::temp_directory_path(error) / "tandem-build-XXXXXX").string();
+            if (error) throw std::runtime_error("TMPDIR names no folder to build in: " + error.message());
             if (!mkdtemp(name.data()))
                 throw std::runtime_error("no temporary folder " + name + " can be made");
             path_ = name;
