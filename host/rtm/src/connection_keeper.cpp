@@ -9,6 +9,7 @@ namespace RTC {
 namespace {
 
 constexpr CORBA::ULong call_bound_ms = 1000;
+constexpr std::chrono::milliseconds goodbye_ms{2000}, least_goodbye_ms{50};
 
 bool has_connection(PortService_ptr port, const std::string& id) {
     ConnectorProfile_var profile = port->get_connector_profile(id.c_str());
@@ -45,7 +46,6 @@ void ConnectionKeeper::watch() {
 void ConnectionKeeper::lost(const ConnectorProfile& profile) {
     std::lock_guard<std::mutex> lock(mutex_);
     goodbyes_.push_back(profile);
-    lost_ids_.emplace_back(static_cast<const char*>(profile.connector_id));
     begin();
     wake_.notify_all();
 }
@@ -64,6 +64,7 @@ void ConnectionKeeper::stop() {
     {
         std::lock_guard<std::mutex> lock(mutex_);
         ending_ = true;
+        goodbyes_until_ = std::chrono::steady_clock::now() + goodbye_ms;
     }
     wake_.notify_all();
     if (thread_.joinable()) thread_.join();
@@ -83,7 +84,8 @@ void ConnectionKeeper::run() {
         if (now >= next) {
             next = now + interval_;
             look_at_peers();
-            for (auto& kept : kept_) restore(kept);
+            for (auto& kept : kept_)
+                if (!ending_) restore(kept);
         }
         lock.lock();
         for (std::size_t i = 0; i < tasks_.size() && !ending_; ++i) {
@@ -103,10 +105,12 @@ void ConnectionKeeper::say_goodbye() {
         std::lock_guard<std::mutex> lock(mutex_);
         leaving.swap(goodbyes_);
     }
-    for (auto& profile : leaving)
+    for (auto& profile : leaving) {
+        for (auto& kept : kept_)
+            if (kept.id == static_cast<const char*>(profile.connector_id)) kept.id.clear();
         for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
             PortService_ptr port = profile.ports[i];
-            if (local_object<PortBase>(port) != nullptr) continue;
+            if (local_object<PortBase>(port) != nullptr || ending_) continue;
             omniORB::setClientCallTimeout(port, call_bound_ms);
             try {
                 port->notify_disconnect(profile.connector_id);
@@ -114,11 +118,13 @@ void ConnectionKeeper::say_goodbye() {
                 continue; // it is gone indeed
             }
         }
+    }
 }
 
 void ConnectionKeeper::look_at_peers() {
     std::map<std::string, int> silent;
     for (const auto& self : manager_.impl().references()) {
+        if (ending_) return;
         try {
             PortServiceList_var ports = self->get_ports();
             for (CORBA::ULong p = 0; p < ports->length(); ++p) {
@@ -128,7 +134,7 @@ void ConnectionKeeper::look_at_peers() {
                     const std::string id(connection.connector_id);
                     bool dead = false;
                     for (CORBA::ULong i = 0; i < connection.ports.length() && !dead; ++i)
-                        dead = local_object<PortBase>(connection.ports[i]) == nullptr &&
+                        dead = local_object<PortBase>(connection.ports[i]) == nullptr && !ending_ &&
                                is_dead(connection.ports[i]);
                     if (!dead) continue;
                     // Twice in a row: a name that is being moved may miss a beat.
@@ -144,9 +150,12 @@ void ConnectionKeeper::look_at_peers() {
     silent_.swap(silent);
 }
 
-bool ConnectionKeeper::was_lost(const std::string& id) {
-    std::lock_guard<std::mutex> lock(mutex_);
-    return std::erase(lost_ids_, id) > 0;
+std::chrono::milliseconds ConnectionKeeper::goodbye_bound() const {
+    const auto until = goodbyes_until_.load();
+    if (until == std::chrono::steady_clock::time_point{}) return goodbye_ms;
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+    return std::clamp(left, least_goodbye_ms, goodbye_ms);
 }
 
 bool ConnectionKeeper::stands(const Kept& kept) {
@@ -173,7 +182,6 @@ void ConnectionKeeper::restore(Kept& kept) {
             kept.second = find_port(manager_, kept.line.ports[kept.other]);
             return;
         }
-        if (was_lost(kept.id)) kept.id.clear();
         if (!may_return(kept)) return;
         kept.first = find_port(manager_, kept.line.ports[0]);
         kept.second = find_port(manager_, kept.line.ports[kept.other]);

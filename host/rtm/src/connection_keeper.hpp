@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "connection_line.hpp"
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <map>
@@ -28,6 +29,9 @@ class ConnectionKeeper {
     /// Something else that is due at each round (the name servers); after `every` in the first place.
     void also(std::function<void()> task, std::chrono::nanoseconds every);
     void stop();
+    /// How long a peer may take to answer when it is told that a connection ends. At the end of the host it
+    /// is one time for all of them: a peer that hangs is waited for once, however many there are.
+    std::chrono::milliseconds goodbye_bound() const;
 
   private:
     struct Kept {
@@ -49,18 +53,17 @@ class ConnectionKeeper {
     void restore(Kept& kept);
     bool stands(const Kept& kept);
     bool may_return(const Kept& kept);
-    bool was_lost(const std::string& id);
 
     Manager& manager_;
     const std::chrono::nanoseconds interval_;
     std::mutex mutex_; // guards what follows
     std::condition_variable wake_;
-    bool ending_ = false;
+    std::atomic<bool> ending_ = false; // set under the mutex
     std::vector<ConnectorProfile> goodbyes_;
-    std::vector<std::string> lost_ids_;
     std::vector<Kept> new_kept_;
     std::vector<Task> tasks_;
     std::thread thread_;
+    std::atomic<std::chrono::steady_clock::time_point> goodbyes_until_{}; // zero: the host is not ending
     // the thread's own
     std::vector<Kept> kept_;
     std::map<std::string, int> silent_; // connection ids whose peer did not answer, and how often in a row

@@ -50,7 +50,10 @@ bool has_remote_port(const ConnectorProfile& profile) {
 }
 
 // Who is told of the end of a connection may be the reason for it.
-void bound_calls(PortService_ptr port) { omniORB::setClientCallTimeout(port, 2000); }
+void bound_calls(PortService_ptr port) {
+    const auto bound = Manager::instance().impl().connections->goodbye_bound();
+    omniORB::setClientCallTimeout(port, static_cast<CORBA::ULong>(bound.count()));
+}
 
 } // namespace
 
