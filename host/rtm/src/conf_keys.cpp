@@ -29,6 +29,7 @@ const std::vector<ConfKey>& conf_keys() {
         {"manager.auto_shutdown_duration", K::seconds, true},
         {"manager.termination_waittime", K::seconds, false},
         {"manager.peer_check_interval", K::seconds, true},
+        {"manager.service_call_timeout", K::seconds, true},
         {"manager.cpu_affinity", K::processors, true},
         {"manager.command", K::text, false},
         {"manager.nameservers", K::text, false},

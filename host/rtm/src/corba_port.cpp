@@ -1,8 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <coil/stringutil.h>
 #include <rtm/CorbaPort.h>
 #include <rtm/Manager.h>
 
 namespace RTC {
+namespace {
+
+// A service may take its time: an arm moves, a user is asked. Longer than what the framework's calls get.
+CORBA::ULong call_bound_ms() {
+    double seconds = 600;
+    const auto& config = Manager::instance().getConfig();
+    if (!coil::stringTo(seconds, config.getProperty("manager.service_call_timeout").c_str()) ||
+        !(seconds > 0))
+        seconds = 600;
+    return static_cast<CORBA::ULong>(std::clamp(seconds * 1000, 1., 4e9));
+}
+
+} // namespace
 
 /// A servant with an object id of its own, reachable while it is activated.
 class CorbaPort::Provider {
@@ -133,6 +148,7 @@ bool CorbaPort::give(const std::string& ior, Consumer& consumer) {
     if (ior == "nil" || ior == "null") return true;
     try {
         CORBA::Object_var object = Manager::instance().theORB()->string_to_object(ior.c_str());
+        omniORB::setClientCallTimeout(object.in(), call_bound_ms()); // narrowing keeps it
         if (!consumer.consumer->setObject(object.in())) {
             RTC_ERROR(("%s: what %s was given is not a %s", getName(), consumer.instance.c_str(),
                        consumer.type.c_str()));

@@ -60,11 +60,13 @@ public:
     ObjectTypePtr operator->() { return m_var.inout(); }
     void releaseObject() override {
         CorbaConsumerBase::releaseObject();
+        if (!CORBA::is_nil(m_var.in())) m_released = m_var;
         m_var = ObjectType::_nil();
     }
 
 protected:
     ObjectTypeVar m_var;
+    ObjectTypeVar m_released; ///< a call through it may be under way when the provider is lost
 };
 
 } // namespace RTC
