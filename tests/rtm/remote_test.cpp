@@ -35,6 +35,24 @@ TEST_CASE("A component of another process shows its profile, ports, contexts and
     CHECK(CORBA_RTCUtil::deactivate(counter.in()) == RTC::RTC_OK);
 }
 
+TEST_CASE("A manager finds its components by instance name with and without their category") {
+    Other other;
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    RTM::Manager_var there = other.manager(stage.manager().theORB());
+    const auto found = [&](const std::string& name) {
+        return RTC::RTCList_var(there->get_components_by_name(name.c_str()))->length();
+    };
+    RTC::ComponentProfile_var profile =
+        RTC::RTObject_var(other.component(stage, "Counter0"))->get_component_profile();
+    CHECK(found("Counter0") == 1);
+    CHECK(found("*/Counter0") == 1);
+    CHECK(found(std::string(profile->category) + "/Counter0") == 1);
+    CHECK(found("another/Counter0") == 0);
+    CHECK(found("*/Counter") == 0);
+    CHECK(found("") == 0);
+}
+
 TEST_CASE("Data crosses processes in both directions, and a receiver that dies is dropped") {
     Other other;
     REQUIRE(other.host.says("ready\n"));
@@ -92,4 +110,35 @@ TEST_CASE("A service of another process is called, and gone when its process is"
     other.host.send(SIGKILL);
     other.host.wait();
     CHECK_THROWS_AS(consumer.calculator_->sum(numbers), CORBA::SystemException);
+}
+
+TEST_CASE("A service may take longer than a call of the framework up to a bound of its own") {
+    OtherHost other("CalculatorProvider");
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage(false, {"corba.args:-ORBclientCallTimeOutPeriod 300", "manager.service_call_timeout:20"});
+    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    RTC::RTObject_var there = other.component(stage.manager().theORB(), "CalculatorProvider0");
+    CORBA_RTCUtil::activate(there.in());
+    auto call_while_it_stands_still = [&] {
+        RTC::RTObject_var here = consumer.getObjRef();
+        REQUIRE(CORBA_RTCUtil::connect_by_name("svc", coil::Properties(), here.in(), "calculator", there.in(),
+                                               "calculator") == RTC::RTC_OK);
+        other.host.send(SIGSTOP);
+        std::thread later([&] {
+            std::this_thread::sleep_for(std::chrono::seconds(1));
+            other.host.send(SIGCONT);
+        });
+        bool answered = true;
+        try {
+            consumer.calculator_->sum(Testing::Numbers());
+        } catch (const CORBA::TIMEOUT&) {
+            answered = false;
+        }
+        later.join();
+        CHECK(consumer.port_.disconnect_all() == RTC::RTC_OK);
+        return answered;
+    };
+    CHECK(call_while_it_stands_still());
+    stage.manager().getConfig().setProperty("manager.service_call_timeout", "0.3");
+    CHECK_FALSE(call_while_it_stands_still());
 }

@@ -53,12 +53,16 @@ RTC::ComponentProfileList* ManagerServant::get_component_profiles() {
 }
 
 // An instance name, or `*/TYPE` for all of a type.
+// `Name0`, `category/Name0`, or `*/Name0` for any category.
 RTC::RTCList* ManagerServant::get_components_by_name(const char* name) {
-    const std::string wanted(name);
-    const bool by_type = wanted.compare(0, 2, "*/") == 0;
+    const std::string wanted = coil::eraseHeadBlank(name);
+    const std::size_t slash = wanted.find('/');
+    const std::string category = slash == std::string::npos ? "*" : wanted.substr(0, slash);
+    const std::string instance = slash == std::string::npos ? wanted : wanted.substr(slash + 1);
     RTC::RTCList_var list = new RTC::RTCList;
     for (auto* component : manager_.getComponents())
-        if (by_type ? wanted.substr(2) == component->getTypeName() : wanted == component->getInstanceName())
+        if (instance == component->getInstanceName() &&
+            (category == "*" || category == component->getCategory()))
             CORBA_SeqUtil::push_back(list.inout(), RTC::RTObject_var(component->getObjRef()));
     return list._retn();
 }
