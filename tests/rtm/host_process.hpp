@@ -54,6 +54,16 @@ class HostProcess {
         return true;
     }
     void send(int signal) { kill(pid_, signal); }
+    /// SIGSTOP, and it has stopped when this returns: none of its threads answers any more.
+    bool freeze() {
+        kill(pid_, SIGSTOP);
+        for (int i = 0; i < 10000; ++i) {
+            int status = 0;
+            if (waitpid(pid_, &status, WUNTRACED | WNOHANG) == pid_) return WIFSTOPPED(status);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
+    }
     /// Exit code, or minus the signal that has ended it; -1000 when it does not end.
     int wait(std::chrono::seconds bound = std::chrono::seconds(30)) {
         const auto end = std::chrono::steady_clock::now() + bound;

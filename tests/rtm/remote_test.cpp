@@ -123,7 +123,7 @@ TEST_CASE("A service may take longer than a call of the framework up to a bound 
         RTC::RTObject_var here = consumer.getObjRef();
         REQUIRE(CORBA_RTCUtil::connect_by_name("svc", coil::Properties(), here.in(), "calculator", there.in(),
                                                "calculator") == RTC::RTC_OK);
-        other.host.send(SIGSTOP);
+        REQUIRE(other.host.freeze());
         std::thread later([&] {
             std::this_thread::sleep_for(std::chrono::seconds(1));
             other.host.send(SIGCONT);

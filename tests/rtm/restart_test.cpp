@@ -132,7 +132,7 @@ TEST_CASE("However many of its peers hang a host ends in order") {
     }
     OtherHost host("Counter", port, {quick_watch, "manager.components.preconnect:" + lines});
     REQUIRE(host.host.says("ready\n"));
-    for (auto& peer : peers) peer->host.send(SIGSTOP);
+    for (auto& peer : peers) REQUIRE(peer->host.freeze());
     host.host.send(SIGTERM);
     CHECK(host.host.wait() == 0);
     CHECK_THAT(host.host.errors, !Catch::Contains("does not return")); // each component has 4 s for its end
