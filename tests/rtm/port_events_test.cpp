@@ -293,3 +293,51 @@ TEST_CASE("Listeners of component actions are called before and after each of th
     rtc.exit();
     CHECK(story == "<><>"); // shutdown, finalize
 }
+
+TEST_CASE(
+    "listeners of a component hear the connections of all its ports and its member functions can listen") {
+    struct Listening : Counter {
+        explicit Listening(RTC::Manager* manager) : Counter(manager) {}
+        void connecting(const char* port, RTC::ConnectorProfile& profile) {
+            story += std::string(port) + " by " + static_cast<const char*>(profile.name) + ";";
+        }
+        void connected(const char* port, RTC::ConnectorProfile&, RTC::ReturnCode_t ret) {
+            story += std::string(port) + (ret == RTC::RTC_OK ? " ok;" : " refused;");
+        }
+        void activated(RTC::UniqueId id, RTC::ReturnCode_t ret) {
+            story += "activated " + std::to_string(id) + (ret == RTC::RTC_OK ? " ok;" : " failed;");
+        }
+        std::string story;
+    };
+    Stage stage;
+    coil::Properties profile;
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Listening");
+    stage.manager().registerFactory(profile, RTC::Create<Listening>, RTC::Delete<Listening>);
+    auto& listening = stage.create<Listening>("Listening");
+    auto* hears = listening.addPortConnectListener(RTC::ON_NOTIFY_CONNECT, listening, &Listening::connecting);
+    listening.addPortConnectRetListener(RTC::ON_CONNECTED, listening, &Listening::connected);
+    listening.addPostComponentActionListener(RTC::POST_ON_ACTIVATED, listening, &Listening::activated);
+    stage.create<Summer>("Summer");
+    stage.create<Summer>("Summer");
+
+    stage.connect("Listening0.out?port=Summer0.in");
+    CHECK(std::exchange(listening.story, "") ==
+          "Listening0.out by Listening0.out-Summer0.in;Listening0.out ok;");
+    listening.removePortConnectListener(RTC::ON_NOTIFY_CONNECT, hears);
+    stage.connect("Listening0.out?port=Summer1.in");
+    CHECK(std::exchange(listening.story, "") == "Listening0.out ok;");
+    Stage::activate(listening);
+    CHECK(listening.story == "activated 0 ok;");
+}
+
+TEST_CASE("kinds of listeners have their names") {
+    CHECK(std::string(RTC::PreComponentActionListener::toString(RTC::PRE_ON_STATE_UPDATE)) ==
+          "PRE_ON_STATE_UPDATE");
+    CHECK(std::string(RTC::PostComponentActionListener::toString(RTC::POST_ON_RATE_CHANGED)) ==
+          "POST_ON_RATE_CHANGED");
+    CHECK(std::string(RTC::PortActionListener::toString(RTC::REMOVE_PORT)) == "REMOVE_PORT");
+    CHECK(std::string(RTC::ConfigurationSetNameListener::toString(RTC::ON_ACTIVATE_CONFIG_SET)) ==
+          "ON_ACTIVATE_CONFIG_SET");
+    CHECK(std::string(RTC::PortConnectRetListener::toString(RTC::ON_DISCONNECTED)) == "ON_DISCONNECTED");
+    CHECK(std::string(RTC::PortConnectListener::toString(RTC::PORT_CONNECT_LISTENER_NUM)).empty());
+}

@@ -70,7 +70,7 @@ const std::vector<ConfKey>& conf_keys() {
         {"logger.stream_lock", K::text, false},
         {"logger.master_logger", K::text, false},
         {"logger.plugins", K::text, false},
-        {"logger.logstream.**", K::text, false},
+        {"logger.logstream.**", K::text, true},
         {"logging.**", K::text, false},
         {"naming.enable", K::yes_no, true},
         {"naming.type", K::text, false},

@@ -30,14 +30,14 @@ RTObject_impl* FactoryCXX::create(Manager* manager) {
     if (object == nullptr) return nullptr;
     ++m_Number;
     object->setProperties(m_Profile);
-    const std::string name = m_Profile.getProperty("type_name") + m_policy.onCreate(object.get());
+    const std::string name = m_Profile.getProperty("type_name") + m_policy->onCreate(object.get());
     object->setInstanceName(name.c_str());
     return object.release();
 }
 
 void FactoryCXX::destroy(RTObject_impl* comp) {
     --m_Number;
-    m_policy.onDelete(comp);
+    m_policy->onDelete(comp);
     m_Delete(comp);
 }
 

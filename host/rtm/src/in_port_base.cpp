@@ -2,6 +2,7 @@
 #include "data_port.hpp"
 #include "in_port_connectors.hpp"
 #include "local_object.hpp"
+#include "registered_transports.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 
@@ -26,6 +27,7 @@ void InPortBase::init(coil::Properties& prop) {
     m_properties << prop;
     if (const auto* node = m_properties.findNode("buffer")) m_thebuffer->init(*node);
     NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    append_registered_types(m_profile.properties, true);
     int limit = -1;
     if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
         setConnectionLimit(limit);
@@ -58,9 +60,30 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     if (lane != nullptr)
         if (const auto* node = info.properties.findNode("buffer")) lane->init(*node);
     auto* connector = new InPortPushConnector(*this, info, buffer, own, lane);
+    const std::string registered = registered_push(prop);
+    if (!registered.empty()) return addProvided(profile, prop, registered, connector);
     publish_object(profile, "dataport." + wire_interface(prop) + ".inport", connector->servant().reference(),
                    connector->servant().ior());
     addConnector(connector);
+    return RTC_OK;
+}
+
+ReturnCode_t InPortBase::addProvided(ConnectorProfile& profile, const coil::Properties& prop,
+                                     const std::string& type, InPortPushConnector* made) {
+    std::unique_ptr<InPortPushConnector> connector(made);
+    auto provider = registered_in_provider(type, prop);
+    if (provider == nullptr)
+        return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + type +
+                                     " has no InPortProvider here; load the library that brings it");
+    ConnectorInfo info = connector->profile();
+    provider->setListener(info, &m_listeners);
+    provider->setBuffer(connector->getBuffer());
+    provider->setConnector(connector.get());
+    if (!provider->publishInterface(profile.properties))
+        return refuse(RTC_ERROR, std::string(getName()) + ": the InPortProvider of interface type " + type +
+                                     " publishes nothing");
+    connector->provideBy(std::move(provider));
+    addConnector(connector.release());
     return RTC_OK;
 }
 
@@ -72,6 +95,15 @@ ReturnCode_t InPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
 
 ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
+    const std::string registered = registered_pull(prop);
+    if (!registered.empty()) {
+        auto sender = registered_sender(registered, profile, info, m_listeners, *m_thebuffer, prop);
+        if (sender == nullptr)
+            return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
+                                         " has no OutPortConsumer here, or it does not find the other side");
+        addConnector(new InPortPullConnector(*this, info, std::move(sender)));
+        return RTC_OK;
+    }
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto* port = local_object<OutPortBase>(profile.ports[i]);
         auto outlet = port ? port->outlet(profile.connector_id) : nullptr;

@@ -65,6 +65,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
 }
 
 InPortPushConnector::~InPortPushConnector() {
+    provider_.reset(); // nothing comes after that
     disconnect();
     if (own_) CdrBufferFactory::instance().deleteObject(m_buffer);
 }
@@ -75,6 +76,7 @@ DataPortStatus InPortPushConnector::disconnect() {
 }
 
 BufferStatus InPortPushConnector::write(ByteData& bytes) {
+    if (provider_ != nullptr) return InPortConnector::write(bytes);
     return inlet_->receive(bytes) == DataPortStatus::PORT_OK ? BufferStatus::OK : BufferStatus::BUFFER_ERROR;
 }
 

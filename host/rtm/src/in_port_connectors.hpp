@@ -2,7 +2,7 @@
 // The two kinds of receiving ends.
 #pragma once
 #include "cdr_servants.hpp"
-#include "remote_data.hpp"
+#include "registered_transports.hpp"
 #include <chrono>
 #include <rtm/InPortConnector.h>
 
@@ -20,8 +20,11 @@ class InPortPushConnector : public InPortConnector {
     BufferStatus write(ByteData& bytes) override;
     std::shared_ptr<DataInlet> inlet() const { return inlet_; }
     const ServantHolder& servant() const { return servant_; }
+    /// A library's end writes into this connector, and tells the listeners itself.
+    void provideBy(RegisteredInPortProvider provider) { provider_ = std::move(provider); }
 
   private:
+    RegisteredInPortProvider provider_{nullptr, nullptr};
     bool own_;
     std::shared_ptr<DataInlet> inlet_;
     ServantHolder servant_;

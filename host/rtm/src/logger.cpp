@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <coil/stringutil.h>
@@ -51,6 +52,24 @@ bool Logger::setLevel(const char* level) {
     return false;
 }
 
+const char* Logger::getLevelString(int level) {
+    static const char* const names[] = {"RTL_SILENT", "RTL_FATAL", "RTL_ERROR",   "RTL_WARN",    "RTL_INFO",
+                                        "RTL_DEBUG",  "RTL_TRACE", "RTL_VERBOSE", "RTL_PARANOID"};
+    return level >= 0 && level < static_cast<int>(level_names.size()) ? names[level] : "";
+}
+
+int Logger::strToLevel(const char* level) {
+    const auto found =
+        std::find(level_names.begin(), level_names.end(), coil::toUpper(coil::eraseBothEndsBlank(level)));
+    return found == level_names.end() ? RTL_SILENT : static_cast<int>(found - level_names.begin());
+}
+
+// Stays to the end of the process, like the files.
+coil::LogStreamBuffer& Logger::processStreams() {
+    static auto* the_streams = new coil::LogStreamBuffer;
+    return *the_streams;
+}
+
 int Logger::processLevel() { return process_level.load(std::memory_order_relaxed); }
 
 void Logger::setDateFormat(const char* format) {
@@ -70,15 +89,24 @@ bool Logger::addOutput(const std::string& file_name) {
 
 void Logger::write(int level, const std::string& message) const {
     if (level < 0 || level >= static_cast<int>(level_names.size())) return;
-    std::lock_guard<std::mutex> lock(outputs().mutex);
-    const std::string line = "[" + now(outputs().date_format) + "] [" +
-                             coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
-                             ": " + message + "\n";
-    if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
-    for (std::FILE* file : outputs().files) {
-        std::fputs(line.c_str(), file);
-        std::fflush(file);
+    std::string date;
+    {
+        std::lock_guard<std::mutex> lock(outputs().mutex);
+        date = now(outputs().date_format);
+        const std::string line = "[" + date + "] [" +
+                                 coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
+                                 ": " + message + "\n";
+        if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
+        for (std::FILE* file : outputs().files) {
+            std::fputs(line.c_str(), file);
+            std::fflush(file);
+        }
     }
+    thread_local bool in_stream = false; // a stream that logs does not hear itself
+    if (in_stream) return;
+    in_stream = true;
+    processStreams().write(level, m_name, date, message);
+    in_stream = false;
 }
 
 void Logger::write(int level, const coil::Properties& properties) const {

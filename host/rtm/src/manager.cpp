@@ -9,8 +9,8 @@
 #include <poll.h>
 #include <rtm/CdrRingBuffer.h>
 #include <rtm/ExtTrigExecutionContext.h>
-#include <rtm/OpenHRPExecutionContext.h>
 #include <rtm/PeriodicExecutionContext.h>
+#include <rtm/SimulatorExecutionContext.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -72,12 +72,15 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
                                ECDelete<RTC_exp::PeriodicExecutionContext>);
     manager->registerECFactory("ExtTrigExecutionContext", ECCreate<ExtTrigExecutionContext>,
                                ECDelete<ExtTrigExecutionContext>);
-    for (const char* name : {"SynchExtTriggerEC", "OpenHRPExecutionContext", "SimulatorExecutionContext"})
+    manager->registerECFactory("SimulatorExecutionContext", ECCreate<SimulatorExecutionContext>,
+                               ECDelete<SimulatorExecutionContext>);
+    for (const char* name : {"SynchExtTriggerEC", "OpenHRPExecutionContext"})
         manager->registerECFactory(name, ECCreate<OpenHRPExecutionContext>,
                                    ECDelete<OpenHRPExecutionContext>);
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,
                                             coil::Destructor<CdrBufferBase, CdrRingBuffer>);
     add_shared_composite(*manager);
+    manager->m_impl->naming_manager = std::make_unique<NamingManager>(manager.get());
     the_manager = manager.release();
     start_keeper(*the_manager, *the_manager->m_impl);
     publish_manager(*the_manager, *the_manager->m_impl);
@@ -126,6 +129,7 @@ void activate_all(Manager& manager, ModuleInitProc init_proc, Attempt attempt) {
             manager.loadOrThrow(coil::eraseBothEndsBlank(entry.substr(0, open)),
                                 coil::eraseBothEndsBlank(init));
         });
+    attempt("", [&] { open_log_streams(manager.impl()); });
     if (init_proc != nullptr) init_proc(&manager);
     each("manager.components.precreate", [&](const std::string& entry) { manager.createOrThrow(entry); });
     each("manager.components.preconnect", [&](const std::string& entry) { manager.connectOrThrow(entry); });
@@ -173,6 +177,27 @@ void Manager::invoke(std::function<void()> fn, std::chrono::nanoseconds delay) {
         m_impl->tasks.emplace_back(std::chrono::steady_clock::now() + delay, std::move(fn));
     }
     ring();
+}
+
+Manager::TaskId Manager::addTask(std::function<void()> fn, std::chrono::nanoseconds period) {
+    auto task = std::make_shared<coil::PeriodicFunction>(std::move(fn), period);
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        m_impl->periodic_tasks.push_back(task);
+    }
+    m_impl->repeat(*this, task, period);
+    return task.get();
+}
+
+void Manager::Impl::repeat(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
+                           std::chrono::nanoseconds period) {
+    manager.invoke(
+        [this, &manager, task, period] {
+            if (!task->tick(period)) return repeat(manager, task, period);
+            std::lock_guard<std::recursive_mutex> lock(mutex);
+            std::erase(periodic_tasks, task);
+        },
+        period);
 }
 
 void Manager::Impl::run_due_tasks() {

@@ -138,7 +138,6 @@ RTObject_impl* Manager::createComponent(const char* comp_args) {
 }
 
 bool Manager::registerComponent(RTObject_impl* comp) {
-    if (!m_impl->naming) return true;
     Logger& rtclog = m_impl->log;
     coil::vstring names = comp->getNamingNames();
     m_impl->listeners.naming_.forEach([&](auto& listener) { listener.preBind(comp, names); });
@@ -154,7 +153,6 @@ bool Manager::registerComponent(RTObject_impl* comp) {
 }
 
 bool Manager::unregisterComponent(RTObject_impl* comp) {
-    if (!m_impl->naming) return true;
     coil::vstring names = comp->getNamingNames();
     m_impl->listeners.naming_.forEach([&](auto& listener) { listener.preUnbind(comp, names); });
     for (const auto& name : names) m_impl->naming->unbind(name);

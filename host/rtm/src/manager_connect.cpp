@@ -88,9 +88,7 @@ std::pair<std::string, std::string> split_port_name(const std::string& name) {
     return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-std::vector<std::string> name_servers(Manager& manager) {
-    return manager.impl().naming ? manager.impl().naming->servers() : std::vector<std::string>();
-}
+std::vector<std::string> name_servers(Manager& manager) { return manager.impl().naming->servers(); }
 
 } // namespace
 

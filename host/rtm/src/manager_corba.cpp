@@ -75,9 +75,9 @@ void start_orb(Manager::Impl& impl) {
     }
     const auto servers = coil::split(impl.config.getProperty("corba.nameservers"), ",", true);
     const bool wanted = coil::toBool(impl.config.getProperty("naming.enable"), "YES", "NO", !servers.empty());
-    if (wanted)
-        impl.naming =
-            std::make_unique<Naming>(impl.orb.in(), servers.empty() ? coil::vstring{"localhost"} : servers);
+    impl.naming = std::make_unique<Naming>(impl.orb.in(), !wanted           ? coil::vstring()
+                                                          : servers.empty() ? coil::vstring{"localhost"}
+                                                                            : servers);
 }
 
 void publish_manager(Manager& manager, Manager::Impl& impl) {
@@ -90,14 +90,13 @@ void publish_manager(Manager& manager, Manager::Impl& impl) {
     PortableServer::POAManager_var(poa->the_POAManager())->activate();
     CORBA::Object_var reference = poa->id_to_reference(id.in());
     impl.servant->setObjRef(RTM::Manager_var(RTM::Manager::_narrow(reference.in())).in());
-    if (!impl.naming) return;
     Logger& rtclog = impl.log;
     for (const auto& name : manager_names(impl))
         for (const auto& refusal : impl.naming->bind(name, reference.in())) RTC_WARN(("%s", refusal.c_str()));
 }
 
 void withdraw_manager(Manager::Impl& impl) {
-    if (!impl.naming) return;
+    impl.naming_manager->unbindAll();
     for (const auto& name : manager_names(impl)) impl.naming->unbind(name);
 }
 
@@ -107,12 +106,11 @@ void start_keeper(Manager& manager, Manager::Impl& impl) {
         if (!coil::stringTo(value, impl.config.getProperty(key).c_str()) || !(value > 0)) value = usual;
         return std::chrono::nanoseconds(static_cast<std::int64_t>(value * 1e9));
     };
-    impl.connections =
-        std::make_unique<ConnectionKeeper>(manager, seconds("manager.peer_check_interval", 2));
+    impl.connections = std::make_unique<ConnectionKeeper>(manager, seconds("manager.peer_check_interval", 2));
     auto yes = [&](const char* key, bool usual) {
         return coil::toBool(impl.config.getProperty(key), "YES", "NO", usual);
     };
-    if (!impl.naming || !yes("naming.update.enable", true)) return;
+    if (!yes("naming.update.enable", true)) return;
     const bool rebind = yes("naming.update.rebind", false);
     impl.connections->also(
         [&impl, rebind] {

@@ -10,8 +10,10 @@
 #include <map>
 #include <rtm/ManagerActionListener.h>
 #include <rtm/ManagerServant.h>
+#include <rtm/NamingManager.h>
 
 namespace RTC {
+class LogstreamBase;
 
 struct Manager::Impl {
     Options options;
@@ -23,7 +25,8 @@ struct Manager::Impl {
     CORBA::ORB_var orb;
     PortableServer::POA_var poa, shortcut_poa;
     PortableServer::POAManager_var poa_manager;
-    std::unique_ptr<Naming> naming; // NULL: off
+    std::unique_ptr<Naming> naming; // without servers when naming is off
+    std::unique_ptr<NamingManager> naming_manager;
     std::unique_ptr<ConnectionKeeper> connections;
     PortableServer::Servant_var<RTM::ManagerServant> servant;
 
@@ -46,15 +49,20 @@ struct Manager::Impl {
     std::vector<Component> components; // in the order of their creation
     std::vector<Component> finalized;  // have left, wait for their deletion
     std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks;
+    std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
     bool ever_had_components = false;
     bool shut_down = false;
     std::atomic<bool> ended_in_order{true};
+
+    std::vector<LogstreamBase*> log_streams; // from modules
 
     RTM::ManagerActionListeners listeners;
 
     FactoryBase* find_factory(const coil::Properties& id);
     std::vector<std::filesystem::path> module_dirs() const;
     void run_due_tasks();
+    void repeat(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
+                std::chrono::nanoseconds period);
     std::vector<RTObject_var> references() const; ///< to the components, which may leave meanwhile
 };
 
@@ -67,6 +75,10 @@ void start_keeper(Manager& manager, Manager::Impl& impl);
 /// Makes the manager reachable as corbaloc:...:PORT/manager, and in the name servers.
 void publish_manager(Manager& manager, Manager::Impl& impl);
 void withdraw_manager(Manager::Impl& impl);
+
+/// Throws ManagerError.
+void open_log_streams(Manager::Impl& impl);
+void close_log_streams(Manager::Impl& impl);
 
 /// `Name`, `Name?a=1&b=2`, `RTC:vendor:category:Name:language:version`. Throws ManagerError.
 struct ComponentArguments {

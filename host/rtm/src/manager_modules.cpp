@@ -164,7 +164,8 @@ ExecutionContextBase* Manager::createContext(const char* ec_args) {
     const std::string type = m_impl->options.lockstep ? "SynchExtTriggerEC" : args.substr(0, args.find('?'));
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     auto found = m_impl->contexts.find(type);
-    return found == m_impl->contexts.end() ? nullptr : found->second.create();
+    if (found != m_impl->contexts.end()) return found->second.create();
+    return ExecutionContextFactory::instance().createObject(type); // NULL: nobody has brought it along
 }
 
 } // namespace RTC

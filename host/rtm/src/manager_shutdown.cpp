@@ -76,6 +76,7 @@ bool Manager::shutdown() {
     // A call into a component may hang for longer than anybody wants to wait.
     if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready) all_ended = false;
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
+    close_log_streams(*m_impl);
     m_impl->ended_in_order = all_ended;
     return all_ended;
 }

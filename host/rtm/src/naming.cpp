@@ -44,6 +44,14 @@ Naming::Naming(CORBA::ORB_ptr orb, const std::vector<std::string>& servers)
     for (const auto& server : servers) servers_.push_back({with_port(server, 2809), true});
 }
 
+void Naming::add_server(const std::string& server) {
+    const std::string address = with_port(server, 2809);
+    std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& present : servers_)
+        if (present.address == address) return;
+    servers_.push_back({address, true});
+}
+
 std::vector<Naming::Entry> Naming::entries() const {
     std::lock_guard<std::mutex> lock(mutex_);
     return entries_;

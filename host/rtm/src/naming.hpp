@@ -17,6 +17,8 @@ class Naming {
     /// Binds in every server, making the contexts on the way (`host.host_cxt/Name0.rtc`). Returns one line
     /// for each server that does not take it.
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
+    /// One more server; update() binds what there is.
+    void add_server(const std::string& server);
     /// Removes the entry where it is still ours.
     void unbind(const std::string& path);
     /// All entries again in servers that were away, or have forgotten everything; with `rebind` wherever one

@@ -2,6 +2,7 @@
 #include "data_port.hpp"
 #include "local_object.hpp"
 #include "out_port_connectors.hpp"
+#include "registered_transports.hpp"
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 
@@ -10,7 +11,8 @@ namespace {
 
 void tell_alone(const std::vector<OutPortConnector*>& connectors) {
     for (auto* connector : connectors)
-        if (auto* push = dynamic_cast<OutPortPushConnector*>(connector)) push->setAlone(connectors.size() == 1);
+        if (auto* push = dynamic_cast<OutPortPushConnector*>(connector))
+            push->setAlone(connectors.size() == 1);
 }
 
 } // namespace
@@ -31,6 +33,7 @@ OutPortBase::~OutPortBase() {
 void OutPortBase::init(coil::Properties& prop) {
     m_properties << prop;
     NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    append_registered_types(m_profile.properties, false);
     int limit = -1;
     if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
         setConnectionLimit(limit);
@@ -48,10 +51,25 @@ ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
 
 ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
-    auto* connector = new OutPortPullConnector(*this, info);
-    publish_object(profile, "dataport." + wire_interface(prop) + ".outport", connector->servant().reference(),
-                   connector->servant().ior());
-    addConnector(connector);
+    auto connector = std::make_unique<OutPortPullConnector>(*this, info);
+    const std::string registered = registered_pull(prop);
+    if (registered.empty()) {
+        publish_object(profile, "dataport." + wire_interface(prop) + ".outport",
+                       connector->servant().reference(), connector->servant().ior());
+    } else {
+        auto provider = registered_out_provider(registered, prop);
+        if (provider == nullptr)
+            return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
+                                         " has no OutPortProvider here; load the library that brings it");
+        provider->setListener(info, &m_listeners);
+        provider->setBuffer(connector->getBuffer());
+        provider->setConnector(connector.get());
+        if (!provider->publishInterface(profile.properties))
+            return refuse(RTC_ERROR, std::string(getName()) + ": the OutPortProvider of interface type " +
+                                         registered + " publishes nothing");
+        connector->provideBy(std::move(provider));
+    }
+    addConnector(connector.release());
     return RTC_OK;
 }
 
@@ -63,6 +81,15 @@ ReturnCode_t OutPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
 
 ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
+    const std::string registered = registered_push(prop);
+    if (!registered.empty()) {
+        auto receiver = registered_receiver(registered, profile, prop);
+        if (receiver == nullptr)
+            return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
+                                         " has no InPortConsumer here, or it does not find the other side");
+        addConnector(new OutPortPushConnector(*this, info, std::move(receiver)));
+        return RTC_OK;
+    }
     bool local = false;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto* port = local_object<InPortBase>(profile.ports[i]);

@@ -6,9 +6,8 @@
 namespace RTC {
 
 OutPortConnector::OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners)
-    : m_profile(info),
-      m_littleEndian(little_endian(info.properties)),
-      m_listeners(listeners), m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
+    : m_profile(info), m_littleEndian(little_endian(info.properties)), m_listeners(listeners),
+      m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
       m_timestamp(timestampPolicy(info.properties)) {}
 
 OutPortConnector::~OutPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
@@ -36,7 +35,8 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
     : OutPortConnector(info, port.getListeners()), local_(std::move(local)) {
     m_direct = local_->lane() != nullptr;
     if (!m_direct) // who wants values as they are wants them at once
-        publisher_ = Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); });
+        publisher_ =
+            Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); });
     if (local_->inPlace() != nullptr && !publisher_) m_longFrom = local_->inPlace()->longFrom();
 }
 
@@ -107,7 +107,10 @@ OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& inf
       outlet_(std::make_shared<DataOutlet>(*port.getListeners(), info)),
       servant_(make_servant(wire_interface(info.properties), outlet_)) {}
 
-OutPortPullConnector::~OutPortPullConnector() { disconnect(); }
+OutPortPullConnector::~OutPortPullConnector() {
+    provider_.reset(); // nobody reads after that
+    disconnect();
+}
 
 DataPortStatus OutPortPullConnector::disconnect() {
     outlet_->close();

@@ -3,6 +3,7 @@
 #pragma once
 #include "cdr_servants.hpp"
 #include "publisher.hpp"
+#include "registered_transports.hpp"
 #include "remote_push.hpp"
 #include <rtm/OutPortConnector.h>
 
@@ -47,8 +48,11 @@ class OutPortPullConnector : public OutPortConnector {
     CdrBufferBase* getBuffer() override { return &outlet_->buffer(); }
     std::shared_ptr<DataOutlet> outlet() const { return outlet_; }
     const ServantHolder& servant() const { return servant_; }
+    /// A library's end reads what waits here.
+    void provideBy(RegisteredOutPortProvider provider) { provider_ = std::move(provider); }
 
   private:
+    RegisteredOutPortProvider provider_{nullptr, nullptr};
     std::shared_ptr<DataOutlet> outlet_;
     ServantHolder servant_;
 };

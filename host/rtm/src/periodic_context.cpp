@@ -4,6 +4,7 @@
 #include "manager_options.hpp"
 #include <algorithm>
 #include <atomic>
+#include <rtm/Manager.h>
 #include <rtm/PeriodicExecutionContext.h>
 
 namespace RTC_exp {
@@ -153,3 +154,8 @@ void PeriodicExecutionContext::onRequest() {
 }
 
 } // namespace RTC_exp
+
+void PeriodicExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("PeriodicExecutionContext", RTC::ECCreate<RTC_exp::PeriodicExecutionContext>,
+                               RTC::ECDelete<RTC_exp::PeriodicExecutionContext>);
+}

@@ -90,10 +90,14 @@ ReturnCode_t PortBase::notify_connect(ConnectorProfile& profile) {
 }
 
 void PortBase::tell(PortConnectListenerType type, ConnectorProfile& profile) {
-    m_connectListeners.at(type).forEach([&](auto& listener) { listener(getName(), profile); });
+    auto call = [&](auto& listener) { listener(getName(), profile); };
+    m_connectListeners.at(type).forEach(call);
+    if (m_sharedConnectListeners != nullptr) m_sharedConnectListeners->at(type).forEach(call);
 }
 void PortBase::tell(PortConnectRetListenerType type, ConnectorProfile& profile, ReturnCode_t result) {
-    m_connectListeners.at(type).forEach([&](auto& listener) { listener(getName(), profile, result); });
+    auto call = [&](auto& listener) { listener(getName(), profile, result); };
+    m_connectListeners.at(type).forEach(call);
+    if (m_sharedConnectListeners != nullptr) m_sharedConnectListeners->at(type).forEach(call);
 }
 
 ReturnCode_t PortBase::establish(ConnectorProfile& profile) {

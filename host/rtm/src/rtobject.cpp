@@ -14,6 +14,18 @@ RTObject_impl::RTObject_impl(Manager* manager)
     : m_pManager(manager), m_pORB(manager->getORB()), m_pPOA(manager->getPOA()),
       m_ownedOrganizations(std::make_shared<SDOPackage::Organizations>()),
       m_organizations(std::make_shared<SDOPackage::Organizations>()) {
+    becomeServant();
+}
+
+RTObject_impl::RTObject_impl(CORBA::ORB_ptr orb, PortableServer::POA_ptr poa)
+    : m_pManager(&Manager::instance()), m_pORB(CORBA::ORB::_duplicate(orb)),
+      m_pPOA(PortableServer::POA::_duplicate(poa)),
+      m_ownedOrganizations(std::make_shared<SDOPackage::Organizations>()),
+      m_organizations(std::make_shared<SDOPackage::Organizations>()) {
+    becomeServant();
+}
+
+void RTObject_impl::becomeServant() {
     m_objref = this->_this();
     m_oid = m_pPOA->servant_to_id(this);
     m_profile.parent = RTC::RTObject::_nil();

@@ -41,6 +41,7 @@ bool RTObject_impl::addNamed(const char* name, PortBase& port) {
     // What rtc.conf says of all data ports of a kind is there for each of them.
     port.setOwner(m_objref.in(), m_profile.instance_name);
     if (m_portAdmin.addPort(port)) {
+        port.setPortConnectListenerHolder(&m_portConnectListeners);
         m_actionListeners.portaction_[0].forEach([&](auto& listener) { listener(port.getPortProfile()); });
         return true;
     }
@@ -92,6 +93,7 @@ bool RTObject_impl::removePort(PortBase& port) {
     std::erase_if(m_inports, [&](InPortBase* p) { return static_cast<PortBase*>(p) == &port; });
     std::erase_if(m_outports, [&](OutPortBase* p) { return static_cast<PortBase*>(p) == &port; });
     if (!m_portAdmin.removePort(port)) return false;
+    port.setPortConnectListenerHolder(nullptr); // the port may live longer
     m_actionListeners.portaction_[1].forEach([&](auto& listener) { listener(port.getPortProfile()); });
     return true;
 }

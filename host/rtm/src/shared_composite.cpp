@@ -9,113 +9,112 @@
 
 namespace SDOPackage {
 
-/// The members and what is done with one that comes or goes.
-class PeriodicECOrganization : public Organization_impl {
-  public:
-    PeriodicECOrganization(RTC::RTObject_impl& composite, SDOSystemElement_ptr owner)
-        : Organization_impl(owner), rtclog("composite"), composite_(composite) {}
+PeriodicECOrganization::PeriodicECOrganization(RTC::RTObject_impl* composite, SDOSystemElement_ptr owner)
+    : Organization_impl(owner), rtclog("composite"), m_rtobj(composite) {}
+PeriodicECOrganization::~PeriodicECOrganization() = default;
 
-    CORBA::Boolean add_members(const SDOList& sdos) override {
-        SDOList taken;
-        for (CORBA::ULong i = 0; i < sdos.length(); ++i) {
-            RTC::RTObject_var member = RTC::RTObject::_narrow(sdos[i]);
-            if (CORBA::is_nil(member.in()) || !take_in(member.in())) continue;
-            SDO_var one = SDO::_duplicate(sdos[i]);
-            CORBA_SeqUtil::push_back(taken, one);
-        }
-        return Organization_impl::add_members(taken) && taken.length() == sdos.length();
+CORBA::Boolean PeriodicECOrganization::add_members(const SDOList& sdos) {
+    SDOList taken;
+    for (CORBA::ULong i = 0; i < sdos.length(); ++i) {
+        RTC::RTObject_var member = RTC::RTObject::_narrow(sdos[i]);
+        if (CORBA::is_nil(member.in()) || !takeIn(member.in())) continue;
+        SDO_var one = SDO::_duplicate(sdos[i]);
+        CORBA_SeqUtil::push_back(taken, one);
     }
-    CORBA::Boolean set_members(const SDOList& sdos) override {
-        remove_all();
-        return add_members(sdos);
-    }
-    CORBA::Boolean remove_member(const char* id) override {
-        SDOList_var present = get_members();
-        for (CORBA::ULong i = 0; i < present->length(); ++i) {
-            CORBA::String_var one = present[i]->get_sdo_id();
-            if (std::string(id) != one.in()) continue;
-            RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
-            if (!CORBA::is_nil(member.in())) let_go(member.in());
-        }
-        return Organization_impl::remove_member(id);
-    }
-    void remove_all() {
-        SDOList_var present = get_members();
-        for (CORBA::ULong i = 0; i < present->length(); ++i) {
-            try {
-                CORBA::String_var id = present[i]->get_sdo_id();
-                remove_member(id.in());
-            } catch (const CORBA::Exception& e) {
-                RTC_WARN(("a member of %s cannot be reached: %s", composite_.getInstanceName(), e._name()));
-            }
-        }
-    }
-    /// What the parameter exported_ports now says.
-    void export_ports() {
-        SDOList_var present = get_members();
-        for (CORBA::ULong i = 0; i < present->length(); ++i) {
-            RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
-            if (!CORBA::is_nil(member.in())) export_ports_of(member.in(), true);
-        }
-    }
-    /// One transition of every member, in their order.
-    void all_members(RTC::ReturnCode_t (RTC::ExecutionContextBase::*request)(RTC::LightweightRTObject_ptr)) {
-        SDOList_var present = get_members();
-        for (CORBA::ULong i = 0; i < present->length(); ++i) {
-            RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
-            if (!CORBA::is_nil(member.in())) (context().*request)(member.in());
-        }
-    }
+    return Organization_impl::add_members(taken) && taken.length() == sdos.length();
+}
 
-  private:
-    RTC::ExecutionContextBase& context() { return *composite_.getOwnContexts().at(0); }
+CORBA::Boolean PeriodicECOrganization::set_members(const SDOList& sdos) {
+    removeAllMembers();
+    return add_members(sdos);
+}
 
-    void with_own_contexts(RTC::RTObject_ptr member, bool run) {
-        RTC::ExecutionContextList_var own = member->get_owned_contexts();
-        for (CORBA::ULong i = 0; i < own->length(); ++i) run ? own[i]->start() : own[i]->stop();
+CORBA::Boolean PeriodicECOrganization::remove_member(const char* id) {
+    SDOList_var present = get_members();
+    for (CORBA::ULong i = 0; i < present->length(); ++i) {
+        CORBA::String_var one = present[i]->get_sdo_id();
+        if (std::string(id) != one.in()) continue;
+        RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
+        if (!CORBA::is_nil(member.in())) letGo(member.in());
     }
-    bool take_in(RTC::RTObject_ptr member) {
-        if (composite_.getOwnContexts().empty()) return false;
-        with_own_contexts(member, false);
-        Configuration_var configuration = member->get_configuration();
-        configuration->add_organization(Organization_var(getObjRef()).in());
-        if (context().addComponent(member) != RTC::RTC_OK) {
-            CORBA::String_var id = member->get_sdo_id();
-            RTC_ERROR(("%s cannot take part in the context of %s", id.in(), composite_.getInstanceName()));
-            with_own_contexts(member, true);
-            return false;
-        }
-        export_ports_of(member, true);
-        return true;
-    }
-    void let_go(RTC::RTObject_ptr member) {
-        export_ports_of(member, false);
-        // Within a cycle the deactivation is only asked for; the member leaves when it is done.
-        if (context().getComponentState(member) == RTC::ACTIVE_STATE) context().deactivateComponent(member);
-        if (context().getComponentState(member) == RTC::ERROR_STATE) context().resetComponent(member);
-        context().removeComponent(member);
-        Configuration_var configuration = member->get_configuration();
-        configuration->remove_organization(id_.c_str());
-        with_own_contexts(member, true);
-    }
-    void export_ports_of(RTC::RTObject_ptr member, bool is_member) {
-        auto wanted =
-            coil::split(composite_.getProperties().getProperty("conf.default.exported_ports"), ",", true);
-        RTC::PortServiceList_var ports = member->get_ports();
-        for (CORBA::ULong i = 0; i < ports->length(); ++i) {
-            RTC::PortProfile_var profile = ports[i]->get_port_profile();
-            const std::string name(profile->name);
-            const bool exported = is_member && std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-            if (exported)
-                composite_.addPort(ports[i]);
-            else
-                composite_.removePort(ports[i]);
+    return Organization_impl::remove_member(id);
+}
+
+void PeriodicECOrganization::removeAllMembers() {
+    SDOList_var present = get_members();
+    for (CORBA::ULong i = 0; i < present->length(); ++i) {
+        try {
+            CORBA::String_var id = present[i]->get_sdo_id();
+            remove_member(id.in());
+        } catch (const CORBA::Exception& e) {
+            RTC_WARN(("a member of %s cannot be reached: %s", m_rtobj->getInstanceName(), e._name()));
         }
     }
+}
 
-    RTC::Logger rtclog;
-    RTC::RTObject_impl& composite_;
-};
+void PeriodicECOrganization::updateDelegatedPorts() {
+    SDOList_var present = get_members();
+    for (CORBA::ULong i = 0; i < present->length(); ++i) {
+        RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
+        if (!CORBA::is_nil(member.in())) exportPortsOf(member.in(), true);
+    }
+}
+
+void PeriodicECOrganization::forAllMembers(
+    RTC::ReturnCode_t (RTC::ExecutionContextBase::*request)(RTC::LightweightRTObject_ptr)) {
+    SDOList_var present = get_members();
+    for (CORBA::ULong i = 0; i < present->length(); ++i) {
+        RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
+        if (!CORBA::is_nil(member.in())) (context().*request)(member.in());
+    }
+}
+
+RTC::ExecutionContextBase& PeriodicECOrganization::context() { return *m_rtobj->getOwnContexts().at(0); }
+
+void PeriodicECOrganization::runOwnContexts(RTC::RTObject_ptr member, bool run) {
+    RTC::ExecutionContextList_var own = member->get_owned_contexts();
+    for (CORBA::ULong i = 0; i < own->length(); ++i) run ? own[i]->start() : own[i]->stop();
+}
+
+bool PeriodicECOrganization::takeIn(RTC::RTObject_ptr member) {
+    if (m_rtobj->getOwnContexts().empty()) return false;
+    runOwnContexts(member, false);
+    Configuration_var configuration = member->get_configuration();
+    configuration->add_organization(Organization_var(getObjRef()).in());
+    if (context().addComponent(member) != RTC::RTC_OK) {
+        CORBA::String_var id = member->get_sdo_id();
+        RTC_ERROR(("%s cannot take part in the context of %s", id.in(), m_rtobj->getInstanceName()));
+        runOwnContexts(member, true);
+        return false;
+    }
+    exportPortsOf(member, true);
+    return true;
+}
+
+void PeriodicECOrganization::letGo(RTC::RTObject_ptr member) {
+    exportPortsOf(member, false);
+    // Within a cycle the deactivation is only asked for; the member leaves when it is done.
+    if (context().getComponentState(member) == RTC::ACTIVE_STATE) context().deactivateComponent(member);
+    if (context().getComponentState(member) == RTC::ERROR_STATE) context().resetComponent(member);
+    context().removeComponent(member);
+    Configuration_var configuration = member->get_configuration();
+    configuration->remove_organization(id_.c_str());
+    runOwnContexts(member, true);
+}
+
+void PeriodicECOrganization::exportPortsOf(RTC::RTObject_ptr member, bool is_member) {
+    auto wanted = coil::split(m_rtobj->getProperties().getProperty("conf.default.exported_ports"), ",", true);
+    RTC::PortServiceList_var ports = member->get_ports();
+    for (CORBA::ULong i = 0; i < ports->length(); ++i) {
+        RTC::PortProfile_var profile = ports[i]->get_port_profile();
+        const std::string name(profile->name);
+        const bool exported = is_member && std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+        if (exported)
+            m_rtobj->addPort(ports[i]);
+        else
+            m_rtobj->removePort(ports[i]);
+    }
+}
 
 } // namespace SDOPackage
 
@@ -129,7 +128,7 @@ bool to_names(std::vector<std::string>& names, const char* text) {
 
 struct PortsChanged : ConfigurationSetListener {
     explicit PortsChanged(SDOPackage::PeriodicECOrganization& o) : organization(o) {}
-    void operator()(const coil::Properties&) override { organization.export_ports(); }
+    void operator()(const coil::Properties&) override { organization.updateDelegatedPorts(); }
     SDOPackage::PeriodicECOrganization& organization;
 };
 
@@ -168,7 +167,7 @@ void add_shared_composite(Manager& manager) {
 
 PeriodicECSharedComposite::PeriodicECSharedComposite(Manager* manager)
     : RTObject_impl(manager),
-      m_org(new SDOPackage::PeriodicECOrganization(*this, RTObject_var(getObjRef()).in())) {
+      m_org(new SDOPackage::PeriodicECOrganization(this, RTObject_var(getObjRef()).in())) {
     m_ownedOrganizations->add(SDOPackage::Organization_var(m_org->getObjRef()).in());
     bindParameter("members", m_members, "", to_names);
     for (const auto type :
@@ -198,20 +197,22 @@ ReturnCode_t PeriodicECSharedComposite::onInitialize() {
 }
 
 ReturnCode_t PeriodicECSharedComposite::onActivated(UniqueId) {
-    m_org->all_members(&ExecutionContextBase::activateComponent);
+    m_org->forAllMembers(&ExecutionContextBase::activateComponent);
     return RTC_OK;
 }
 ReturnCode_t PeriodicECSharedComposite::onDeactivated(UniqueId) {
-    m_org->all_members(&ExecutionContextBase::deactivateComponent);
+    m_org->forAllMembers(&ExecutionContextBase::deactivateComponent);
     return RTC_OK;
 }
 ReturnCode_t PeriodicECSharedComposite::onReset(UniqueId) {
-    m_org->all_members(&ExecutionContextBase::resetComponent);
+    m_org->forAllMembers(&ExecutionContextBase::resetComponent);
     return RTC_OK;
 }
 ReturnCode_t PeriodicECSharedComposite::onFinalize() {
-    m_org->remove_all();
+    m_org->removeAllMembers();
     return RTC_OK;
 }
 
 } // namespace RTC
+
+void PeriodicECSharedCompositeInit(RTC::Manager* manager) { RTC::add_shared_composite(*manager); }

@@ -3,7 +3,8 @@
 #include "manager_options.hpp"
 #include <condition_variable>
 #include <rtm/ExtTrigExecutionContext.h>
-#include <rtm/OpenHRPExecutionContext.h>
+#include <rtm/Manager.h>
+#include <rtm/SimulatorExecutionContext.h>
 
 namespace RTC {
 
@@ -84,3 +85,16 @@ ReturnCode_t ExtTrigExecutionContext::onStopping() {
 }
 
 } // namespace RTC
+
+void OpenHRPExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("SynchExtTriggerEC", RTC::ECCreate<RTC::OpenHRPExecutionContext>,
+                               RTC::ECDelete<RTC::OpenHRPExecutionContext>);
+}
+void SimulatorExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("SimulatorExecutionContext", RTC::ECCreate<RTC::SimulatorExecutionContext>,
+                               RTC::ECDelete<RTC::SimulatorExecutionContext>);
+}
+void ExtTrigExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("ExtTrigExecutionContext", RTC::ECCreate<RTC::ExtTrigExecutionContext>,
+                               RTC::ECDelete<RTC::ExtTrigExecutionContext>);
+}

@@ -1,21 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef COIL_LOGGER_H
 #define COIL_LOGGER_H
+#include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace coil {
 
-/// Where log lines go; a plugin of RTC::LogstreamFactory derives from it. write() may be called by any
-/// thread, by one at a time.
+/// Where log lines go; a plugin of RTC::LogstreamFactory derives from it and overrides write(). As it is, it
+/// hands lines on to the streams that were added to it. write() may be called by any thread, by one at a
+/// time.
 class LogStreamBuffer {
   public:
     LogStreamBuffer() = default;
-    virtual ~LogStreamBuffer() = default;
+    virtual ~LogStreamBuffer();
     LogStreamBuffer(const LogStreamBuffer&) = delete;
     LogStreamBuffer& operator=(const LogStreamBuffer&) = delete;
-    virtual void write(int level, const std::string& name, const std::string& date,
-                       const std::string& mes) = 0;
-    virtual void flush() {}
+
+    /// `cleanup`: the stream is deleted with this one, or when it is removed.
+    void addStream(LogStreamBuffer* stream, bool cleanup = false);
+    /// False: it was not there. When this returns the stream is not called any more.
+    bool removeStream(LogStreamBuffer* stream);
+    std::vector<LogStreamBuffer*> getBuffers();
+
+    virtual void write(int level, const std::string& name, const std::string& date, const std::string& mes);
+    virtual void flush();
+
+  private:
+    std::recursive_mutex m_mutex;
+    std::vector<std::pair<LogStreamBuffer*, bool>> m_streams;
 };
 
 } // namespace coil

@@ -39,7 +39,11 @@ enum class PostComponentActionListenerType : std::uint8_t {
     POST_COMPONENT_ACTION_LISTENER_NUM
 };
 enum class PortActionListenerType : std::uint8_t { ADD_PORT, REMOVE_PORT, PORT_ACTION_LISTENER_NUM };
-enum class ExecutionContextActionListenerType : std::uint8_t { EC_ATTACHED, EC_DETACHED, EC_ACTION_LISTENER_NUM };
+enum class ExecutionContextActionListenerType : std::uint8_t {
+    EC_ATTACHED,
+    EC_DETACHED,
+    EC_ACTION_LISTENER_NUM
+};
 
 // Plain names, as components written for 1.x say them.
 constexpr auto PRE_ON_INITIALIZE = PreComponentActionListenerType::PRE_ON_INITIALIZE;
@@ -70,24 +74,34 @@ constexpr auto ADD_PORT = PortActionListenerType::ADD_PORT;
 constexpr auto REMOVE_PORT = PortActionListenerType::REMOVE_PORT;
 constexpr auto EC_ATTACHED = ExecutionContextActionListenerType::EC_ATTACHED;
 constexpr auto EC_DETACHED = ExecutionContextActionListenerType::EC_DETACHED;
+constexpr auto PRE_COMPONENT_ACTION_LISTENER_NUM =
+    PreComponentActionListenerType::PRE_COMPONENT_ACTION_LISTENER_NUM;
+constexpr auto POST_COMPONENT_ACTION_LISTENER_NUM =
+    PostComponentActionListenerType::POST_COMPONENT_ACTION_LISTENER_NUM;
+constexpr auto PORT_ACTION_LISTENER_NUM = PortActionListenerType::PORT_ACTION_LISTENER_NUM;
+constexpr auto EC_ACTION_LISTENER_NUM = ExecutionContextActionListenerType::EC_ACTION_LISTENER_NUM;
 
 class PreComponentActionListener {
-public:
+  public:
+    static const char* toString(PreComponentActionListenerType type);
     virtual ~PreComponentActionListener() = default;
     virtual void operator()(UniqueId ec_id) = 0;
 };
 class PostComponentActionListener {
-public:
+  public:
+    static const char* toString(PostComponentActionListenerType type);
     virtual ~PostComponentActionListener() = default;
     virtual void operator()(UniqueId ec_id, ReturnCode_t ret) = 0;
 };
 class PortActionListener {
-public:
+  public:
+    static const char* toString(PortActionListenerType type);
     virtual ~PortActionListener() = default;
     virtual void operator()(const RTC::PortProfile& profile) = 0;
 };
 class ExecutionContextActionListener {
-public:
+  public:
+    static const char* toString(ExecutionContextActionListenerType type);
     virtual ~ExecutionContextActionListener() = default;
     virtual void operator()(UniqueId ec_id) = 0;
 };
@@ -97,7 +111,7 @@ class ComponentActionListeners {
     template <class Listener, class Type, Type Count>
     using Table = std::array<RTM::util::ListenerHolder<Listener>, static_cast<std::size_t>(Count)>;
 
-public:
+  public:
     template <class Type>
     static std::size_t at(Type type) {
         return static_cast<std::size_t>(type);
@@ -108,7 +122,8 @@ public:
     Table<PostComponentActionListener, PostComponentActionListenerType,
           PostComponentActionListenerType::POST_COMPONENT_ACTION_LISTENER_NUM>
         postaction_;
-    Table<PortActionListener, PortActionListenerType, PortActionListenerType::PORT_ACTION_LISTENER_NUM> portaction_;
+    Table<PortActionListener, PortActionListenerType, PortActionListenerType::PORT_ACTION_LISTENER_NUM>
+        portaction_;
     Table<ExecutionContextActionListener, ExecutionContextActionListenerType,
           ExecutionContextActionListenerType::EC_ACTION_LISTENER_NUM>
         ecaction_;

@@ -26,7 +26,7 @@ struct ConfigBase {
 
 template <typename VarType>
 class Config : public ConfigBase {
-public:
+  public:
     using Trans = bool (*)(VarType&, const char*);
     Config(const char* name, VarType& var, const char* def_val, Trans trans)
         : ConfigBase(name, def_val), m_var(var), m_trans(trans) {}
@@ -38,7 +38,7 @@ public:
         return true;
     }
 
-private:
+  private:
     VarType& m_var;
     Trans m_trans;
     bool m_set = false;
@@ -47,13 +47,13 @@ private:
 /// Named sets of parameters, one of them active. Variables change only in update(), which the component calls
 /// at its update points; setting and choosing sets is safe from any thread.
 class ConfigAdmin {
-public:
+  public:
     explicit ConfigAdmin(coil::Properties& configsets) : m_configsets(configsets) {}
     ConfigAdmin(const ConfigAdmin&) = delete;
     ConfigAdmin& operator=(const ConfigAdmin&) = delete;
 
-    /// Gives `var` its default (or what the active set says) at once. False: a parameter of that name exists, or
-    /// the default cannot be read.
+    /// Gives `var` its default (or what the active set says) at once. False: a parameter of that name exists,
+    /// or the default cannot be read.
     template <typename VarType>
     bool bindParameter(const char* param_name, VarType& var, const char* def_val,
                        bool (*trans)(VarType&, const char*) = coil::stringTo) {
@@ -86,16 +86,38 @@ public:
 
     void addConfigurationParamListener(ConfigurationParamListenerType, ConfigurationParamListener* listener,
                                        bool autoclean = true);
-    void removeConfigurationParamListener(ConfigurationParamListenerType, ConfigurationParamListener* listener);
+    void removeConfigurationParamListener(ConfigurationParamListenerType,
+                                          ConfigurationParamListener* listener);
     void addConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener,
                                      bool autoclean = true);
-    void removeConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener);
-    void addConfigurationSetNameListener(ConfigurationSetNameListenerType type, ConfigurationSetNameListener* listener,
-                                         bool autoclean = true);
+    void removeConfigurationSetListener(ConfigurationSetListenerType type,
+                                        ConfigurationSetListener* listener);
+    void addConfigurationSetNameListener(ConfigurationSetNameListenerType type,
+                                         ConfigurationSetNameListener* listener, bool autoclean = true);
     void removeConfigurationSetNameListener(ConfigurationSetNameListenerType type,
                                             ConfigurationSetNameListener* listener);
 
-private:
+    // 1.0: one callback each, which stays its owner's.
+    void setOnUpdate(OnUpdateCallback* callback) {
+        addConfigurationSetNameListener(ON_UPDATE_CONFIG_SET, callback, false);
+    }
+    void setOnUpdateParam(OnUpdateParamCallback* callback) {
+        addConfigurationParamListener(ON_UPDATE_CONFIG_PARAM, callback, false);
+    }
+    void setOnSetConfigurationSet(OnSetConfigurationSetCallback* callback) {
+        addConfigurationSetListener(ON_SET_CONFIG_SET, callback, false);
+    }
+    void setOnAddConfigurationSet(OnAddConfigurationAddCallback* callback) {
+        addConfigurationSetListener(ON_ADD_CONFIG_SET, callback, false);
+    }
+    void setOnRemoveConfigurationSet(OnRemoveConfigurationSetCallback* callback) {
+        addConfigurationSetNameListener(ON_REMOVE_CONFIG_SET, callback, false);
+    }
+    void setOnActivateSet(OnActivateSetCallback* callback) {
+        addConfigurationSetNameListener(ON_ACTIVATE_CONFIG_SET, callback, false);
+    }
+
+  private:
     void add(std::unique_ptr<ConfigBase> param);
     void apply(const char* config_set, const char* only_param);
     void notifySet(ConfigurationSetListenerType type, const coil::Properties& set);

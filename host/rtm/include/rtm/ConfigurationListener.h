@@ -10,8 +10,15 @@
 
 namespace RTC {
 
-enum class ConfigurationParamListenerType : std::uint8_t { ON_UPDATE_CONFIG_PARAM, CONFIG_PARAM_LISTENER_NUM };
-enum class ConfigurationSetListenerType : std::uint8_t { ON_SET_CONFIG_SET, ON_ADD_CONFIG_SET, CONFIG_SET_LISTENER_NUM };
+enum class ConfigurationParamListenerType : std::uint8_t {
+    ON_UPDATE_CONFIG_PARAM,
+    CONFIG_PARAM_LISTENER_NUM
+};
+enum class ConfigurationSetListenerType : std::uint8_t {
+    ON_SET_CONFIG_SET,
+    ON_ADD_CONFIG_SET,
+    CONFIG_SET_LISTENER_NUM
+};
 enum class ConfigurationSetNameListenerType : std::uint8_t {
     ON_UPDATE_CONFIG_SET,
     ON_REMOVE_CONFIG_SET,
@@ -24,22 +31,35 @@ constexpr auto ON_ADD_CONFIG_SET = ConfigurationSetListenerType::ON_ADD_CONFIG_S
 constexpr auto ON_UPDATE_CONFIG_SET = ConfigurationSetNameListenerType::ON_UPDATE_CONFIG_SET;
 constexpr auto ON_REMOVE_CONFIG_SET = ConfigurationSetNameListenerType::ON_REMOVE_CONFIG_SET;
 constexpr auto ON_ACTIVATE_CONFIG_SET = ConfigurationSetNameListenerType::ON_ACTIVATE_CONFIG_SET;
+constexpr auto CONFIG_PARAM_LISTENER_NUM = ConfigurationParamListenerType::CONFIG_PARAM_LISTENER_NUM;
+constexpr auto CONFIG_SET_LISTENER_NUM = ConfigurationSetListenerType::CONFIG_SET_LISTENER_NUM;
+constexpr auto CONFIG_SET_NAME_LISTENER_NUM = ConfigurationSetNameListenerType::CONFIG_SET_NAME_LISTENER_NUM;
 
 class ConfigurationParamListener {
-public:
+  public:
+    static const char* toString(ConfigurationParamListenerType type);
     virtual ~ConfigurationParamListener() = default;
     virtual void operator()(const char* config_set_name, const char* config_param_name) = 0;
 };
 class ConfigurationSetListener {
-public:
+  public:
+    static const char* toString(ConfigurationSetListenerType type);
     virtual ~ConfigurationSetListener() = default;
     virtual void operator()(const coil::Properties& config_set) = 0;
 };
 class ConfigurationSetNameListener {
-public:
+  public:
+    static const char* toString(ConfigurationSetNameListenerType type);
     virtual ~ConfigurationSetNameListener() = default;
     virtual void operator()(const char* config_set_name) = 0;
 };
+
+using OnUpdateCallback = ConfigurationSetNameListener;
+using OnUpdateParamCallback = ConfigurationParamListener;
+using OnSetConfigurationSetCallback = ConfigurationSetListener;
+using OnAddConfigurationAddCallback = ConfigurationSetListener;
+using OnRemoveConfigurationSetCallback = ConfigurationSetNameListener;
+using OnActivateSetCallback = ConfigurationSetNameListener;
 
 } // namespace RTC
 #endif

@@ -16,21 +16,28 @@
 namespace RTC {
 
 class ConnectorListenerStatus {
-public:
-    enum Enum { NO_CHANGE = 0, INFO_CHANGED = 1 << 0, DATA_CHANGED = 1 << 1, BOTH_CHANGED = INFO_CHANGED | DATA_CHANGED };
+  public:
+    enum Enum {
+        NO_CHANGE = 0,
+        INFO_CHANGED = 1 << 0,
+        DATA_CHANGED = 1 << 1,
+        BOTH_CHANGED = INFO_CHANGED | DATA_CHANGED
+    };
 };
-inline ConnectorListenerStatus::Enum operator|(ConnectorListenerStatus::Enum a, ConnectorListenerStatus::Enum b) {
+inline ConnectorListenerStatus::Enum operator|(ConnectorListenerStatus::Enum a,
+                                               ConnectorListenerStatus::Enum b) {
     return static_cast<ConnectorListenerStatus::Enum>(static_cast<int>(a) | static_cast<int>(b));
 }
-inline ConnectorListenerStatus::Enum operator&(ConnectorListenerStatus::Enum a, ConnectorListenerStatus::Enum b) {
+inline ConnectorListenerStatus::Enum operator&(ConnectorListenerStatus::Enum a,
+                                               ConnectorListenerStatus::Enum b) {
     return static_cast<ConnectorListenerStatus::Enum>(static_cast<int>(a) & static_cast<int>(b));
 }
 
-#define USE_CONNLISTENER_STATUS                                                                                    \
-    using ReturnCode = ::RTC::ConnectorListenerStatus::Enum;                                                       \
-    using ::RTC::ConnectorListenerStatus::NO_CHANGE;                                                               \
-    using ::RTC::ConnectorListenerStatus::INFO_CHANGED;                                                            \
-    using ::RTC::ConnectorListenerStatus::DATA_CHANGED;                                                            \
+#define USE_CONNLISTENER_STATUS                                                                              \
+    using ReturnCode = ::RTC::ConnectorListenerStatus::Enum;                                                 \
+    using ::RTC::ConnectorListenerStatus::NO_CHANGE;                                                         \
+    using ::RTC::ConnectorListenerStatus::INFO_CHANGED;                                                      \
+    using ::RTC::ConnectorListenerStatus::DATA_CHANGED;                                                      \
     using ::RTC::ConnectorListenerStatus::BOTH_CHANGED
 
 enum class ConnectorDataListenerType : std::uint8_t {
@@ -75,12 +82,14 @@ constexpr auto ON_SENDER_TIMEOUT = ConnectorListenerType::ON_SENDER_TIMEOUT;
 constexpr auto ON_SENDER_ERROR = ConnectorListenerType::ON_SENDER_ERROR;
 constexpr auto ON_CONNECT = ConnectorListenerType::ON_CONNECT;
 constexpr auto ON_DISCONNECT = ConnectorListenerType::ON_DISCONNECT;
+constexpr auto CONNECTOR_DATA_LISTENER_NUM = ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM;
+constexpr auto CONNECTOR_LISTENER_NUM = ConnectorListenerType::CONNECTOR_LISTENER_NUM;
 
 /// Listens to the bytes. It runs in the thread that caused the event: writer, reader or ORB thread.
-/// Override one form: that of 2.x (ByteData), of 1.2 (a stream) or of 1.0 (const arguments, void). DATA_CHANGED
-/// hands changed bytes on.
+/// Override one form: that of 2.x (ByteData), of 1.2 (a stream) or of 1.0 (const arguments, void).
+/// DATA_CHANGED hands changed bytes on.
 class ConnectorDataListener : public ConnectorListenerStatus {
-public:
+  public:
     USE_CONNLISTENER_STATUS;
     static const char* toString(ConnectorDataListenerType type);
     virtual ~ConnectorDataListener();
@@ -92,13 +101,13 @@ public:
 /// Listens to values of one type.
 template <class DataType>
 class ConnectorDataListenerT : public ConnectorDataListener {
-public:
+  public:
     USE_CONNLISTENER_STATUS;
     ~ConnectorDataListenerT() override { SerializerFactory::instance().deleteObject(m_cdr); }
 
     virtual ReturnCode operator()(ConnectorInfo& info, DataType& data) {
-        static_cast<ConnectorDataListenerT&>(*this)(static_cast<const ConnectorInfo&>(info),
-                                                    static_cast<const DataType&>(data));
+        static_cast<ConnectorDataListenerT&> (*this)(static_cast<const ConnectorInfo&>(info),
+                                                     static_cast<const DataType&>(data));
         return NO_CHANGE;
     }
     virtual void operator()(const ConnectorInfo& /*info*/, const DataType& /*data*/) {}
@@ -122,7 +131,7 @@ public:
     ReturnCode operator()(ConnectorInfo&, cdrMemoryStream&) override { return NO_CHANGE; }
     void operator()(const ConnectorInfo&, const cdrMemoryStream&) override {}
 
-private:
+  private:
     ByteDataStream<DataType>* serializer(const std::string& marshalingtype) {
         if (m_cdr == nullptr || m_marshalingtype != marshalingtype) {
             SerializerFactory::instance().deleteObject(m_cdr);
@@ -139,7 +148,7 @@ private:
 
 /// Listens to events without data.
 class ConnectorListener : public ConnectorListenerStatus {
-public:
+  public:
     USE_CONNLISTENER_STATUS;
     static const char* toString(ConnectorListenerType type);
     virtual ~ConnectorListener();
@@ -149,7 +158,7 @@ public:
 
 /// A port's listeners. notify() without listeners costs one load. [any-thread]
 class ConnectorListeners {
-public:
+  public:
     ConnectorListeners() = default;
     ~ConnectorListeners();
     ConnectorListeners(const ConnectorListeners&) = delete;
@@ -160,8 +169,12 @@ public:
     bool removeListener(ConnectorDataListenerType type, ConnectorDataListener* listener);
     bool removeListener(ConnectorListenerType type, ConnectorListener* listener);
 
-    bool has(ConnectorDataListenerType type) const { return data_[index(type)].count.load(std::memory_order_acquire) != 0; }
-    bool has(ConnectorListenerType type) const { return info_[index(type)].count.load(std::memory_order_acquire) != 0; }
+    bool has(ConnectorDataListenerType type) const {
+        return data_[index(type)].count.load(std::memory_order_acquire) != 0;
+    }
+    bool has(ConnectorListenerType type) const {
+        return info_[index(type)].count.load(std::memory_order_acquire) != 0;
+    }
 
     /// Is there a listener to any kind of data?
     bool toData() const {
@@ -177,7 +190,7 @@ public:
         return has(type) ? call(type, info) : ConnectorListenerStatus::NO_CHANGE;
     }
 
-private:
+  private:
     template <class Type>
     static std::size_t index(Type type) {
         return static_cast<std::size_t>(type);
@@ -191,10 +204,12 @@ private:
         void add(Listener* listener, bool autoclean);
         bool remove(Listener* listener);
     };
-    ConnectorListenerStatus::Enum call(ConnectorDataListenerType, ConnectorInfo&, ByteData&, const std::string&);
+    ConnectorListenerStatus::Enum call(ConnectorDataListenerType, ConnectorInfo&, ByteData&,
+                                       const std::string&);
     ConnectorListenerStatus::Enum call(ConnectorListenerType, ConnectorInfo&);
 
-    static constexpr auto DataKinds = static_cast<std::size_t>(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM);
+    static constexpr auto DataKinds =
+        static_cast<std::size_t>(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM);
     static constexpr auto InfoKinds = static_cast<std::size_t>(ConnectorListenerType::CONNECTOR_LISTENER_NUM);
     std::array<Holder<ConnectorDataListener>, DataKinds> data_;
     std::array<Holder<ConnectorListener>, InfoKinds> info_;

@@ -13,24 +13,25 @@ namespace RTC {
 /// type and instance name on the other side, unless the connector's properties map it explicitly.
 /// Providers can be called only while their component is active.
 class CorbaPort : public PortBase {
-public:
+  public:
     explicit CorbaPort(const char* name);
     ~CorbaPort() override;
     /// With the port's properties of rtc.conf, when the port is added to its component.
     void init(coil::Properties& prop);
     /// `provider` stays the caller's and must outlive the port; it may be any servant, dynamic ones included.
-    bool registerProvider(const char* instance_name, const char* type_name, PortableServer::ServantBase& provider);
+    bool registerProvider(const char* instance_name, const char* type_name,
+                          PortableServer::ServantBase& provider);
     bool registerConsumer(const char* instance_name, const char* type_name, CorbaConsumerBase& consumer);
 
     void activateInterfaces() override;
     void deactivateInterfaces() override;
 
-protected:
+  protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
 
-private:
+  private:
     class Provider;
     struct Consumer {
         std::string type, instance;
@@ -47,4 +48,8 @@ private:
 };
 
 } // namespace RTC
+
+// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
+// above.
+#include <rtm/Manager.h>
 #endif

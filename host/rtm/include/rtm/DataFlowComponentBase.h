@@ -8,11 +8,15 @@ namespace RTC {
 
 /// What components derive from.
 class DataFlowComponentBase : public RTObject_impl {
-public:
+  public:
     explicit DataFlowComponentBase(Manager* manager);
     ~DataFlowComponentBase() override;
     void init();
 };
 
 } // namespace RTC
+
+// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
+// above.
+#include <rtm/Manager.h>
 #endif

@@ -6,25 +6,84 @@
 
 namespace RTC {
 
-enum class DataPortStatus : std::uint8_t {
-    PORT_OK = 0,
-    PORT_ERROR,
-    BUFFER_ERROR,
-    BUFFER_FULL,
-    BUFFER_EMPTY,
-    BUFFER_TIMEOUT,
-    SEND_FULL,
-    SEND_TIMEOUT,
-    RECV_EMPTY,
-    RECV_TIMEOUT,
-    INVALID_ARGS,
-    PRECONDITION_NOT_MET,
-    CONNECTION_LOST,
-    UNKNOWN_ERROR
+struct DataPortStatusCode {
+    enum Enum : std::uint8_t {
+        PORT_OK = 0,
+        PORT_ERROR,
+        BUFFER_ERROR,
+        BUFFER_FULL,
+        BUFFER_EMPTY,
+        BUFFER_TIMEOUT,
+        SEND_FULL,
+        SEND_TIMEOUT,
+        RECV_EMPTY,
+        RECV_TIMEOUT,
+        INVALID_ARGS,
+        PRECONDITION_NOT_MET,
+        CONNECTION_LOST,
+        UNKNOWN_ERROR
+    };
+};
+
+/// What came of handing data on: in 2.x an enumeration, in 1.x a class with `Enum` in it; this is taken for
+/// both.
+class DataPortStatus {
+  public:
+    static const DataPortStatus PORT_OK, PORT_ERROR, BUFFER_ERROR, BUFFER_FULL, BUFFER_EMPTY, BUFFER_TIMEOUT,
+        SEND_FULL, SEND_TIMEOUT, RECV_EMPTY, RECV_TIMEOUT, INVALID_ARGS, PRECONDITION_NOT_MET,
+        CONNECTION_LOST, UNKNOWN_ERROR;
+    using Enum = DataPortStatusCode::Enum;
+    DataPortStatus() = default;
+    constexpr DataPortStatus(Enum code) : m_code(code) {}
+    constexpr explicit DataPortStatus(int code) : m_code(static_cast<Enum>(code)) {}
+    constexpr operator Enum() const { return m_code; }
+    static const char* toString(DataPortStatus status);
+
+  private:
+    Enum m_code;
 };
 using DataPortStatusList = std::vector<DataPortStatus>;
 
 const char* toString(DataPortStatus status);
 
+// inline for headers of C++14, too: what both compilers do with it there is what C++17 says.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wc++17-extensions"
+#define TANDEM_DATAPORT_STATUS(NAME)                                                                         \
+    inline constexpr DataPortStatus DataPortStatus::NAME{DataPortStatusCode::NAME};
+TANDEM_DATAPORT_STATUS(PORT_OK)
+TANDEM_DATAPORT_STATUS(PORT_ERROR)
+TANDEM_DATAPORT_STATUS(BUFFER_ERROR)
+TANDEM_DATAPORT_STATUS(BUFFER_FULL)
+TANDEM_DATAPORT_STATUS(BUFFER_EMPTY)
+TANDEM_DATAPORT_STATUS(BUFFER_TIMEOUT)
+TANDEM_DATAPORT_STATUS(SEND_FULL)
+TANDEM_DATAPORT_STATUS(SEND_TIMEOUT)
+TANDEM_DATAPORT_STATUS(RECV_EMPTY)
+TANDEM_DATAPORT_STATUS(RECV_TIMEOUT)
+TANDEM_DATAPORT_STATUS(INVALID_ARGS)
+TANDEM_DATAPORT_STATUS(PRECONDITION_NOT_MET)
+TANDEM_DATAPORT_STATUS(CONNECTION_LOST)
+TANDEM_DATAPORT_STATUS(UNKNOWN_ERROR)
+#undef TANDEM_DATAPORT_STATUS
+#pragma GCC diagnostic pop
+
 } // namespace RTC
+
+/// 1.x: the codes as names of a class, and `ReturnCode` for their type.
+#define DATAPORTSTATUS_ENUM                                                                                  \
+    typedef ::RTC::DataPortStatus::Enum ReturnCode;                                                          \
+    static const ReturnCode PORT_OK = ::RTC::DataPortStatusCode::PORT_OK;                                    \
+    static const ReturnCode PORT_ERROR = ::RTC::DataPortStatusCode::PORT_ERROR;                              \
+    static const ReturnCode BUFFER_FULL = ::RTC::DataPortStatusCode::BUFFER_FULL;                            \
+    static const ReturnCode BUFFER_EMPTY = ::RTC::DataPortStatusCode::BUFFER_EMPTY;                          \
+    static const ReturnCode BUFFER_TIMEOUT = ::RTC::DataPortStatusCode::BUFFER_TIMEOUT;                      \
+    static const ReturnCode SEND_FULL = ::RTC::DataPortStatusCode::SEND_FULL;                                \
+    static const ReturnCode SEND_TIMEOUT = ::RTC::DataPortStatusCode::SEND_TIMEOUT;                          \
+    static const ReturnCode RECV_EMPTY = ::RTC::DataPortStatusCode::RECV_EMPTY;                              \
+    static const ReturnCode RECV_TIMEOUT = ::RTC::DataPortStatusCode::RECV_TIMEOUT;                          \
+    static const ReturnCode INVALID_ARGS = ::RTC::DataPortStatusCode::INVALID_ARGS;                          \
+    static const ReturnCode PRECONDITION_NOT_MET = ::RTC::DataPortStatusCode::PRECONDITION_NOT_MET;          \
+    static const ReturnCode CONNECTION_LOST = ::RTC::DataPortStatusCode::CONNECTION_LOST;                    \
+    static const ReturnCode UNKNOWN_ERROR = ::RTC::DataPortStatusCode::UNKNOWN_ERROR
 #endif

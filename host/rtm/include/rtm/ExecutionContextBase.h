@@ -3,6 +3,7 @@
 #define RTC_EXECUTIONCONTEXTBASE_H
 #include <atomic>
 #include <chrono>
+#include <coil/Factory.h>
 #include <coil/Properties.h>
 #include <condition_variable>
 #include <functional>
@@ -25,7 +26,7 @@ class RTObject_impl;
 /// Runs the state machines of its components. A cycle carries out pending transitions of all components, then
 /// their onExecute (or onError), then onStateUpdate, one component after the other in one thread.
 class ExecutionContextBase {
-public:
+  public:
     explicit ExecutionContextBase(const char* name);
     virtual ~ExecutionContextBase();
     ExecutionContextBase(const ExecutionContextBase&) = delete;
@@ -47,8 +48,8 @@ public:
 
     ReturnCode_t addComponent(LightweightRTObject_ptr comp);
     ReturnCode_t removeComponent(LightweightRTObject_ptr comp);
-    /// With sync_transition they return when the transition is done, or RTC_ERROR when it has failed or is not
-    /// done within the timeout; called from a callback of this context, they only ask for it.
+    /// With sync_transition they return when the transition is done, or RTC_ERROR when it has failed or is
+    /// not done within the timeout; called from a callback of this context, they only ask for it.
     ReturnCode_t activateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t deactivateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t resetComponent(LightweightRTObject_ptr comp);
@@ -56,7 +57,9 @@ public:
     static const char* getStateString(LifeCycleState state);
 
     ExecutionContextProfile* getProfile();
-    ExecutionContextService_ptr getObjRef() const { return ExecutionContextService::_duplicate(m_objref.in()); }
+    ExecutionContextService_ptr getObjRef() const {
+        return ExecutionContextService::_duplicate(m_objref.in());
+    }
     coil::Properties getProperties() const { return m_properties; }
 
     /// One cycle in the calling thread; not from a callback of this context.
@@ -69,7 +72,7 @@ public:
     /// Ours: lets go of the owner and of the reference; after that the context can be deleted.
     void retire();
 
-protected:
+  protected:
     virtual ReturnCode_t onStarted() { return RTC_OK; }
     virtual ReturnCode_t onStopping() { return RTC_OK; }
     virtual ReturnCode_t onSetRate(double) { return RTC_OK; }
@@ -91,7 +94,7 @@ protected:
     std::chrono::nanoseconds m_phase{0};
     ExecutionKind m_kind = PERIODIC;
 
-private:
+  private:
     using Participant = std::shared_ptr<RTC_impl::RTObjectStateMachine>;
     Participant find(LightweightRTObject_ptr comp);
     // Replaced, never changed: a cycle takes it without copying.
@@ -103,7 +106,8 @@ private:
         bool sync = true;
         std::chrono::nanoseconds timeout = std::chrono::milliseconds(500);
     };
-    ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to, const Wait& wait);
+    ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to,
+                         const Wait& wait);
     ReturnCode_t await(const Participant& participant, LifeCycleState to, std::chrono::nanoseconds timeout);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
@@ -121,6 +125,8 @@ private:
     std::condition_variable m_changed;
 };
 
+/// Contexts that libraries bring along, by name; registerECFactory() is 1.x's way to do the same.
+using ExecutionContextFactory = coil::GlobalFactory<ExecutionContextBase>;
 using ECNewFunc = ExecutionContextBase* (*)();
 using ECDeleteFunc = void (*)(ExecutionContextBase*);
 
@@ -140,7 +146,7 @@ template <class Skeleton>
 class ExecutionContextServant : public virtual Skeleton,
                                 public virtual PortableServer::RefCountServantBase,
                                 public ExecutionContextBase {
-public:
+  public:
     explicit ExecutionContextServant(const char* name) : ExecutionContextBase(name) {
         RTC::ExecutionContextService_var ref = this->_this();
         setObjRef(ref.in());
@@ -153,15 +159,21 @@ public:
     ReturnCode_t add_component(LightweightRTObject_ptr comp) override { return addComponent(comp); }
     ReturnCode_t remove_component(LightweightRTObject_ptr comp) override { return removeComponent(comp); }
     ReturnCode_t activate_component(LightweightRTObject_ptr comp) override { return activateComponent(comp); }
-    ReturnCode_t deactivate_component(LightweightRTObject_ptr comp) override { return deactivateComponent(comp); }
+    ReturnCode_t deactivate_component(LightweightRTObject_ptr comp) override {
+        return deactivateComponent(comp);
+    }
     ReturnCode_t reset_component(LightweightRTObject_ptr comp) override { return resetComponent(comp); }
-    LifeCycleState get_component_state(LightweightRTObject_ptr comp) override { return getComponentState(comp); }
+    LifeCycleState get_component_state(LightweightRTObject_ptr comp) override {
+        return getComponentState(comp);
+    }
     ExecutionKind get_kind() override { return getKind(); }
     ExecutionContextProfile* get_profile() override { return getProfile(); }
 
-protected:
+  protected:
     PortableServer::ServantBase* servant() override { return this; }
 };
 
 } // namespace RTC
+
+extern template class coil::GlobalFactory<RTC::ExecutionContextBase>;
 #endif

@@ -9,16 +9,16 @@ namespace RTC {
 /// A context whose thread runs one cycle for each tick(), which does not wait for it; no tick is lost.
 /// Requested transitions are carried out by the thread that asks for them, between cycles.
 class ExtTrigExecutionContext : public ExecutionContextServant<POA_OpenRTM::ExtTrigExecutionContextService> {
-public:
+  public:
     ExtTrigExecutionContext();
     ~ExtTrigExecutionContext() override;
     void tick() override;
 
-protected:
+  protected:
     ReturnCode_t onStarted() override;
     ReturnCode_t onStopping() override;
 
-private:
+  private:
     struct Worker;
     void run(Worker& worker);
 
@@ -27,4 +27,12 @@ private:
 };
 
 } // namespace RTC
+
+namespace RTC {
+class Manager;
+}
+extern "C" {
+/// Makes the type known to the manager, which knows it anyway.
+void ExtTrigExecutionContextInit(RTC::Manager* manager);
+}
 #endif

@@ -25,7 +25,7 @@ void Delete(RTObject_impl* rtc) {
 
 /// Makes and ends components of one type, and names them.
 class FactoryBase {
-public:
+  public:
     explicit FactoryBase(const coil::Properties& profile) : m_Profile(profile) {}
     virtual ~FactoryBase() = default;
     virtual RTObject_impl* create(Manager* manager) = 0;
@@ -33,22 +33,26 @@ public:
     virtual coil::Properties& profile() { return m_Profile; }
     virtual int number() { return m_Number; }
 
-protected:
+  protected:
     coil::Properties m_Profile;
     int m_Number = -1;
 };
 
 class FactoryCXX : public FactoryBase {
-public:
-    FactoryCXX(const coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func)
-        : FactoryBase(profile), m_New(new_func), m_Delete(delete_func) {}
+  public:
+    /// The policy is the factory's from now on; NULL: ProcessUniquePolicy.
+    FactoryCXX(const coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func,
+               RTM::NumberingPolicyBase* policy = nullptr)
+        : FactoryBase(profile), m_New(new_func), m_Delete(delete_func), m_policy(policy) {
+        if (m_policy == nullptr) m_policy.reset(new RTM::ProcessUniquePolicy());
+    }
     RTObject_impl* create(Manager* manager) override;
     void destroy(RTObject_impl* comp) override;
 
-private:
+  private:
     RtcNewFunc m_New;
     RtcDeleteFunc m_Delete;
-    RTM::ProcessUniquePolicy m_policy;
+    std::unique_ptr<RTM::NumberingPolicyBase> m_policy;
 };
 
 } // namespace RTC

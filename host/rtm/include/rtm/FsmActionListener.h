@@ -27,19 +27,21 @@ enum class PostFsmActionListenerType : std::uint8_t {
 };
 
 class PreFsmActionListener {
-public:
+  public:
+    static const char* toString(PreFsmActionListenerType type);
     virtual ~PreFsmActionListener() = default;
     virtual void operator()(const char* state) = 0;
 };
 class PostFsmActionListener {
-public:
+  public:
+    static const char* toString(PostFsmActionListenerType type);
     virtual ~PostFsmActionListener() = default;
     virtual void operator()(const char* state, ReturnCode_t ret) = 0;
 };
 
 /// A component's FSM listeners by kind. [any-thread]
 class FsmActionListeners {
-public:
+  public:
     std::array<RTM::util::ListenerHolder<PreFsmActionListener>,
                static_cast<std::size_t>(PreFsmActionListenerType::PRE_FSM_ACTION_LISTENER_NUM)>
         preaction_;

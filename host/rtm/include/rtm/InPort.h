@@ -12,12 +12,13 @@ namespace RTC {
 /// A data port that receives values of one IDL struct into a variable of its component. [owner's thread]
 template <class DataType>
 class InPort : public InPortBase {
-public:
+  public:
     InPort(const char* name, DataType& value)
         : InPortBase(name, CORBA_Util::toRepositoryId<DataType>()), m_name(name), m_value(value),
           m_status(1, DataPortStatus::PORT_OK) {
         CdrMemoryStreamInit<DataType>();
-        addProperty("dataport.marshaling_types", coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
+        addProperty("dataport.marshaling_types",
+                    coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
     }
     /// 1.x: the further arguments are those of the former buffer and mean nothing here.
     InPort(const char* name, DataType& value, int /*bufsize*/, bool /*read_block*/ = false,
@@ -38,8 +39,8 @@ public:
     virtual bool isEmpty(std::string name) { return !isNew(name); }
     virtual bool isEmpty(coil::vstring& names) { return namesWhere(names, false); }
 
-    /// The oldest value into the variable; with an empty buffer what its policy says (readback: the last value
-    /// again, true). False: not connected, nothing ever came, or a message that is not of this type.
+    /// The oldest value into the variable; with an empty buffer what its policy says (readback: the last
+    /// value again, true). False: not connected, nothing ever came, or a message that is not of this type.
     bool read(std::string name = "") override {
         if (m_OnRead != nullptr) (*m_OnRead)();
         {
@@ -80,7 +81,7 @@ public:
         stream.readData(bytes.getBuffer(), bytes.getDataLength());
     }
 
-private:
+  private:
     bool namesWhere(coil::vstring& names, bool has_data) {
         names.clear();
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
@@ -98,4 +99,8 @@ private:
 };
 
 } // namespace RTC
+
+// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
+// above.
+#include <rtm/Manager.h>
 #endif

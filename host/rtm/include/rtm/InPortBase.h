@@ -10,11 +10,12 @@
 
 namespace RTC {
 class DataInlet;
+class InPortPushConnector;
 
 /// A data port that receives. Connectors share one ring buffer, unless a connector asks for a buffer type of
 /// its own. Derive from it for a port whose type is known at run time only.
 class InPortBase : public PortBase {
-public:
+  public:
     using ConnectorList = std::vector<InPortConnector*>;
 
     InPortBase(const char* name, const char* data_type);
@@ -52,7 +53,7 @@ public:
     /// Ours: the buffer of `direct` connections; NULL for a port that takes bytes only.
     virtual std::shared_ptr<DirectLaneBase> directLane() { return nullptr; }
 
-protected:
+  protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
@@ -67,8 +68,10 @@ protected:
     bool m_littleEndian = true;
     ConnectorListenersBase m_listeners;
 
-private:
+  private:
     ReturnCode_t addPushConnector(ConnectorProfile& connector_profile, const coil::Properties& prop);
+    ReturnCode_t addProvided(ConnectorProfile& connector_profile, const coil::Properties& prop,
+                             const std::string& type, InPortPushConnector* made);
     ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(InPortConnector* connector);
 };

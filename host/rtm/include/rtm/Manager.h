@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <coil/ClockManager.h>
+#include <coil/Logger.h>
+#include <coil/Timer.h>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -26,22 +29,24 @@ class ManagerServant;
 namespace RTC {
 
 class Manager;
+class NamingManager;
 using ModuleInitProc = void (*)(Manager*);
 
 /// Ours: what is wrong with rtc.conf, a module, a component or a connection it names; what() is one line.
 class ManagerError : public std::runtime_error {
-public:
+  public:
     using std::runtime_error::runtime_error;
 };
 
 /// The one manager of a process: ORB, configuration, modules, components.
 /// init() [main-thread], then activateManager(), then runManager(). All other functions [any-thread].
 class Manager {
-public:
+  public:
     struct Options; // host/rtm/src/manager_options.hpp: what only rtm_host sets
 
-    /// Reads the command line (-f FILE, -o key:value, -d, -i, -p PORT) and rtc.conf, starts the ORB. When called
-    /// again the running manager is returned. Bad input ends the process with one line on standard error.
+    /// Reads the command line (-f FILE, -o key:value, -d, -i, -p PORT) and rtc.conf, starts the ORB. When
+    /// called again the running manager is returned. Bad input ends the process with one line on standard
+    /// error.
     static Manager* init(int argc, char** argv);
     /// The same without arguments, when init() was not called before.
     static Manager& instance();
@@ -52,8 +57,8 @@ public:
     Manager& operator=(const Manager&) = delete;
 
     void setModuleInitProc(ModuleInitProc proc);
-    /// Loads, creates, connects and activates what the configuration names; calls the init procedure. Errors of the
-    /// configuration are logged and passed over, as in OpenRTM-aist.
+    /// Loads, creates, connects and activates what the configuration names; calls the init procedure. Errors
+    /// of the configuration are logged and passed over, as in OpenRTM-aist.
     bool activateManager();
     /// Ours: the same, throwing ManagerError at the first error.
     void activateOrThrow();
@@ -106,6 +111,7 @@ public:
     std::vector<RTObject_impl*> getComponents();
     /// A component has left by exit(); it is deleted later by the manager's thread.
     void notifyFinalized(RTObject_impl* comp);
+    void cleanupComponent(RTObject_impl* comp) { unregisterComponent(comp); }
     void cleanupComponents();
 
     /// Ours: one line of manager.components.preconnect, `A.p?port=B.q&key=value...`. Throws ManagerError.
@@ -117,6 +123,15 @@ public:
 
     /// Runs fn later in the manager's thread.
     void invoke(std::function<void()> fn, std::chrono::nanoseconds delay = std::chrono::nanoseconds::zero());
+
+    using TaskId = coil::PeriodicFunction*;
+    /// Runs fn in the manager's thread again and again, until removeTask().
+    TaskId addTask(std::function<void()> fn, std::chrono::nanoseconds period);
+    static void removeTask(TaskId id) { id->stop(); }
+
+    /// Every log line of the process goes to the streams that are added to it.
+    LogStreamBuf& getLogStreamBuf() { return Logger::processStreams(); }
+    NamingManager* getNaming();
 
     void addManagerActionListener(RTM::ManagerActionListener* listener, bool autoclean = true);
     void removeManagerActionListener(RTM::ManagerActionListener* listener);
@@ -143,7 +158,7 @@ public:
     struct Impl;
     Impl& impl() { return *m_impl; }
 
-private:
+  private:
     explicit Manager(const Options& options);
     RTObject_impl& makeOrThrow(FactoryBase& factory);
     /// Loads the library that is named as the component type, when there is one.

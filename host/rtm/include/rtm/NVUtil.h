@@ -41,6 +41,8 @@ void append(SDOPackage::NVList& dest, const SDOPackage::NVList& src);
 std::ostream& dump(std::ostream& out, const SDOPackage::NVList& nv);
 void dump(const SDOPackage::NVList& nv);
 std::string toString(const SDOPackage::NVList& nv);
+inline std::ostream& dump_to_stream(std::ostream& out, const SDOPackage::NVList& nv) { return dump(out, nv); }
+inline std::ostream& operator<<(std::ostream& out, const SDOPackage::NVList& nv) { return dump(out, nv); }
 
 } // namespace NVUtil
 #endif

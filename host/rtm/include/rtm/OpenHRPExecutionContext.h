@@ -8,10 +8,18 @@ namespace RTC {
 /// A context without a thread: tick() runs one cycle in the caller's thread, and requested transitions are
 /// carried out by the thread that asks for them.
 class OpenHRPExecutionContext : public ExecutionContextServant<POA_OpenRTM::ExtTrigExecutionContextService> {
-public:
+  public:
     OpenHRPExecutionContext();
     void tick() override;
 };
 
 } // namespace RTC
+
+namespace RTC {
+class Manager;
+}
+extern "C" {
+/// Makes the type known to the manager, which knows it anyway.
+void OpenHRPExecutionContextInit(RTC::Manager* manager);
+}
 #endif

@@ -14,11 +14,12 @@ namespace RTC {
 /// A data port that sends values of one IDL struct. [owner's thread]
 template <class DataType>
 class OutPort : public OutPortBase {
-public:
+  public:
     OutPort(const char* name, DataType& value)
         : OutPortBase(name, CORBA_Util::toRepositoryId<DataType>()), m_name(name), m_value(value) {
         CdrMemoryStreamInit<DataType>();
-        addProperty("dataport.marshaling_types", coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
+        addProperty("dataport.marshaling_types",
+                    coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
     }
     /// 1.x: the length of the former buffer means nothing here.
     OutPort(const char* name, DataType& value, int /*length*/) : OutPort(name, value) {}
@@ -41,7 +42,7 @@ public:
     void setOnWrite(OnWrite<DataType>* on_write) { m_onWrite = on_write; }
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
 
-private:
+  private:
     bool send(DataType& value) {
         std::vector<std::string> lost;
         bool all_took_it = true;
@@ -70,4 +71,8 @@ private:
 };
 
 } // namespace RTC
+
+// As in OpenRTM-aist: components use the manager without including its header. Last, since it needs what is
+// above.
+#include <rtm/Manager.h>
 #endif

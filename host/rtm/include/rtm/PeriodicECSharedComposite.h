@@ -2,12 +2,45 @@
 #ifndef RTC_PERIODICECSHAREDCOMPOSITE_H
 #define RTC_PERIODICECSHAREDCOMPOSITE_H
 #include <rtm/RTObject.h>
+#include <rtm/SdoOrganization.h>
 #include <string>
 #include <vector>
 
-namespace SDOPackage {
-class PeriodicECOrganization;
+namespace RTC {
+class ExecutionContextBase;
 }
+
+namespace SDOPackage {
+
+/// The members of a composite, and what is done with one that comes or goes.
+class PeriodicECOrganization : public Organization_impl {
+  public:
+    PeriodicECOrganization(RTC::RTObject_impl* composite, SDOSystemElement_ptr owner);
+    ~PeriodicECOrganization() override;
+
+    /// Members leave their own contexts for the composite's.
+    CORBA::Boolean add_members(const SDOList& sdos) override;
+    CORBA::Boolean set_members(const SDOList& sdos) override;
+    CORBA::Boolean remove_member(const char* id) override;
+    void removeAllMembers();
+    /// What the parameter exported_ports now says.
+    void updateDelegatedPorts();
+    /// Ours: one transition of every member, in their order.
+    void forAllMembers(RTC::ReturnCode_t (RTC::ExecutionContextBase::*request)(RTC::LightweightRTObject_ptr));
+
+  protected:
+    RTC::Logger rtclog;
+    RTC::RTObject_impl* m_rtobj;
+
+  private:
+    RTC::ExecutionContextBase& context();
+    void runOwnContexts(RTC::RTObject_ptr member, bool run);
+    bool takeIn(RTC::RTObject_ptr member);
+    void letGo(RTC::RTObject_ptr member);
+    void exportPortsOf(RTC::RTObject_ptr member, bool is_member);
+};
+
+} // namespace SDOPackage
 
 namespace RTC {
 
@@ -15,7 +48,7 @@ namespace RTC {
 /// that the parameter `exported_ports` names (`Motor0.in, ...`) are its own as well. `members` names those of
 /// this manager; remote ones can be added through its organization.
 class PeriodicECSharedComposite : public RTObject_impl {
-public:
+  public:
     explicit PeriodicECSharedComposite(Manager* manager);
     ~PeriodicECSharedComposite() override;
     ReturnCode_t onInitialize() override;
@@ -24,10 +57,14 @@ public:
     ReturnCode_t onReset(RTC::UniqueId exec_handle) override;
     ReturnCode_t onFinalize() override;
 
-protected:
+  protected:
     std::vector<std::string> m_members;
     SDOPackage::PeriodicECOrganization* m_org;
 };
 
 } // namespace RTC
+extern "C" {
+/// Makes the type known to the manager, which knows it anyway.
+void PeriodicECSharedCompositeInit(RTC::Manager* manager);
+}
 #endif

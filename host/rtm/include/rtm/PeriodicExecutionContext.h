@@ -13,20 +13,20 @@ namespace RTC_exp {
 /// A thread of its own with cycles in absolute time, on the grid of multiples of the period plus the phase;
 /// cycles that were overrun are skipped. While no component is active the thread sleeps.
 class PeriodicExecutionContext : public RTC::ExecutionContextServant<POA_RTC::ExecutionContextService> {
-public:
+  public:
     PeriodicExecutionContext();
     ~PeriodicExecutionContext() override;
 
     /// Ours: what has been counted since the context was started.
     struct Ticks {
         std::uint64_t cycles = 0;
-        std::uint64_t overruns = 0; ///< cycles whose time had passed when the one before ended
-        std::uint64_t skipped = 0;  ///< periods without a cycle because of that
+        std::uint64_t overruns = 0;         ///< cycles whose time had passed when the one before ended
+        std::uint64_t skipped = 0;          ///< periods without a cycle because of that
         std::chrono::nanoseconds latest{0}; ///< the latest that a cycle has begun after its time
     };
     Ticks ticks() const;
 
-protected:
+  protected:
     RTC::ReturnCode_t onStarted() override;
     RTC::ReturnCode_t onStopping() override;
     RTC::ReturnCode_t onSetRate(double rate) override;
@@ -34,7 +34,7 @@ protected:
     void onRequest() override;
     void describe(coil::Properties& properties) override;
 
-private:
+  private:
     struct Worker;
     std::shared_ptr<Worker> worker() const;
     void run(Worker& worker);
@@ -46,4 +46,12 @@ private:
 };
 
 } // namespace RTC_exp
+
+namespace RTC {
+class Manager;
+}
+extern "C" {
+/// Makes the type known to the manager, which knows it anyway.
+void PeriodicExecutionContextInit(RTC::Manager* manager);
+}
 #endif

@@ -17,7 +17,7 @@ namespace RTC {
 /// connect() asks the first port of the profile to notify_connect(), which publishes what it provides,
 /// passes the profile on to the next port, and then subscribes to what the others have published.
 class PortBase : public virtual POA_RTC::PortService, public virtual PortableServer::RefCountServantBase {
-public:
+  public:
     explicit PortBase(const char* name = "");
     ~PortBase() override;
 
@@ -52,7 +52,8 @@ public:
     void setOnDisconnected(ConnectionCallback* callback) { m_onDisconnected = callback; }
     void setOnConnectionLost(ConnectionCallback* callback) { m_onConnectionLost = callback; }
 
-    void addPortConnectListener(PortConnectListenerType type, PortConnectListener* listener, bool autoclean = true) {
+    void addPortConnectListener(PortConnectListenerType type, PortConnectListener* listener,
+                                bool autoclean = true) {
         m_connectListeners.at(type).addListener(listener, autoclean);
     }
     void removePortConnectListener(PortConnectListenerType type, PortConnectListener* listener) {
@@ -66,6 +67,11 @@ public:
         m_connectListeners.at(type).removeListener(listener);
     }
 
+    /// Further listeners, the component's; NULL: none.
+    void setPortConnectListenerHolder(PortConnectListeners* listeners) {
+        m_sharedConnectListeners = listeners;
+    }
+
     /// Ours: why the last connect() or notify_connect() was refused; one line, empty when it was not.
     std::string connectError() const;
     /// Ours: ends a connection whose other side was lost, without asking that side.
@@ -73,7 +79,7 @@ public:
     /// Ours: no more calls from outside; called by the component before it dies.
     void retire();
 
-protected:
+  protected:
     virtual ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) = 0;
     virtual ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
     virtual void unsubscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
@@ -120,7 +126,7 @@ protected:
     ConnectionCallback* m_onDisconnected = nullptr;
     ConnectionCallback* m_onConnectionLost = nullptr;
 
-private:
+  private:
     ReturnCode_t establish(ConnectorProfile& connector_profile);
     ReturnCode_t passOn(ConnectorProfile& connector_profile);
     bool release(const char* connector_id);
@@ -134,6 +140,7 @@ private:
     mutable std::mutex m_errorMutex;
     std::string m_connectError;
     PortConnectListeners m_connectListeners;
+    PortConnectListeners* m_sharedConnectListeners = nullptr;
 };
 
 } // namespace RTC

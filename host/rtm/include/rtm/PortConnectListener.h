@@ -26,20 +26,35 @@ enum class PortConnectRetListenerType : std::uint8_t {
     PORT_CONNECT_RET_LISTENER_NUM
 };
 
+// Plain names, as components written for 1.x say them.
+constexpr auto ON_NOTIFY_CONNECT = PortConnectListenerType::ON_NOTIFY_CONNECT;
+constexpr auto ON_NOTIFY_DISCONNECT = PortConnectListenerType::ON_NOTIFY_DISCONNECT;
+constexpr auto ON_UNSUBSCRIBE_INTERFACES = PortConnectListenerType::ON_UNSUBSCRIBE_INTERFACES;
+constexpr auto PORT_CONNECT_LISTENER_NUM = PortConnectListenerType::PORT_CONNECT_LISTENER_NUM;
+constexpr auto ON_PUBLISH_INTERFACES = PortConnectRetListenerType::ON_PUBLISH_INTERFACES;
+constexpr auto ON_CONNECT_NEXTPORT = PortConnectRetListenerType::ON_CONNECT_NEXTPORT;
+constexpr auto ON_SUBSCRIBE_INTERFACES = PortConnectRetListenerType::ON_SUBSCRIBE_INTERFACES;
+constexpr auto ON_CONNECTED = PortConnectRetListenerType::ON_CONNECTED;
+constexpr auto ON_DISCONNECT_NEXT = PortConnectRetListenerType::ON_DISCONNECT_NEXT;
+constexpr auto ON_DISCONNECTED = PortConnectRetListenerType::ON_DISCONNECTED;
+constexpr auto PORT_CONNECT_RET_LISTENER_NUM = PortConnectRetListenerType::PORT_CONNECT_RET_LISTENER_NUM;
+
 class PortConnectListener {
-public:
+  public:
+    static const char* toString(PortConnectListenerType type);
     virtual ~PortConnectListener() = default;
     virtual void operator()(const char* portname, RTC::ConnectorProfile& profile) = 0;
 };
 class PortConnectRetListener {
-public:
+  public:
+    static const char* toString(PortConnectRetListenerType type);
     virtual ~PortConnectRetListener() = default;
     virtual void operator()(const char* portname, RTC::ConnectorProfile& profile, ReturnCode_t ret) = 0;
 };
 
 /// A port's listeners by kind. [any-thread]
 class PortConnectListeners {
-public:
+  public:
     RTM::util::ListenerHolder<PortConnectListener>& at(PortConnectListenerType type) {
         return portconnect_.at(static_cast<std::size_t>(type));
     }
@@ -47,7 +62,7 @@ public:
         return portconnret_.at(static_cast<std::size_t>(type));
     }
 
-private:
+  private:
     std::array<RTM::util::ListenerHolder<PortConnectListener>,
                static_cast<std::size_t>(PortConnectListenerType::PORT_CONNECT_LISTENER_NUM)>
         portconnect_;

@@ -9,6 +9,7 @@
 #include <rtm/CorbaPort.h>
 #include <rtm/FsmActionListener.h>
 #include <rtm/InPortBase.h>
+#include <rtm/MemberListener.h>
 #include <rtm/OutPortBase.h>
 #include <rtm/PortAdmin.h>
 #include <rtm/PortBase.h>
@@ -23,7 +24,7 @@
 namespace SDOPackage {
 class Configuration_impl;
 class Organizations;
-}
+} // namespace SDOPackage
 
 namespace RTC {
 class ExecutionContextBase;
@@ -33,12 +34,15 @@ class SdoServiceProviderBase;
 /// A component. Derive (from DataFlowComponentBase), override the on...() callbacks, add ports in
 /// onInitialize(). An execution context calls it; any result but RTC_OK, and any exception, of onActivated,
 /// onExecute and onStateUpdate leads to the ERROR state.
-class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent, public virtual PortableServer::RefCountServantBase {
-public:
+class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
+                      public virtual PortableServer::RefCountServantBase {
+  public:
     explicit RTObject_impl(Manager* manager);
+    /// A servant of this ORB and POA; the manager is the process's.
+    RTObject_impl(CORBA::ORB_ptr orb, PortableServer::POA_ptr poa);
     ~RTObject_impl() override;
 
-protected:
+  protected:
     virtual ReturnCode_t onInitialize();
     virtual ReturnCode_t onFinalize();
     virtual ReturnCode_t onStartup(RTC::UniqueId ec_id);
@@ -52,7 +56,7 @@ protected:
     virtual ReturnCode_t onStateUpdate(RTC::UniqueId ec_id);
     virtual ReturnCode_t onRateChanged(RTC::UniqueId ec_id);
 
-public:
+  public:
     // RTC::LightweightRTObject
     ReturnCode_t initialize() override;
     ReturnCode_t finalize() override;
@@ -159,9 +163,18 @@ public:
     /// Ours: its own contexts, as local objects.
     const std::vector<ExecutionContextBase*>& getOwnContexts() const { return m_eclist; }
 
+    // Short names of OpenRTM-aist.
+    using PreCompActionListener = PreComponentActionListener;
+    using PreCompActionListenerType = PreComponentActionListenerType;
+    using PostCompActionListener = PostComponentActionListener;
+    using PostCompActionListenerType = PostComponentActionListenerType;
+    using ECActionListener = ExecutionContextActionListener;
+    using ECActionListenerType = ExecutionContextActionListenerType;
+
     bool readAll();
     bool writeAll();
-    /// Read all InPorts before, write all OutPorts after onExecute; `completion`: go on after one that failed.
+    /// Read all InPorts before, write all OutPorts after onExecute; `completion`: go on after one that
+    /// failed.
     void setReadAll(bool read = true, bool completion = false);
     void setWriteAll(bool write = true, bool completion = false);
     void finalizePorts();
@@ -169,19 +182,38 @@ public:
     /// Ours: no more calls from outside.
     void retire();
 
-    void addPreComponentActionListener(PreComponentActionListenerType type, PreComponentActionListener* listener,
-                                       bool autoclean = true);
-    void removePreComponentActionListener(PreComponentActionListenerType type, PreComponentActionListener* listener);
-    void addPostComponentActionListener(PostComponentActionListenerType type, PostComponentActionListener* listener,
-                                        bool autoclean = true);
-    void removePostComponentActionListener(PostComponentActionListenerType type, PostComponentActionListener* listener);
-    void addPortActionListener(PortActionListenerType type, PortActionListener* listener, bool autoclean = true);
+    void addPreComponentActionListener(PreComponentActionListenerType type,
+                                       PreComponentActionListener* listener, bool autoclean = true);
+    void removePreComponentActionListener(PreComponentActionListenerType type,
+                                          PreComponentActionListener* listener);
+    void addPostComponentActionListener(PostComponentActionListenerType type,
+                                        PostComponentActionListener* listener, bool autoclean = true);
+    void removePostComponentActionListener(PostComponentActionListenerType type,
+                                           PostComponentActionListener* listener);
+    void addPortActionListener(PortActionListenerType type, PortActionListener* listener,
+                               bool autoclean = true);
     void removePortActionListener(PortActionListenerType type, PortActionListener* listener);
     void addExecutionContextActionListener(ExecutionContextActionListenerType type,
                                            ExecutionContextActionListener* listener, bool autoclean = true);
     void removeExecutionContextActionListener(ExecutionContextActionListenerType type,
                                               ExecutionContextActionListener* listener);
-    void addPreFsmActionListener(PreFsmActionListenerType type, PreFsmActionListener* listener, bool autoclean = true) {
+    /// Of all its ports; those of one port alone are the port's.
+    void addPortConnectListener(PortConnectListenerType type, PortConnectListener* listener,
+                                bool autoclean = true) {
+        m_portConnectListeners.at(type).addListener(listener, autoclean);
+    }
+    void removePortConnectListener(PortConnectListenerType type, PortConnectListener* listener) {
+        m_portConnectListeners.at(type).removeListener(listener);
+    }
+    void addPortConnectRetListener(PortConnectRetListenerType type, PortConnectRetListener* listener,
+                                   bool autoclean = true) {
+        m_portConnectListeners.at(type).addListener(listener, autoclean);
+    }
+    void removePortConnectRetListener(PortConnectRetListenerType type, PortConnectRetListener* listener) {
+        m_portConnectListeners.at(type).removeListener(listener);
+    }
+    void addPreFsmActionListener(PreFsmActionListenerType type, PreFsmActionListener* listener,
+                                 bool autoclean = true) {
         m_fsmListeners.preaction_.at(m_actionListeners.at(type)).addListener(listener, autoclean);
     }
     void removePreFsmActionListener(PreFsmActionListenerType type, PreFsmActionListener* listener) {
@@ -205,22 +237,24 @@ public:
     void postOnFsmExit(const char* state, ReturnCode_t ret);
     void preOnFsmStateChange(const char* state);
     void postOnFsmStateChange(const char* state, ReturnCode_t ret);
-    void addConfigurationParamListener(ConfigurationParamListenerType type, ConfigurationParamListener* listener,
-                                       bool autoclean = true) {
+    void addConfigurationParamListener(ConfigurationParamListenerType type,
+                                       ConfigurationParamListener* listener, bool autoclean = true) {
         m_configsets.addConfigurationParamListener(type, listener, autoclean);
     }
-    void removeConfigurationParamListener(ConfigurationParamListenerType type, ConfigurationParamListener* listener) {
+    void removeConfigurationParamListener(ConfigurationParamListenerType type,
+                                          ConfigurationParamListener* listener) {
         m_configsets.removeConfigurationParamListener(type, listener);
     }
     void addConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener,
                                      bool autoclean = true) {
         m_configsets.addConfigurationSetListener(type, listener, autoclean);
     }
-    void removeConfigurationSetListener(ConfigurationSetListenerType type, ConfigurationSetListener* listener) {
+    void removeConfigurationSetListener(ConfigurationSetListenerType type,
+                                        ConfigurationSetListener* listener) {
         m_configsets.removeConfigurationSetListener(type, listener);
     }
-    void addConfigurationSetNameListener(ConfigurationSetNameListenerType type, ConfigurationSetNameListener* listener,
-                                         bool autoclean = true) {
+    void addConfigurationSetNameListener(ConfigurationSetNameListenerType type,
+                                         ConfigurationSetNameListener* listener, bool autoclean = true) {
         m_configsets.addConfigurationSetNameListener(type, listener, autoclean);
     }
     void removeConfigurationSetNameListener(ConfigurationSetNameListenerType type,
@@ -228,7 +262,102 @@ public:
         m_configsets.removeConfigurationSetNameListener(type, listener);
     }
 
-protected:
+    // The same with a member function; what is returned can be given to remove...().
+    template <class Object>
+    PreComponentActionListener* addPreComponentActionListener(PreComponentActionListenerType type,
+                                                              Object& object,
+                                                              void (Object::*function)(UniqueId)) {
+        auto* listener = new MemberListener<PreComponentActionListener, Object, UniqueId>(object, function);
+        addPreComponentActionListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    PostComponentActionListener*
+    addPostComponentActionListener(PostComponentActionListenerType type, Object& object,
+                                   void (Object::*function)(UniqueId, ReturnCode_t)) {
+        auto* listener =
+            new MemberListener<PostComponentActionListener, Object, UniqueId, ReturnCode_t>(object, function);
+        addPostComponentActionListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    PortActionListener* addPortActionListener(PortActionListenerType type, Object& object,
+                                              void (Object::*function)(const RTC::PortProfile&)) {
+        auto* listener =
+            new MemberListener<PortActionListener, Object, const RTC::PortProfile&>(object, function);
+        addPortActionListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    ExecutionContextActionListener* addExecutionContextActionListener(ExecutionContextActionListenerType type,
+                                                                      Object& object,
+                                                                      void (Object::*function)(UniqueId)) {
+        auto* listener =
+            new MemberListener<ExecutionContextActionListener, Object, UniqueId>(object, function);
+        addExecutionContextActionListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    PortConnectListener* addPortConnectListener(PortConnectListenerType type, Object& object,
+                                                void (Object::*function)(const char*, ConnectorProfile&)) {
+        auto* listener =
+            new MemberListener<PortConnectListener, Object, const char*, ConnectorProfile&>(object, function);
+        addPortConnectListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    PortConnectRetListener* addPortConnectRetListener(PortConnectRetListenerType type, Object& object,
+                                                      void (Object::*function)(const char*, ConnectorProfile&,
+                                                                               ReturnCode_t)) {
+        auto* listener =
+            new MemberListener<PortConnectRetListener, Object, const char*, ConnectorProfile&, ReturnCode_t>(
+                object, function);
+        addPortConnectRetListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    ConfigurationParamListener*
+    addConfigurationParamListener(ConfigurationParamListenerType type, Object& object,
+                                  void (Object::*function)(const char*, const char*)) {
+        auto* listener = new MemberListener<ConfigurationParamListener, Object, const char*, const char*>(
+            object, function);
+        addConfigurationParamListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    ConfigurationSetListener* addConfigurationSetListener(ConfigurationSetListenerType type, Object& object,
+                                                          void (Object::*function)(const coil::Properties&)) {
+        auto* listener =
+            new MemberListener<ConfigurationSetListener, Object, const coil::Properties&>(object, function);
+        addConfigurationSetListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    ConfigurationSetNameListener* addConfigurationSetNameListener(ConfigurationSetNameListenerType type,
+                                                                  Object& object,
+                                                                  void (Object::*function)(const char*)) {
+        auto* listener =
+            new MemberListener<ConfigurationSetNameListener, Object, const char*>(object, function);
+        addConfigurationSetNameListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    PreFsmActionListener* addPreFsmActionListener(PreFsmActionListenerType type, Object& object,
+                                                  void (Object::*function)(const char*)) {
+        auto* listener = new MemberListener<PreFsmActionListener, Object, const char*>(object, function);
+        addPreFsmActionListener(type, listener);
+        return listener;
+    }
+    template <class Object>
+    PostFsmActionListener* addPostFsmActionListener(PostFsmActionListenerType type, Object& object,
+                                                    void (Object::*function)(const char*, ReturnCode_t)) {
+        auto* listener =
+            new MemberListener<PostFsmActionListener, Object, const char*, ReturnCode_t>(object, function);
+        addPostFsmActionListener(type, listener);
+        return listener;
+    }
+
+  protected:
     mutable Logger rtclog{"rtobject"};
     Manager* m_pManager;
     CORBA::ORB_var m_pORB;
@@ -244,10 +373,11 @@ protected:
     /// Ours: groups of components that this one leads, and those it is a member of.
     std::shared_ptr<SDOPackage::Organizations> m_ownedOrganizations, m_organizations;
 
-private:
+  private:
     template <class Callback>
     ReturnCode_t guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
                          PostComponentActionListenerType post, Callback callback);
+    void becomeServant();
     void createContexts();
     bool addNamed(const char* name, PortBase& port);
 
@@ -258,6 +388,7 @@ private:
     SDOPackage::Configuration_impl* m_sdoConfiguration = nullptr;
     ComponentActionListeners m_actionListeners;
     FsmActionListeners m_fsmListeners;
+    PortConnectListeners m_portConnectListeners;
     bool m_created = true;
     std::atomic<bool> m_exiting{false};
     bool m_errorReported = false; // onError fails once per cycle, it is said once

@@ -15,7 +15,7 @@ namespace RTC {
 /// `write.timeout`, `read.timeout` in seconds (1). readback: an empty buffer gives the last value again.
 template <class DataType>
 class RingBuffer : public BufferBase<DataType> {
-public:
+  public:
     explicit RingBuffer(long int length = 8) : slots_(static_cast<std::size_t>(length > 0 ? length : 1)) {}
 
     void init(const coil::Properties& prop) override {
@@ -86,6 +86,10 @@ public:
         if (block_read_) not_empty_.notify_all();
         return BufferStatus::OK;
     }
+    /// 1.x: the timeout as seconds and nanoseconds.
+    BufferStatus write(const DataType& value, long int sec, long int nsec = 0) {
+        return write(value, std::chrono::seconds(sec) + std::chrono::nanoseconds(nsec));
+    }
     std::size_t writable() const override {
         Lock lock(mutex_);
         return slots_.size() - fill_;
@@ -124,7 +128,8 @@ public:
             const bool block = timeout.count() > 0 || (timeout.count() < 0 && block_read_);
             if (block) {
                 auto bound = timeout.count() > 0 ? timeout : read_timeout_;
-                if (!not_empty_.wait_for(lock, bound, [this] { return fill_ > 0; })) return BufferStatus::TIMEOUT;
+                if (!not_empty_.wait_for(lock, bound, [this] { return fill_ > 0; }))
+                    return BufferStatus::TIMEOUT;
             } else if (readback_ && written_) {
                 value = slots_[shifted(read_, -1)];
                 return BufferStatus::OK;
@@ -138,13 +143,16 @@ public:
         if (block_write_) not_full_.notify_all();
         return BufferStatus::OK;
     }
+    BufferStatus read(DataType& value, long int sec, long int nsec = 0) {
+        return read(value, std::chrono::seconds(sec) + std::chrono::nanoseconds(nsec));
+    }
     std::size_t readable() const override {
         Lock lock(mutex_);
         return fill_;
     }
     bool empty() const override { return readable() == 0; }
 
-private:
+  private:
     using Lock = std::unique_lock<std::mutex>;
 
     static void init_side(const coil::Properties& prop, const char* key, const char* usual_word, bool& usual,

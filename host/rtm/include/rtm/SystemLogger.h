@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_SYSTEMLOGGER_H
 #define RTC_SYSTEMLOGGER_H
+#include <coil/Logger.h>
 #include <coil/Properties.h>
 #include <coil/stringutil.h>
 #include <mutex>
@@ -8,12 +9,23 @@
 #include <string>
 
 namespace RTC {
+using LogStreamBuf = coil::LogStreamBuffer;
 
 /// A named source of log lines. One level and one set of outputs serve the whole process (logger.* of
 /// rtc.conf; standard error when nothing is said). [any-thread]
 class Logger {
-public:
-    enum { RTL_SILENT, RTL_FATAL, RTL_ERROR, RTL_WARN, RTL_INFO, RTL_DEBUG, RTL_TRACE, RTL_VERBOSE, RTL_PARANOID };
+  public:
+    enum {
+        RTL_SILENT,
+        RTL_FATAL,
+        RTL_ERROR,
+        RTL_WARN,
+        RTL_INFO,
+        RTL_DEBUG,
+        RTL_TRACE,
+        RTL_VERBOSE,
+        RTL_PARANOID
+    };
 
     explicit Logger(const char* name = "") : m_name(name) {}
 
@@ -29,24 +41,31 @@ public:
     void write(int level, const std::string& message) const;
     void write(int level, const coil::Properties& properties) const;
 
+    /// `RTL_ERROR` ...; empty for what is no level.
+    static const char* getLevelString(int level);
+    /// RTL_SILENT for what is no name of a level.
+    static int strToLevel(const char* level);
+
     static int processLevel();
     /// Adds a file, `stdout` or `stderr`, in place of standard error.
     static bool addOutput(const std::string& file_name);
+    /// Ours: every line goes to the streams in it, too.
+    static coil::LogStreamBuffer& processStreams();
 
-private:
+  private:
     std::string m_name;
 };
 
 } // namespace RTC
 
 // Components write these with and without a semicolon behind them.
-#define RTC_LOG(LV, fmt)                                                                                           \
-    if (rtclog.isValid(LV)) {                                                                                      \
-        rtclog.write(LV, ::coil::sprintf fmt);                                                                     \
+#define RTC_LOG(LV, fmt)                                                                                     \
+    if (rtclog.isValid(LV)) {                                                                                \
+        rtclog.write(LV, ::coil::sprintf fmt);                                                               \
     }
-#define RTC_LOG_STR(LV, str)                                                                                       \
-    if (rtclog.isValid(LV)) {                                                                                      \
-        rtclog.write(LV, str);                                                                                     \
+#define RTC_LOG_STR(LV, str)                                                                                 \
+    if (rtclog.isValid(LV)) {                                                                                \
+        rtclog.write(LV, str);                                                                               \
     }
 
 #define RTC_FATAL(fmt) RTC_LOG(::RTC::Logger::RTL_FATAL, fmt)

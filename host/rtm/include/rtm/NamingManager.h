@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef RTC_NAMINGMANAGER_H
+#define RTC_NAMINGMANAGER_H
+#include <map>
+#include <mutex>
+#include <rtm/RTC.h>
+#include <string>
+#include <vector>
+
+namespace RTM {
+class ManagerServant;
+}
+
+namespace RTC {
+class Manager;
+class PortBase;
+class RTObject_impl;
+
+/// Names of this process in CORBA name servers, `host.host_cxt/Name0.rtc`. Manager::getNaming() gives the one
+/// there is. A server that is away holds nobody up: it gets the names when it comes. [any-thread]
+class NamingManager {
+  public:
+    explicit NamingManager(Manager* manager) : m_manager(manager) {}
+    virtual ~NamingManager() = default;
+
+    /// One more name server, `host` or `host:port`, which gets all names. `method` is `corba`; there is no
+    /// other.
+    void registerNameServer(const char* method, const char* name_server);
+    void bindObject(const char* name, const RTObject_impl* rtobj);
+    void bindObject(const char* name, const PortBase* port);
+    void bindObject(const char* name, const RTM::ManagerServant* mgr);
+    /// All names again in servers that were away.
+    void update();
+    void unbindObject(const char* name);
+    /// What was bound by bindObject().
+    void unbindAll();
+    /// The components among them.
+    std::vector<RTObject_impl*> getObjects();
+    /// `Name0` of this process, rtcname://HOST:PORT/CONTEXT/Name0 or rtcloc://HOST:PORT/Name0; empty when
+    /// nobody answers there.
+    RTCList string_to_component(const std::string& name);
+
+  private:
+    void bind(const std::string& name, CORBA::Object_ptr object, const RTObject_impl* component);
+
+    Manager* m_manager;
+    std::mutex m_mutex;
+    std::map<std::string, const RTObject_impl*> m_bound; // NULL: not a component
+};
+
+} // namespace RTC
+#endif
