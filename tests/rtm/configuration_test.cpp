@@ -35,6 +35,36 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
 }
 
+TEST_CASE("A parameter that the profile does not mention is listed with its default and can be set") {
+    struct Quiet : Counter {
+        explicit Quiet(RTC::Manager* manager) : Counter(manager) {}
+        RTC::ReturnCode_t onInitialize() override {
+            bindParameter("greeting", greeting, "hello");
+            return Counter::onInitialize();
+        }
+        std::string greeting;
+    };
+    Stage stage;
+    coil::Properties profile;
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Quiet");
+    stage.manager().registerFactory(profile, RTC::Create<Quiet>, RTC::Delete<Quiet>);
+    auto& quiet = stage.create<Quiet>("Quiet");
+    SDOPackage::Configuration_var configuration = quiet.get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
+    coil::Properties listed = NVUtil::toProperties(set->configuration_data);
+    CHECK(listed.getProperty("greeting") == "hello");
+    CHECK(listed.getProperty("step") == "1");
+    stage.activate(quiet);
+    stage.step(quiet);
+    CHECK(quiet.greeting == "hello");
+    CHECK(quiet.value_.data == 1);
+    listed.setProperty("greeting", "bye");
+    NVUtil::copyFromProperties(set->configuration_data, listed);
+    CHECK(configuration->set_configuration_set_values(set.in()));
+    stage.step(quiet);
+    CHECK(quiet.greeting == "bye");
+}
+
 namespace {
 
 struct ConfFile {

@@ -9,6 +9,9 @@ using Lock = std::lock_guard<std::recursive_mutex>;
 void ConfigAdmin::add(std::unique_ptr<ConfigBase> param) {
     Lock lock(m_mutex);
     const std::string name = param->name;
+    // What the profile says nothing of is listed all the same, so that tools can set it.
+    coil::Properties& set = m_configsets.getNode(m_activeId);
+    if (set.hasKey(name.c_str()) == nullptr) set.setDefault(name, param->default_value);
     m_params.push_back(std::move(param));
     apply(m_activeId.c_str(), name.c_str());
 }
