@@ -35,7 +35,7 @@ SdoServices::SdoServices(RTObject_impl& owner, const coil::Properties& config)
 SdoServices::~SdoServices() { finalize(); }
 
 bool SdoServices::enabled(const char* kind, const std::string& type) const {
-    const std::string& wanted =
+    const std::string wanted =
         config_.getProperty(std::string("sdo.service.") + kind + ".enabled_services", "ALL");
     return coil::includes(wanted, "all") || coil::includes(wanted, type);
 }
