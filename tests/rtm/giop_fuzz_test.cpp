@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A client that sends broken GIOP to a host's endpoint: the host answers its good clients all the time.
 // TANDEM_STRESS=100 makes it 10^6 messages.
+#include "giop_message.hpp"
 #include "other_host.hpp"
-#include <arpa/inet.h>
 #include <catch2/catch.hpp>
 #include <coil/stringutil.h>
 #include <cstdlib>
@@ -12,8 +12,6 @@
 using namespace testing;
 
 namespace {
-
-using Bytes = std::vector<unsigned char>;
 
 void append(Bytes& to, std::uint32_t number) {
     while (to.size() % 4 != 0) to.push_back(0);
@@ -42,19 +40,6 @@ Bytes request(const std::string& key, const std::string& operation, const Bytes&
     const auto size = static_cast<std::uint32_t>(m.size() - 12);
     std::memcpy(&m[8], &size, 4);
     return m;
-}
-
-int connected(const std::string& port) {
-    const int fd = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(static_cast<std::uint16_t>(std::stoi(port)));
-    timeval bound{5, 0};
-    setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &bound, sizeof bound);
-    if (connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) return fd;
-    close(fd);
-    return -1;
 }
 
 class Mutator {
