@@ -25,12 +25,17 @@ std::string listed(const std::vector<std::string>& items) {
     return text;
 }
 
+void add_once(std::vector<std::string>& items, const std::string& item) {
+    if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
+}
+
 [[noreturn]] void not_found(const std::string& name, const std::vector<std::filesystem::path>& dirs) {
+    const std::string looked =
+        "library '" + name + "' not found: looked for " + listed(library_file_names(name));
+    if (std::filesystem::path(name).is_absolute()) throw Error(Reason::not_found, looked);
     std::vector<std::string> folders;
-    for (const auto& dir : dirs) folders.push_back(dir.empty() ? "." : dir.string());
-    throw Error(Reason::not_found, "library '" + name + "' not found: looked for " +
-                                       listed(library_file_names(name)) + " in " +
-                                       (folders.empty() ? "no folder" : listed(folders)));
+    for (const auto& dir : dirs) add_once(folders, dir.empty() ? "." : dir.string());
+    throw Error(Reason::not_found, looked + " in " + (folders.empty() ? "no folder" : listed(folders)));
 }
 
 } // namespace
@@ -46,8 +51,7 @@ std::vector<std::string> library_file_names(const std::string& name) {
     // The name itself is a candidate only if it says .so: X.dll would be a library of another system.
     if (name.size() < 3 || name.compare(name.size() - 3, 3, ".so") != 0) names.erase(names.begin());
     std::vector<std::string> unique;
-    for (const std::string& candidate : names)
-        if (std::find(unique.begin(), unique.end(), candidate) == unique.end()) unique.push_back(candidate);
+    for (const std::string& candidate : names) add_once(unique, candidate);
     return unique;
 }
 

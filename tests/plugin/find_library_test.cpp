@@ -39,4 +39,7 @@ TEST_CASE("a library that is nowhere gives an error of one line with the names a
                       Catch::Contains("Hello.dll") && Catch::Contains("libHello.so") &&
                           Catch::Contains("/first, /second"));
     CHECK_THROWS_AS(find_library("", {"/tmp"}), tandem::plugin::Error);
+    CHECK_THROWS_WITH(find_library("X.so", {"/a", "", "/a", ""}), Catch::EndsWith(" in /a, ."));
+    CHECK_THROWS_WITH(find_library("/a/X.so", {"/a", "/b"}),
+                      Catch::EndsWith(": looked for /a/X.so, /a/libX.so, /a/libX.dll.so, /a/X.dll.so"));
 }
