@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/service_link.hpp"
+#include "tests/opros/fixtures/MathRequired.h"
 #include "tests/opros/running.hpp"
+
+#include <MethodInvokeException.h>
 
 namespace {
 std::string connection_error(const std::string& type, const std::string& from, const std::string& to) {
@@ -45,4 +49,30 @@ TEST_CASE("a method that the provided port lacks is an error") {
                                        Folder::connect("service", "M", "math", "M", "opros.symbol")),
                     test_options(folder));
     CHECK_THAT(message, Catch::Contains("app.xml:7: component 'M' has no port 'opros.symbol'"));
+}
+
+namespace {
+struct Notes {
+    virtual ~Notes() = default;
+    virtual void note(std::string) {}
+};
+} // namespace
+
+TEST_CASE("a service connection that fails half-way leaves no method connected") {
+    const Folder folder;
+    folder.component("P", "printer");
+    tandem::engine::Application application(folder.application(Folder::sub("P", "P.xml")),
+                                            test_options(folder));
+    application.start();
+    tandem::engine::WorkerPool workers(1, false);
+    Notes owner;
+    ProvidedServicePort provided;
+    provided.addMethod("note", makeProvidedMethod(&Notes::note, &owner, "note"));
+    RequiredServicePort required; // note comes before what the provider lacks
+    Method* note = makeRequiredMethod(&MathRequired::note, "note", METHOD_NONBLOCKING);
+    required.addMethod("note", note);
+    required.addMethod("turn", makeRequiredMethod(&MathRequired::turn, "turn"));
+    CHECK_THROWS_WITH(tandem::engine::ServiceLink(required, provided, *application.find("P"), workers),
+                      Catch::Contains("has no method 'turn'"));
+    CHECK_THROWS_AS((*static_cast<RequiredMethod<void>*>(note))(std::string("lost")), MethodInvokeException);
 }

@@ -22,8 +22,12 @@ void refuse_if(const std::string& text) {
 } // namespace
 
 ServiceLink::ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided,
+                         ComponentHost& provider, WorkerPool& workers, Unconnected)
+    : required_(required), provided_(provided), provider_(provider), workers_(workers) {}
+
+ServiceLink::ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided,
                          ComponentHost& provider, WorkerPool& workers)
-    : required_(required), provided_(provided), provider_(provider), workers_(workers) {
+    : ServiceLink(required, provided, provider, workers, Unconnected{}) {
     connect();
 }
 

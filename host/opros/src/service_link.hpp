@@ -24,6 +24,10 @@ class ServiceLink : public Link {
     ~ServiceLink() override;
 
   private:
+    struct Unconnected {};
+    ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
+                WorkerPool& workers,
+                Unconnected); // what has been connected is undone if the rest does not fit
     void connect();
     void connect_method(const std::string& name, Method& method);
     void connect_through(RequiredMethodInterface& method, std::unique_ptr<ServicePortConnector> connector);
