@@ -73,6 +73,19 @@ TEST_CASE("the same composite may be used twice") {
     CHECK(recorder(application, "A.P").last_number == -1);
 }
 
+TEST_CASE("a port that is exported under two names and connected by both is connected twice: an error") {
+    const Folder folder;
+    arm(folder);
+    composite(folder, "Two",
+              subs(Folder::sub("M", "M.xml")) + exports(export_port("data", "M", "numbers", "one") +
+                                                        export_port("data", "M", "numbers", "other")));
+    CHECK_THAT(
+        error_of(folder, folder.application(Folder::sub("T", "Two.xml") + Folder::sub("P", "P.xml"),
+                                            Folder::connect("data", "T", "one", "P", "numbers") +
+                                                Folder::connect("data", "T", "other", "P", "numbers"))),
+        Catch::Contains("app.xml:8: connection T.M.numbers -> P.numbers is listed 2 times"));
+}
+
 TEST_CASE("a dependency on a composite is one on each of its components") {
     const Folder folder;
     arm(folder);

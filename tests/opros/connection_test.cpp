@@ -51,6 +51,41 @@ TEST_CASE("a method that the provided port lacks is an error") {
     CHECK_THAT(message, Catch::Contains("app.xml:7: component 'M' has no port 'opros.symbol'"));
 }
 
+TEST_CASE("a connection that is listed again is one error that says where it stood first; values come once") {
+    const Folder folder;
+    folder.component("M", "maker");
+    folder.component("P", "printer");
+    std::string connections = Folder::connect("data", "M", "numbers", "P", "numbers") +
+                              Folder::connect("event", "M", "news", "P", "news");
+    for (int i = 0; i < 3; ++i) connections += Folder::connect("event", "M", "news", "P", "news");
+    const auto file = folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"), connections);
+    CHECK_THAT(setup_error(file, test_options(folder)),
+               Catch::Contains("app.xml:9: connection M.news -> P.news is listed 4 times, first at ") &&
+                   Catch::Contains("app.xml:8; "));
+    tandem::engine::Application application(file, test_options(folder));
+    application.start();
+    for (int i = 0; i < 5; ++i) application.step("M");
+    CHECK(recorder(application, "P").events == 5);
+}
+
+TEST_CASE("a required port has one provider; who would be the second is an error") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>", "<property name=\"calls\">yes</property>");
+    folder.component("P", "printer");
+    const auto file =
+        folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml") + Folder::sub("Q", "P.xml"),
+                           Folder::connect("service", "M", "math", "P", "math") +
+                               Folder::connect("service", "M", "math", "Q", "math"));
+    CHECK_THAT(setup_error(file, test_options(folder)),
+               Catch::Contains("app.xml:8: required port M.math is connected to P.math already, ") &&
+                   Catch::Contains("app.xml:7; "));
+    tandem::engine::Application application(file, test_options(folder));
+    application.start();
+    application.step("M");
+    CHECK(recorder(application, "P").calls.size() == 1);
+    CHECK(recorder(application, "Q").calls.empty());
+}
+
 namespace {
 struct Notes {
     virtual ~Notes() = default;

@@ -62,6 +62,20 @@ TEST_CASE("tandem opros check tells every fault of an application in a line of i
     CHECK(json.json()["faults"].size() == 9);
 }
 
+TEST_CASE("tandem opros check tells a connection that is listed again and again in one line") {
+    const Folder folder;
+    folder.component("M", "maker");
+    folder.component("P", "printer");
+    std::string connections;
+    for (int i = 0; i < 6000; ++i) connections += Folder::connect("data", "M", "numbers", "P", "numbers");
+    const auto result =
+        check(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"), connections));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.says("app.xml:8: connection M.numbers -> P.numbers is listed 6000 times, first at "));
+    CHECK(result.says("app: 1 fault\n"));
+}
+
 TEST_CASE("tandem opros check refuses a file that is no application in one line") {
     const Folder folder;
     const auto result = check(folder.write("bad.xml", "<package_profile>\n<name>x</nam>"));

@@ -109,6 +109,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     engine::WorkerPool no_threads(1, false);
     std::vector<std::unique_ptr<engine::Link>> links;
     for (const auto& connection : profile.connections) {
+        if (!connection.error.empty()) continue; // told by whoever read the profile
         const auto source = components.find(connection.source.component),
                    target = components.find(connection.target.component);
         if (source == components.end() || target == components.end()) continue;

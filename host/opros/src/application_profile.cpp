@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/src/repeated_connections.hpp"
 #include "host/opros/src/xml_file.hpp"
 
 #include <set>
@@ -79,6 +80,7 @@ void read_connections(const XmlFile& xml, const pugi::xml_node& root, const Name
             connection.error = unknown_component(names, connection.target.component);
         profile.connections.push_back(std::move(connection));
     }
+    mark_repeated(profile.connections);
     for (const pugi::xml_node& node : root.child("coordination").children("depends")) {
         Dependency dependency{xml.place(node), xml.required_attribute(node, "source"),
                               xml.required_attribute(node, "target")};

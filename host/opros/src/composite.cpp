@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/composite.hpp"
 
+#include "host/opros/src/repeated_connections.hpp"
+
 #include <algorithm>
 #include <map>
 
@@ -20,6 +22,7 @@ class Expansion {
             behind(connection, connection.source);
             behind(connection, connection.target);
         }
+        mark_repeated(flat_.connections); // a port may be exported under two names
     }
     ApplicationProfile result() && { return std::move(flat_); }
 
