@@ -116,21 +116,25 @@ void event(Session& session) {
 }
 
 void tick(Session& session) {
+    constexpr std::int64_t second_ns = 1'000'000'000, period_ns = 1'000'000;
     const int count = session.limits().samples >= 50'000 ? 10'000 : 1'000;
-    timespec next{};
-    clock_gettime(CLOCK_MONOTONIC, &next);
-    for (int i = 0; i < count; ++i) {
-        next.tv_nsec += 1'000'000;
-        if (next.tv_nsec >= 1'000'000'000) {
-            next.tv_nsec -= 1'000'000'000;
-            ++next.tv_sec;
-        }
-        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &next, nullptr);
+    const auto now_ns = [] {
         timespec now{};
         clock_gettime(CLOCK_MONOTONIC, &now);
-        session.result(
-            static_cast<double>((now.tv_sec - next.tv_sec) * 1'000'000'000 + now.tv_nsec - next.tv_nsec));
+        return now.tv_sec * second_ns + now.tv_nsec;
+    };
+    TickCounts counts;
+    std::int64_t next = now_ns();
+    for (int i = 0; i < count; ++i) {
+        next += period_ns;
+        const timespec until{next / second_ns, next % second_ns};
+        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+        const std::int64_t late = now_ns() - next;
+        session.result(static_cast<double>(late));
+        counts.add(late, period_ns);
+        next += late / period_ns * period_ns;
     }
+    session.counted(counts);
 }
 
 } // namespace

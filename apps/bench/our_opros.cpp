@@ -146,7 +146,7 @@ void event(Session& session) {
 void run_for(BenchParts& parts, engine::Application& application, std::uint64_t periods) {
     std::this_thread::sleep_for(std::chrono::nanoseconds(period_ns) * periods);
     application.stop();
-    if (parts.ticks().ticks == 0) throw std::runtime_error("the component has not ticked");
+    if (parts.ticks().ticks() == 0) throw std::runtime_error("the component has not ticked");
 }
 
 /// How much later than its time onExecute is called.
@@ -157,7 +157,8 @@ void lateness(Session& session) {
     run_for(parts, components.application(),
             std::min<std::uint64_t>(session.limits().samples,
                                     session.limits().samples >= 50'000 ? 10'000 : 1'000));
-    for (const std::int64_t late : parts.ticks().lateness_ns) session.result(static_cast<double>(late));
+    for (const std::int64_t late : parts.ticks().lateness_ns()) session.result(static_cast<double>(late));
+    session.counted(parts.ticks().counts());
 }
 
 /// By how much the mean period differs from 1 ms; each tick is accounted for.
@@ -165,13 +166,10 @@ void drift(Session& session) {
     Components components(session, "BenchTick.xml");
     BenchParts& parts = components.part("From");
     run_for(parts, components.application(), session.limits().samples >= 50'000 ? 100'100 : 1'000);
-    const TickRecord& record = parts.ticks();
-    const std::int64_t periods = record.last_ns / period_ns - record.first_ns / period_ns;
     const auto stats = components.application().stats().at(0);
     std::fprintf(stderr, "%s\n", stats.c_str());
-    session.result(
-        std::abs(static_cast<double>(record.last_ns - record.first_ns) / static_cast<double>(periods) -
-                 static_cast<double>(period_ns)));
+    session.result(std::abs(parts.ticks().mean_drift_ns()));
+    session.counted(parts.ticks().counts());
 }
 
 } // namespace

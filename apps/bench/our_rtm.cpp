@@ -5,6 +5,7 @@
 #include "apps/bench/allocation_count.hpp"
 #include "apps/bench/cases.hpp"
 #include "apps/bench/session.hpp"
+#include "apps/bench/tick_record.hpp"
 #include "apps/bench/time_each.hpp"
 
 #include "BenchEchoSkel.h"
@@ -49,10 +50,7 @@ class Parts : public RTC::DataFlowComponentBase {
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
         timespec now{};
         clock_gettime(CLOCK_MONOTONIC, &now);
-        last_ns = std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-        if (cycles++ == 0) first_ns = last_ns;
-        // Cycles are due at whole multiples of the period.
-        if (lateness_ns.size() < lateness_ns.capacity()) lateness_ns.push_back(last_ns % period_ns);
+        record.tick(std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec);
         return RTC::RTC_OK;
     }
 
@@ -65,9 +63,7 @@ class Parts : public RTC::DataFlowComponentBase {
     RTC::CorbaPort provided{"provided"}, required{"required"};
     Echo servant;
     RTC::CorbaConsumer<Bench::Echo> echo;
-    std::vector<std::int64_t> lateness_ns;
-    std::int64_t first_ns = 0, last_ns = 0;
-    std::uint64_t cycles = 0;
+    TickRecord record;
 };
 
 /// Two of them in this process's manager, From and To, connected by `interface`.
@@ -156,11 +152,11 @@ void count_allocations(Session& session) {
 
 /// Runs From for so many periods, and stops.
 void tick_for(Components& components, std::uint64_t periods) {
-    components.part("From").lateness_ns.reserve(periods);
+    components.part("From").record.prepare(period_ns, periods);
     components.manager().activateComponentOrThrow("From");
     std::this_thread::sleep_for(std::chrono::nanoseconds(period_ns) * periods);
     components.part("From").deactivate(0);
-    if (components.part("From").cycles == 0) throw std::runtime_error("the component has not ticked");
+    if (components.part("From").record.ticks() == 0) throw std::runtime_error("the component has not ticked");
 }
 
 /// How much later than its time onExecute is called.
@@ -169,8 +165,9 @@ void lateness(Session& session) {
     Components components("", std::chrono::microseconds(spin ? 200 : 0));
     tick_for(components, std::min<std::uint64_t>(session.limits().samples,
                                                  session.limits().samples >= 50'000 ? 10'000 : 1'000));
-    for (const std::int64_t late : components.part("From").lateness_ns)
-        session.result(static_cast<double>(late));
+    const TickRecord& record = components.part("From").record;
+    for (const std::int64_t late : record.lateness_ns()) session.result(static_cast<double>(late));
+    session.counted(record.counts());
 }
 
 /// By how much the mean period differs from 1 ms; each tick is accounted for.
@@ -180,14 +177,10 @@ void drift(Session& session) {
     Parts& parts = components.part("From");
     const auto ticks =
         dynamic_cast<RTC_exp::PeriodicExecutionContext&>(*parts.getOwnContexts().at(0)).ticks();
-    const std::int64_t periods = parts.last_ns / period_ns - parts.first_ns / period_ns;
-    std::fprintf(
-        stderr, "rtm: %llu cycles, %llu overruns, %llu periods skipped, %lld periods from first to last\n",
-        static_cast<unsigned long long>(ticks.cycles), static_cast<unsigned long long>(ticks.overruns),
-        static_cast<unsigned long long>(ticks.skipped), static_cast<long long>(periods));
-    session.result(
-        std::abs(static_cast<double>(parts.last_ns - parts.first_ns) / static_cast<double>(periods) -
-                 static_cast<double>(period_ns)));
+    fmt::print(stderr, "rtm: {} cycles, {} overruns, {} periods skipped\n", ticks.cycles, ticks.overruns,
+               ticks.skipped);
+    session.result(std::abs(parts.record.mean_drift_ns()));
+    session.counted(parts.record.counts());
 }
 
 } // namespace

@@ -189,6 +189,7 @@ Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores)
     Control& control = stage.control();
     for (const char* text : control.failure)
         if (*text != '\0') outcome.failure = text;
+    if (control.has_tick_counts) outcome.tick_counts = control.tick_counts;
     if (outcome.failure.empty())
         outcome.samples.assign(control.samples(), control.samples() + control.sample_count.load());
     return outcome;

@@ -5,12 +5,15 @@
 #include "apps/bench/regime.hpp"
 #include "apps/bench/session.hpp"
 
+#include <optional>
+
 namespace tandem::bench {
 
 struct Outcome {
     std::vector<double> samples;
     std::string failure; ///< one line; empty if it went well
-    double foreign = 0;  ///< share of the machine that other processes got meanwhile, 0 to 1
+    std::optional<TickCounts> tick_counts;
+    double foreign = 0; ///< share of the machine that other processes got meanwhile, 0 to 1
 };
 
 Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores);

@@ -15,7 +15,8 @@ namespace tandem::bench {
 namespace {
 
 constexpr const char* program = "/usr/bin/cyclictest";
-constexpr int widest_us = 20'000;
+constexpr int widest_us = 100'000;
+constexpr std::int64_t period_ns = 1'000'000;
 
 void tick(Session& session) {
     const int count = session.limits().samples >= 50'000 ? 10'000 : 1'000;
@@ -24,11 +25,22 @@ void tick(Session& session) {
     const std::unique_ptr<FILE, int (*)(FILE*)> out(popen(command.c_str(), "re"), pclose);
     if (!out) throw std::runtime_error("cannot start cyclictest");
     char line[256];
-    int late_us = 0, times = 0, seen = 0;
-    while (std::fgets(line, sizeof line, out.get()) != nullptr)
+    int late_us = 0, times = 0, seen = 0, latest_us = 0, beyond = 0;
+    TickCounts counts;
+    const auto sample = [&](int us) {
+        session.result(us * 1e3);
+        counts.add(us * std::int64_t{1000}, period_ns);
+        ++seen;
+    };
+    while (std::fgets(line, sizeof line, out.get()) != nullptr) {
         if (line[0] != '#' && std::sscanf(line, "%d %d", &late_us, &times) == 2)
-            for (int i = 0; i < times && seen < count; ++i, ++seen) session.result(late_us * 1e3);
+            for (int i = 0; i < times && seen < count; ++i) sample(late_us);
+        std::sscanf(line, "# Max Latencies: %d", &latest_us);
+        std::sscanf(line, "# Histogram Overflows: %d", &beyond);
+    }
+    for (int i = 0; i < beyond && seen < count; ++i) sample(latest_us); // wider than the histogram
     if (seen == 0) throw std::runtime_error("cyclictest printed no histogram");
+    session.counted(counts);
 }
 
 } // namespace

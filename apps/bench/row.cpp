@@ -47,6 +47,10 @@ Json row_json(const Row& row, const Machine& machine) {
                 {"foreign", row.foreign},
                 {"runs", row.runs},
                 {"curve", curve_json(s.curve)}});
+    if (row.tick_counts) {
+        out["overruns"] = row.tick_counts->overruns;
+        out["periods_skipped"] = row.tick_counts->skipped;
+    }
     return out;
 }
 
@@ -78,6 +82,7 @@ Row row_from(const Json& in) {
     row.foreign = in.at("foreign");
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
+    if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
     return row;
 }
 

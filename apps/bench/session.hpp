@@ -4,6 +4,7 @@
 #pragma once
 #include "apps/bench/case.hpp"
 #include "apps/bench/clock.hpp"
+#include "apps/bench/tick_record.hpp"
 
 #include <atomic>
 #include <span>
@@ -26,6 +27,8 @@ struct Control {
     std::atomic<std::uint32_t> arrived, finished;
     std::atomic<std::uint64_t> sample_count;
     char failure[2][text_bytes];
+    bool has_tick_counts;
+    TickCounts tick_counts;
     double* samples() { return reinterpret_cast<double*>(this + 1); } // as many as the limits say
 };
 
@@ -64,6 +67,12 @@ class Session {
     }
     void end() { control_.sample_count.store(kept_, std::memory_order_release); }
     void result(double value); ///< One figure of a stream or a count.
+
+    /// How many of a case's ticks came a period late or more.
+    void counted(const TickCounts& counts) {
+        control_.tick_counts = counts;
+        control_.has_tick_counts = true;
+    }
 
     /// One side tells the other that it has enough.
     void finish() { control_.finished.store(1, std::memory_order_release); }

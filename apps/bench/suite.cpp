@@ -122,6 +122,10 @@ Report measure(const Plan& plan) {
             if (outcome.failure.empty()) {
                 summaries[i].push_back(summarize(std::move(outcome.samples)));
                 report.rows[i].runs.push_back(summaries[i].back().p50);
+                if (outcome.tick_counts) {
+                    if (!report.rows[i].tick_counts) report.rows[i].tick_counts.emplace();
+                    report.rows[i].tick_counts->add(*outcome.tick_counts);
+                }
                 report.rows[i].foreign = std::max(report.rows[i].foreign, outcome.foreign);
             } else {
                 failures[i] = outcome.failure;

@@ -23,6 +23,9 @@ std::string line_of(const Row& row, std::size_t width) {
         "{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width, row.unit, row.cores,
         s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
         row.regime +
+            (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped", row.tick_counts->overruns,
+                                           row.tick_counts->skipped)
+                             : "") +
             (row.disturbed() ? fmt::format(" DISTURBED by others ({:.0f} %)", row.foreign * 100) : ""));
 }
 

@@ -27,6 +27,18 @@ TEST_CASE("A report survives JSON in both directions") {
     CHECK(after.find("peer/x") == nullptr);
 }
 
+TEST_CASE("A row of ticks says how many came late by a period or more and how many periods that cost") {
+    Row ticks = row("ours/opros/tick/8/blocking", {900});
+    ticks.tick_counts = TickCounts{2, 5};
+    const Report before = report({ticks, row("ours/a", {200})});
+    const Report after = from_json(to_json(before));
+    REQUIRE(after.rows.at(0).tick_counts);
+    CHECK(after.rows[0].tick_counts->overruns == 2);
+    CHECK(after.rows[0].tick_counts->skipped == 5);
+    CHECK_FALSE(after.rows.at(1).tick_counts);
+    CHECK_THAT(table_text(after), Catch::Contains(" 2 overruns, 5 periods skipped\n"));
+}
+
 TEST_CASE("What is no report is refused in one line") {
     for (const char* text : {"", "{}", "[1,2]", R"({"tandem_bench":99})"}) {
         INFO(text);

@@ -88,12 +88,12 @@ class Parts : public Component, public BenchParts, public IDoubler {
         delete data;
         return value;
     }
-    virtual TickRecord& ticks() { return ticks_; }
+    virtual const tandem::bench::TickRecord& ticks() const { return ticks_; }
 
   protected:
     virtual ReturnType onInitialize() {
-        period_ns_ = std::atoll(getProperty("period_ns").c_str());
-        ticks_.lateness_ns.reserve(static_cast<std::size_t>(std::atoll(getProperty("samples").c_str())));
+        ticks_.prepare(std::atoll(getProperty("period_ns").c_str()),
+                       static_cast<std::size_t>(std::atoll(getProperty("samples").c_str())));
         return OPROS_SUCCESS;
     }
     virtual ReturnType onStart() { return OPROS_SUCCESS; }
@@ -105,13 +105,8 @@ class Parts : public Component, public BenchParts, public IDoubler {
         heard_.store(*static_cast<EventData<double>*>(event)->getContentData(), std::memory_order_release);
         return OPROS_SUCCESS;
     }
-    /// Ticks fall on multiples of the period.
     virtual ReturnType onExecute() {
-        const std::int64_t now = now_ns();
-        if (ticks_.ticks++ == 0) ticks_.first_ns = now;
-        ticks_.last_ns = now;
-        if (ticks_.lateness_ns.size() < ticks_.lateness_ns.capacity())
-            ticks_.lateness_ns.push_back(now % period_ns_);
+        ticks_.tick(now_ns());
         return OPROS_SUCCESS;
     }
 
@@ -125,8 +120,7 @@ class Parts : public Component, public BenchParts, public IDoubler {
     DoublerRequired* required_;
     EventData<double> event_;
     std::atomic<double> heard_{0};
-    TickRecord ticks_;
-    std::int64_t period_ns_ = 1;
+    tandem::bench::TickRecord ticks_;
 };
 
 } // namespace

@@ -2,14 +2,9 @@
 // What the bench asks of its OPRoS component, which does it through its ports.
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include "apps/bench/tick_record.hpp"
 
-struct TickRecord {
-    std::uint64_t ticks = 0;
-    std::int64_t first_ns = 0, last_ns = 0; ///< of CLOCK_MONOTONIC
-    std::vector<std::int64_t> lateness_ns;  ///< as many as there was room for
-};
+#include <vector>
 
 class BenchParts {
   public:
@@ -23,5 +18,5 @@ class BenchParts {
     /// Takes the next double that has come, -1 when there is none.
     virtual double pop() = 0;
     /// [while it does not run]
-    virtual TickRecord& ticks() = 0;
+    virtual const tandem::bench::TickRecord& ticks() const = 0;
 };

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ticks of a periodic component as it sees them, counted as cyclictest counts its own: a tick is late
+// against the first period since the tick before, so that one 3.2 periods late is one sample of 3.2 periods.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tandem::bench {
+
+struct TickCounts {
+    std::uint64_t overruns = 0; ///< ticks a period late or more
+    std::uint64_t skipped = 0;  ///< periods whose tick came in a later one or not at all
+
+    /// A sample that is so late.
+    void add(std::int64_t late_ns, std::int64_t period_ns) {
+        if (late_ns < period_ns) return;
+        ++overruns;
+        skipped += static_cast<std::uint64_t>(late_ns / period_ns);
+    }
+    void add(const TickCounts& other) {
+        overruns += other.overruns;
+        skipped += other.skipped;
+    }
+};
+
+class TickRecord {
+  public:
+    /// Keeps the lateness of so many ticks and counts all. Periods begin at whole multiples of their length.
+    void prepare(std::int64_t period_ns, std::size_t samples) {
+        period_ns_ = period_ns;
+        lateness_ns_.reserve(samples);
+    }
+
+    /// [tick-thread] At the beginning of a tick, in ns of CLOCK_MONOTONIC.
+    void tick(std::int64_t now) {
+        if (ticks_++ == 0) {
+            first_ns_ = now;
+            due_ns_ = now - now % period_ns_;
+        }
+        last_ns_ = now;
+        const std::int64_t late = now - due_ns_;
+        if (late < 0) return; // at once after a late one, which has served this period, too
+        counts_.add(late, period_ns_);
+        due_ns_ += (late / period_ns_ + 1) * period_ns_;
+        if (lateness_ns_.size() < lateness_ns_.capacity()) lateness_ns_.push_back(late);
+    }
+
+    std::uint64_t ticks() const { return ticks_; }
+    const TickCounts& counts() const { return counts_; }
+    const std::vector<std::int64_t>& lateness_ns() const { return lateness_ns_; }
+    /// From the first tick to the last, in ns more or less than so many whole periods.
+    double mean_drift_ns() const {
+        const std::int64_t periods = last_ns_ / period_ns_ - first_ns_ / period_ns_;
+        if (periods == 0) return 0;
+        return static_cast<double>(last_ns_ - first_ns_) / static_cast<double>(periods) -
+               static_cast<double>(period_ns_);
+    }
+
+  private:
+    std::int64_t period_ns_ = 1, first_ns_ = 0, last_ns_ = 0, due_ns_ = 0;
+    std::uint64_t ticks_ = 0;
+    TickCounts counts_;
+    std::vector<std::int64_t> lateness_ns_;
+};
+
+} // namespace tandem::bench
