@@ -129,3 +129,28 @@ TEST_CASE(
                    " -DCMAKE_PREFIX_PATH=" + tree.moved),
                Catch::Contains("version=2.1.0"));
 }
+
+TEST_CASE(
+    "a project with an OpenRTM finder of its own that insists on Doxygen builds with what the page names") {
+    const Installed tree;
+    tree.folder.write("FindOpenRTM.cmake", "find_package(PkgConfig REQUIRED)\n"
+                                           "pkg_check_modules(OPENRTM REQUIRED openrtm-aist)\n");
+    tree.folder.write("Doxyfile", "HTML_OUTPUT = pages\n");
+    tree.folder.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.16)\nproject(x CXX)\n"
+                                        "set(CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR})\n"
+                                        "find_package(OpenRTM REQUIRED)\n"
+                                        "find_package(Doxygen)\n"
+                                        "if(NOT DOXYGEN_FOUND)\n"
+                                        "  message(FATAL_ERROR \"Doxygen was not found.\")\n"
+                                        "endif()\n"
+                                        "add_custom_target(doc ALL ${DOXYGEN_EXECUTABLE} Doxyfile\n"
+                                        "  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})\n"
+                                        "install(DIRECTORY pages DESTINATION doc)\n");
+    const std::string environment = "env PATH=" + tree.bin + ":/usr/bin:/bin:" + tree.moved +
+                                    "/share/tandem/rtm/stand-ins PKG_CONFIG_PATH=" + tree.moved +
+                                    "/" LIBDIR "/pkgconfig ";
+    run(environment + "cmake -S " + tree.folder.path().string() + " -B " + tree.at("b"));
+    run(environment + "cmake --build " + tree.at("b"));
+    run(environment + "cmake --install " + tree.at("b") + " --prefix " + tree.at("installed"));
+    CHECK(fs::is_directory(tree.at("installed/doc/pages")));
+}
