@@ -83,6 +83,20 @@ TEST_CASE("rtm_host refuses a bad module in one line that names it") {
     CHECK_THAT(result.errors, Catch::Contains(bad));
 }
 
+TEST_CASE("rtm_host warns of a component whose destructor hangs, runs it and leaves without it") {
+    const Folder folder;
+    const auto conf = folder.write("rtc.conf", "manager.modules.load_path: " ZOO "/rtm\n"
+                                               "manager.modules.preload: rtc_destructor_hangs.so\n"
+                                               "manager.components.precreate: Endless\n"
+                                               "manager.components.preactivation: Endless0\n");
+    const auto result = run(std::string(RTM_HOST) + " --probe-timeout 8 -f " + conf.string());
+    INFO(result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.errors, Catch::Contains("the destructor of Endless does not return; the host"));
+    CHECK_THAT(result.errors, Catch::Contains("Endless0: its destructor does not return"));
+    CHECK_THAT(result.errors, Catch::Contains("leaving without it"));
+}
+
 TEST_CASE("a host takes a plugin of the wrong model for what it is") {
     const Folder folder;
     folder.component("Bad", RTM_PLUGIN);

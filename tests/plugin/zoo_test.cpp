@@ -46,6 +46,9 @@ const std::vector<Species> rtm_only{
     {"rtc_factory_returns_null", {"component type Nothing cannot be created", "NULL"}},
     {"rtc_factory_hangs", {"did not return from the constructor of Waiter within 1 s"}, true},
     {"rtc_destructor_crashes", {" in the destructor of Fragile"}},
+    {"rtc_factory_hangs_after_a_destructor",
+     {"did not return from the constructor of Waiter within 1 s"},
+     true},
     {"no_entry", {"does not export no_entryInit"}},
 };
 
@@ -56,7 +59,7 @@ std::string refusal(const Species& species, const std::string& model) {
     const std::string file = ZOO "/" + model + "/" + species.name + ".so";
     try {
         tandem::plugin::probe(how, "load-" + model, file,
-                              rtm ? std::vector{init} : std::vector<std::string>{});
+                              rtm ? std::vector<std::string>{init, "250"} : std::vector<std::string>{});
     } catch (const tandem::plugin::Error& error) {
         return error.what();
     }
@@ -90,6 +93,6 @@ TEST_CASE("a bad RTC module is refused in one line that says what it did and whe
 
 TEST_CASE("a good plugin of either model passes its probe") {
     CHECK_NOTHROW(tandem::plugin::probe({OPROS_HOST, std::chrono::seconds(60)}, "load-opros", OPROS_PLUGIN));
-    CHECK_NOTHROW(
-        tandem::plugin::probe({RTM_HOST, std::chrono::seconds(60)}, "load-rtm", RTM_PLUGIN, {"HWCompInit"}));
+    CHECK_NOTHROW(tandem::plugin::probe({RTM_HOST, std::chrono::seconds(60)}, "load-rtm", RTM_PLUGIN,
+                                        {"HWCompInit", "60000"}));
 }

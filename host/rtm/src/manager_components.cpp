@@ -199,13 +199,4 @@ void Manager::notifyFinalized(RTObject_impl* comp) {
     m_impl->components.erase(found);
 }
 
-void Manager::cleanupComponents() {
-    std::vector<Impl::Component> leaving;
-    {
-        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
-        leaving.swap(m_impl->finalized);
-    }
-    for (auto& component : leaving) component.factory->destroy(component.object);
-}
-
 } // namespace RTC

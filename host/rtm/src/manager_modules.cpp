@@ -67,7 +67,7 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
         const auto file = plugin::find_library(name, m_impl->module_dirs());
         const auto contents = plugin::read_contents(file);
         const std::string symbol = function.empty() ? init_symbol(file, contents, base_name(name)) : function;
-        if (m_impl->options.probe) plugin::probe(*m_impl->options.probe, probe_load, file, {symbol});
+        if (m_impl->options.probe) probe_module(*m_impl->options.probe, file, symbol, m_impl->log);
         const auto library = plugin::Library::load(file);
         const auto init = library->symbol<void(Manager*)>(symbol);
         {

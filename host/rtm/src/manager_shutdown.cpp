@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's end: nothing a component does, or does not do, keeps it from coming.
+#include "bounded_call.hpp"
 #include "manager_impl.hpp"
 #include <algorithm>
 #include <atomic>
@@ -9,18 +10,8 @@
 namespace RTC {
 namespace {
 
-// False: the component's code that this calls does not return in time. Its thread is left behind.
 bool returns(std::function<void()> call) {
-    std::packaged_task<void()> task(std::move(call));
-    auto done = task.get_future();
-    std::thread thread(std::move(task));
-    if (done.wait_for(2 * host_options().stop_timeout) != std::future_status::ready) {
-        thread.detach();
-        return false;
-    }
-    thread.join();
-    done.get(); // what it threw is the caller's
-    return true;
+    return returns_within(2 * host_options().stop_timeout, std::move(call));
 }
 
 void deactivate(RTObject_impl* component) {
@@ -52,6 +43,21 @@ bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
     return ended == all;
 }
 
+void Manager::cleanupComponents() {
+    std::vector<Impl::Component> leaving;
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        leaving.swap(m_impl->finalized);
+    }
+    for (auto& one : leaving) {
+        const std::string name(one.object->getInstanceName());
+        if (returns([one] { one.factory->destroy(one.object); })) continue;
+        Logger& rtclog = m_impl->log;
+        RTC_ERROR(("%s: its destructor does not return; the component is left as it is", name.c_str()));
+        m_impl->ended_in_order = false;
+    }
+}
+
 bool Manager::shutdown() {
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
@@ -77,8 +83,8 @@ bool Manager::shutdown() {
     if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready) all_ended = false;
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
     close_log_streams(*m_impl);
-    m_impl->ended_in_order = all_ended;
-    return all_ended;
+    if (!all_ended) m_impl->ended_in_order = false;
+    return m_impl->ended_in_order;
 }
 
 } // namespace RTC

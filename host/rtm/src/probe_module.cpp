@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "probe_module.hpp"
 
+#include "bounded_call.hpp"
 #include "host/plugin/library.hpp"
 #include "manager_impl.hpp"
 #include <rtm/RTObject.h>
@@ -17,20 +18,39 @@ Manager& private_manager() {
 
 } // namespace
 
-void Manager::tryFactories(const std::function<void(const std::string&)>& before) {
+std::string Manager::tryFactories(const std::function<void(const std::string&)>& before,
+                                  std::chrono::nanoseconds patience) {
+    std::string stuck;
     for (const auto& factory : m_impl->factories) {
         const std::string type = factory->profile().getProperty("implementation_id");
         before("the constructor of " + type);
         RTObject_impl& component = makeOrThrow(*factory);
+        if (!stuck.empty()) continue;
         before("the destructor of " + type);
         component.finalizePorts();
         component.finalizeContexts();
-        factory->destroy(&component);
+        if (!returns_within(patience, [&] { factory->destroy(&component); })) stuck = type;
     }
+    return stuck;
+}
+
+void probe_module(const tandem::plugin::Probe& how, const std::string& library, const std::string& init,
+                  Logger& rtclog) {
+    // For all destructors: those that wait for a thread of theirs that never ends are no reason to do without
+    // them.
+    const auto patience = how.bound / 4;
+    const std::string stuck =
+        tandem::plugin::probe(how, probe_load, library, {init, std::to_string(patience.count())});
+    if (!stuck.empty())
+        RTC_WARN(
+            ("module %s: the destructor of %s does not return; the host will leave such components as they "
+             "are when they exit",
+             library.c_str(), stuck.c_str()));
 }
 
 void try_module(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report) {
     const std::string init = task.arguments.at(0);
+    const std::chrono::milliseconds patience(std::stol(task.arguments.at(1)));
     report.stage("its static constructors");
     const auto library = tandem::plugin::Library::load(task.library);
     library->symbol<void(Manager*)>(init); // says so if there is none
@@ -38,7 +58,8 @@ void try_module(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeRepo
     report.stage(init + "()");
     manager.loadOrThrow(task.library, init);
     try {
-        manager.tryFactories([&](const std::string& function) { report.stage(function); });
+        const auto before = [&](const std::string& function) { report.stage(function); };
+        report.finish(manager.tryFactories(before, patience));
     } catch (const ManagerError& e) {
         throw ManagerError("module " + task.library + ": " + e.what());
     }

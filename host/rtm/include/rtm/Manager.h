@@ -82,9 +82,11 @@ class Manager {
     ReturnCode_t load(const std::string& file_name, const std::string& init_function);
     /// Ours: throws ManagerError. `init_function` empty: `<file base name>Init`.
     void loadOrThrow(const std::string& file_name, const std::string& init_function);
-    /// Ours: makes and deletes one component of each type, uninitialized; `before` is told each step. Throws
-    /// ManagerError.
-    void tryFactories(const std::function<void(const std::string&)>& before);
+    /// Ours: makes and deletes one component of each type, uninitialized; `before` is told each step. The
+    /// type whose destructor does not return within `patience`, after which no other is deleted; empty as a
+    /// rule. Throws ManagerError.
+    std::string tryFactories(const std::function<void(const std::string&)>& before,
+                             std::chrono::nanoseconds patience);
     void unload(const char*) {}
     void unloadAll() {}
     std::vector<coil::Properties> getLoadedModules();
