@@ -34,6 +34,9 @@ TEST_CASE("tandem opros new refuses in one line what it cannot make and touches 
     CHECK_THAT(refused("", folder.path()), Catch::Contains("expected letters"));
     CHECK_THAT(refused("virtual", folder.path()), Catch::Contains("a word of C++"));
     CHECK_THAT(refused("Component", folder.path()), Catch::Contains("the OPRoS API"));
+    CHECK_THAT(refused("getComponent", folder.path()), Catch::Contains("the OPRoS API"));
+    CHECK_THAT(refused("NULL", folder.path()), Catch::Contains("a word of C++"));
+    CHECK_THAT(refused("string", folder.path()), Catch::Contains("the system's <string.h>"));
     CHECK_THAT(refused("Arm", folder.path() / "nowhere"), Catch::Contains("cannot be made"));
     const auto left = std::filesystem::directory_iterator(folder.path());
     CHECK(std::distance(begin(left), end(left)) == 1);

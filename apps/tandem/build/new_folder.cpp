@@ -35,7 +35,7 @@ const std::set<std::string_view> taken{
     "static_cast", "std",      "struct",     "switch",    "template",  "this",         "thread_local",
     "throw",       "true",     "try",        "typedef",   "typeid",    "typename",     "union",
     "unsigned",    "using",    "virtual",    "void",      "volatile",  "wchar_t",      "while",
-    "xor",         "xor_eq"};
+    "xor",         "xor_eq",   "NULL",       "EOF"};
 
 } // namespace
 
@@ -53,6 +53,13 @@ void require_identifier(const std::string& name) {
 
 void write_new_folder(const fs::path& folder, const FilesWithText& files) {
     std::error_code error;
+    const std::string header = folder.filename().string() + ".h";
+    if (fs::exists("/usr/include/" + header,
+                   error)) // the folder will be the first to be searched for headers
+        throw std::runtime_error(
+            "'" + folder.filename().string() +
+            "' cannot be the name of a component, its header would be taken for the system's <" + header +
+            ">");
     if (fs::exists(folder, error))
         throw std::runtime_error(folder.string() + " exists; choose another name, or remove it first");
     if (!fs::create_directory(folder, error))

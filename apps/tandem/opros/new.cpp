@@ -13,9 +13,10 @@
 namespace tandem::command {
 namespace {
 
-// What the skeleton uses of the API: a class of the same name would be another one.
-constexpr std::array<const char*, 5> of_the_api{"Component", "Event", "InputDataPort", "OutputDataPort",
-                                                "ReturnType"};
+// What the skeleton uses of the API, or defines: a class of the same name would be another one.
+constexpr std::array<const char*, 8> of_the_api{"Component",        "Event",        "InputDataPort",
+                                                "OutputDataPort",   "getComponent", "getVersion",
+                                                "releaseComponent", "ReturnType"};
 
 } // namespace
 
