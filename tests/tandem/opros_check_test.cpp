@@ -62,6 +62,28 @@ TEST_CASE("tandem opros check tells every fault of an application in a line of i
     CHECK(json.json()["faults"].size() == 9);
 }
 
+TEST_CASE("tandem opros check reads the type profiles that a component refers to, if they are there") {
+    const Folder folder;
+    folder.write("P.xml",
+                 "<component_profile><name>P</name><execution_environment><library_name>printer"
+                 "</library_name></execution_environment><execution_semantics><type>passive</type>"
+                 "</execution_semantics><data_type_list><reference>Points.xml</reference>"
+                 "<reference>Lost.xml</reference></data_type_list><ports><service_port><name>math</name>"
+                 "<type>Math</type><usage>provided</usage><reference>Math.xml</reference></service_port>"
+                 "</ports></component_profile>");
+    const auto application = folder.application(Folder::sub("P", "P.xml"));
+    CHECK(check(application).exit_code == 0);
+    folder.write("Math.xml", "<service_port_type_profile>\n<service_port_type><type_name>Math</type_name>\n"
+                             "<method/></service_port_type></service_port_type_profile>");
+    folder.write("Points.xml", "<data_type>\n</data_type>");
+    const auto result = check(application);
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.says("Math.xml:3: "));
+    CHECK(result.says("Points.xml:1: <data_type> lacks its <struct>\n"));
+    CHECK(result.says("app: 2 faults\n"));
+}
+
 TEST_CASE("tandem opros check tells a connection that is listed again and again in one line") {
     const Folder folder;
     folder.component("M", "maker");

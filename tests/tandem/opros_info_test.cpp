@@ -102,3 +102,51 @@ TEST_CASE("tandem opros info finds device libraries where the host finds them") 
     CHECK(info["properties"]["APIName"] == library.string());
     CHECK(info["properties"].size() == 3); // in its three spellings; where the profile lies is not told
 }
+
+TEST_CASE("tandem opros info tells what composites and applications are made of and what types say") {
+    const Folder folder;
+    folder.component("M", "maker");
+    const auto composite = [&](const std::string& name, const std::string& of, const std::string& port,
+                               const std::string& as) {
+        return folder.write(name + ".xml",
+                            "<composite_component_profile><name>" + name + "</name><subcomponents>" +
+                                Folder::sub("In", of) +
+                                "</subcomponents>\n<export_ports><export_port><component_name>In"
+                                "</component_name><port_name>" +
+                                port +
+                                "</port_name><port_type>data</port_type>"
+                                "<export_port_name>" +
+                                as +
+                                "</export_port_name></export_port></export_ports>"
+                                "</composite_component_profile>");
+    };
+    const auto info = [](const std::filesystem::path& file, bool json = false) {
+        std::vector<std::string> arguments{"opros", "info", file, "--plugin-path", FIXTURES};
+        if (json) arguments.emplace_back("--json");
+        return tandem_program(arguments);
+    };
+    composite("Inner", "M.xml", "numbers", "inner");
+    const auto outer = info(composite("Outer", "Inner.xml", "inner", "outer"), true).json();
+    CHECK(outer["kind"] == "composite");
+    CHECK(outer["components"][0]["profile"] == "Inner.xml");
+    CHECK(port(outer, "outer")["type"] == "std::vector<double>");
+    CHECK(port(outer, "outer")["direction"] == "output");
+    CHECK(port(outer, "outer")["of"] == "In.In.numbers");
+    const auto wrong = info(composite("Wrong", "Inner.xml", "nope", "outer"));
+    CHECK(wrong.exit_code == 1);
+    CHECK_THAT(wrong.errors, Catch::Contains("Wrong.xml:2: composite 'In' exports no data port 'nope'"));
+
+    const auto application = info(
+        folder.application(Folder::sub("M", "M.xml"), Folder::connect("data", "M", "numbers", "M", "x")));
+    CHECK(application.says("application  app\n"));
+    CHECK(application.says("M.numbers  M.x"));
+    const auto service = info(folder.write(
+        "s.xml",
+        "<service_port_type_profile><service_port_type><type_name>Arm</type_name><method name=\"Move\" "
+        "return_type=\"bool\"><param index=\"1\"><type>double</type><name>t</name></param></method>"
+        "</service_port_type></service_port_type_profile>"));
+    CHECK(service.says("bool (double t)"));
+    const auto data = info(folder.write(
+        "d.xml", "<data_type><struct name=\"Point\"><item type=\"double\">x</item></struct></data_type>"));
+    CHECK(data.says("Point\nfield  type    default\nx      double"));
+}

@@ -2,6 +2,7 @@
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/opros/port_faults.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
+#include "apps/tandem/opros/type_faults.hpp"
 #include "apps/tandem/text.hpp"
 #include "host/opros/src/composite.hpp"
 #include "host/opros/src/load_component.hpp"
@@ -43,7 +44,9 @@ std::vector<std::string> check_component(const ApplicationProfile& application,
     const auto library = engine::find_component_library(profile, dirs);
     try {
         plugin::require_kind(library, plugin::read_contents(library), plugin::Kind::opros_component);
-        return port_faults(profile, described(library, file, options)["ports"], options.initialize);
+        auto faults = port_faults(profile, described(library, file, options)["ports"], options.initialize);
+        for (std::string& each : type_faults(profile)) faults.push_back(std::move(each));
+        return faults;
     } catch (const plugin::Error& error) {
         throw engine::SetupError(profile.library_place, error.what());
     }

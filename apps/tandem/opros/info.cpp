@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/opros/executor_text.hpp"
+#include "apps/tandem/opros/ports_text.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
+#include "apps/tandem/opros/profile_info.hpp"
 #include "apps/tandem/text.hpp"
 #include "host/opros/src/load_component.hpp"
 #include "host/plugin/find_library.hpp"
@@ -67,23 +69,6 @@ json look(const Found& found, const LookOptions& options) {
     return info;
 }
 
-std::string ports_text(const json& ports) {
-    Table table({"kind", "direction", "name", "type"});
-    for (const json& port : ports) {
-        const bool service = port["kind"] == "service";
-        const std::string type = service                  ? ""
-                                 : port["type"].is_null() ? "any"
-                                                          : port["type"].get<std::string>();
-        table.add({port["kind"], port["direction"], port["name"], type});
-        if (!service || !port.contains("methods")) continue;
-        for (const json& method : port["methods"])
-            table.add({"", "", "",
-                       method["name"].get<std::string>() + ": " + method["signature"].get<std::string>() +
-                           (method["call"] == "nonblocking" ? ", nonblocking" : "")});
-    }
-    return table.empty() ? "no ports\n" : table.text();
-}
-
 std::string text_of(const json& info, const Found& found, const LookOptions& options) {
     std::string text =
         fmt::format("component  {}\nlibrary    {}, {}\n", info["name"].get<std::string>(),
@@ -108,6 +93,12 @@ std::string text_of(const json& info, const Found& found, const LookOptions& opt
 } // namespace
 
 int opros_info(const LookOptions& options) {
+    if (options.file.extension() == ".xml")
+        if (const auto kind = engine::profile_kind(options.file); kind != engine::ProfileKind::component) {
+            const json info = profile_info(kind, options);
+            options.json ? print_json(info) : print_text(profile_text(info));
+            return 0;
+        }
     const Found found = find(options);
     const json info = look(found, options);
     if (options.json)

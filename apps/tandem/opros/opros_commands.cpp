@@ -33,11 +33,13 @@ void with_default_dirs(LookOptions& options) {
 
 void add_looks(CLI::App& opros, Run& chosen) {
     auto options = std::make_shared<LookOptions>();
-    CLI::App* info =
-        add(opros, "info", "What a component is: ports with types, services, properties, executor",
-            "A component is made in a child process, which is given up if it crashes or hangs.\n"
-            "Exit code 1 if it cannot be made, or FILE is neither a library nor a component profile.");
-    add_look(info, *options, "component library (X.so) or component profile (X.xml)");
+    CLI::App* info = add(
+        opros, "info", "What a component is: ports with types, services, properties, executor",
+        "A component is made in a child process, which is given up if it crashes or hangs.\n"
+        "Of a composite: its components and the ports that it exports; of an application: its components\n"
+        "and connections; of a service type or data type: its methods or fields.\n"
+        "Exit code 1 if it cannot be made, or FILE is neither a library nor a profile.");
+    add_look(info, *options, "component library (X.so) or profile (X.xml)");
     info->callback([=, &chosen] {
         chosen = [options] {
             with_default_dirs(*options);
