@@ -51,6 +51,13 @@ std::string error_in(const std::string& bytes) {
 TEST_CASE("a profile may declare any encoding and is read as such") {
     CHECK(name_in(profile(declaring("EUC-KR"), "\xB7\xCE\xBA\xBF")) == "로봇");
     CHECK(name_in(profile(declaring("euc-kr"), "\x8C\xC1")) == "뙾"); // in the code page, not in the standard
+    for (const char* name :
+         {"ks_c_5601-1987", "KSC5601", "MS949", "windows-949", "x-windows-949", "euc_kr"}) {
+        INFO(name);
+        CHECK(name_in(profile(declaring(name), "\xB7\xCE\xBA\xBF")) == "로봇");
+    }
+    CHECK(name_in(profile(declaring("x-MS932_0213"), "C")) == "C");
+    CHECK(name_in(profile(declaring("windows-1252"), "\x80")) == "€");
     CHECK(name_in(profile(declaring("Shift_JIS"), "\x83\x8D")) == "ロ");
     CHECK(name_in(profile(declaring("iso-8859-1"), "\xE9")) == "é");
     CHECK(name_in(profile(declaring("utf-8"), "é")) == "é");
@@ -72,6 +79,9 @@ TEST_CASE("a declaration that is wrong about its file does no harm") {
     CHECK(name_in(profile(declaring("UTF-16"))) == "C");
     CHECK(name_in(profile(declaring("no-such-encoding"), "C\xFF")) == "C?");
     CHECK(name_in(profile(declaring("utf-8"), "C\xFF")) == "C?");
+    CHECK(name_in(profile(declaring("utf-8"), "\xB7\xCE\xBA\xBF")) == "로봇");
+    CHECK(name_in(profile("", "\xB7\xCE\xBA\xBF")) == "로봇");
+    CHECK(name_in(profile(declaring("no-such-encoding"), "\xB7\xCE\xBA\xBF")) == "로봇");
     CHECK(name_in(profile(declaring("../../x"))) == "C");
 }
 

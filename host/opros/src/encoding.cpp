@@ -32,6 +32,19 @@ std::string upper(std::string_view text) {
     return up;
 }
 
+/// The names of Windows and of Java's tools, which iconv has not: MS932, windows-949, x-euc-kr.
+std::string known_name(std::string name) {
+    if (name.starts_with("X-")) name.erase(0, 2);
+    for (const std::string_view prefix : {"WINDOWS-"sv, "MS"sv, "CP-"sv})
+        if (name.size() > prefix.size() && name.starts_with(prefix) && std::isdigit(name[prefix.size()]) != 0)
+            name = "CP" + name.substr(prefix.size());
+    // What calls itself EUC-KR comes from Windows, whose code page has some more characters.
+    for (const char* korean : {"EUC-KR", "EUC_KR", "EUCKR", "KS_C_5601-1987", "KS_C_5601-1989", "KSC5601",
+                               "KSC_5601", "KS_C_5601", "KOREAN"})
+        if (name == korean) return "CP949";
+    return name;
+}
+
 /// The value of encoding= in the XML declaration, in capitals; empty when there is none.
 std::string declared(std::string_view bytes) {
     const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.find("?>"), 200));
@@ -44,8 +57,7 @@ std::string declared(std::string_view bytes) {
     if (close == std::string_view::npos) return "";
     const std::string name = upper(head.substr(open + 1, close - open - 1));
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._:-") != std::string::npos) return "";
-    // What calls itself EUC-KR comes from Windows, whose code page has some more characters.
-    return name == "EUC-KR" || name == "KS_C_5601-1987" ? "CP949" : name;
+    return known_name(name);
 }
 
 class Converter {
@@ -94,8 +106,12 @@ bool is_utf8(std::string_view bytes) {
 std::string converted(std::string_view bytes, const std::string& from, std::size_t unit) {
     bool fits = false;
     Converter converter(from);
-    if (converter.known()) return converter.convert(bytes, unit, fits);
-    return Converter("UTF-8").convert(bytes, 1, fits);
+    const std::string text =
+        converter.known() ? converter.convert(bytes, unit, fits) : Converter("UTF-8").convert(bytes, 1, fits);
+    if (fits || unit > 1) return text;
+    // The tools' own language is a better guess than question marks, if it fits.
+    const std::string korean = Converter("CP949").convert(bytes, 1, fits);
+    return fits ? korean : text;
 }
 
 } // namespace
