@@ -62,6 +62,18 @@ TEST_CASE("a callback of any of its forms takes the event instead") {
     CHECK(heard_by_function == "hello");
 }
 
+TEST_CASE("a callback object is made by its class name, of a member function or of a function") {
+    Listener listener;
+    InputEventPort<std::string> port;
+    auto hello = event("hi");
+    port.setOwner(new EventCallBackMethod<std::string, Listener>(&Listener::with_id, &listener));
+    port.push(&hello);
+    CHECK(listener.heard == std::vector<std::string>{"greeting hi"});
+    port.setOwner(new EventCallBackMethod<std::string, void>(free_function));
+    port.push(&hello);
+    CHECK(heard_by_function == "hi");
+}
+
 TEST_CASE("an event of another content type is refused") {
     Listener listener;
     InputEventPort<std::string> port;

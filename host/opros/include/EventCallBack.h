@@ -9,6 +9,7 @@
 #include <ReturnType.h>
 #include <archive/opros_iarchive.h>
 
+#include <memory>
 #include <string>
 
 class EventCallBack {
@@ -89,6 +90,37 @@ EventCallBack* make_EventCallBack(void (C::*function)(P...), C* object) {
 template <typename T, typename... P> EventCallBack* make_EventCallBack(void (*function)(P...)) {
     return new opros::detail::function_callback<T, P...>(function);
 }
+
+namespace opros {
+namespace detail {
+
+template <typename T> class owned_callback : public typed_callback<T> {
+  public:
+    explicit owned_callback(EventCallBack* call) : m_call(call) {}
+    using typed_callback<T>::onEvent;
+    virtual ReturnType onEvent(Event* p) { return m_call->onEvent(p); }
+
+  private:
+    const std::unique_ptr<EventCallBack> m_call;
+};
+
+} // namespace detail
+} // namespace opros
+
+/// For InputEventPort::setOwner(): a member function of C, or without C a function.
+template <typename T, typename C> class EventCallBackMethod : public opros::detail::owned_callback<T> {
+  public:
+    template <typename... P>
+    EventCallBackMethod(void (C::*function)(P...), C* object)
+        : opros::detail::owned_callback<T>(make_EventCallBack<T>(function, object)) {}
+};
+template <typename T> class EventCallBackMethod<T, void> : public opros::detail::owned_callback<T> {
+  public:
+    template <typename... P>
+    explicit EventCallBackMethod(void (*function)(P...))
+        : opros::detail::owned_callback<T>(make_EventCallBack<T>(function)) {}
+};
+
 template <typename T, int n, typename C, typename D, typename... P>
 void setEventCallBack(InputEventPort<T, n>& port, void (C::*function)(P...), D* object) {
     port.setOwner(make_EventCallBack<T, C, P...>(function, object));
