@@ -51,6 +51,24 @@ TEST_CASE("a method that the provided port lacks is an error") {
     CHECK_THAT(message, Catch::Contains("app.xml:7: component 'M' has no port 'opros.symbol'"));
 }
 
+TEST_CASE("a connection of no known type is left out alone") {
+    const Folder folder;
+    folder.component("M", "maker");
+    folder.component("P", "printer");
+    const auto file = folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"),
+                                         Folder::connect("method", "M", "math", "P", "math") +
+                                             Folder::connect("", "M", "news", "P", "news") +
+                                             Folder::connect("data", "M", "numbers", "P", "numbers"));
+    CHECK_THAT(setup_error(file, test_options(folder)),
+               Catch::Contains("app.xml:7: port_type is 'method', expected data, event or service"));
+    tandem::engine::Application application(file, test_options(folder));
+    application.start();
+    application.step("M");
+    application.step("P");
+    CHECK(recorder(application, "P").last_number == 1);
+    CHECK(recorder(application, "P").events == 0);
+}
+
 TEST_CASE("a connection that is listed again is one error that says where it stood first; values come once") {
     const Folder folder;
     folder.component("M", "maker");

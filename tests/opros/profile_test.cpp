@@ -165,10 +165,16 @@ TEST_CASE("a wrong application profile gets one line with file and line") {
     CHECK_THAT(read(a + a, ""), Catch::Contains("app.xml:4: component 'A' is listed twice"));
     CHECK_THAT(read(Folder::sub(std::string(256, 'A'), "A.xml"), ""),
                Catch::Contains("app.xml:4: a component's name or reference has more than 255 bytes"));
-    CHECK_THAT(read(a, Folder::connect("method", "A", "o", "A", "i")),
-               Catch::Contains("app.xml:7: port_type is 'method'"));
     CHECK_THAT(read(a, "<port_connection port_type=\"data\"/>"),
                Catch::Contains("app.xml:7: <port_connection> lacks its <source>"));
+}
+
+TEST_CASE("folders are separated as in Windows, too") {
+    const Folder folder;
+    folder.component("A", ".\\lib\\A.dll");
+    CHECK(read_component_profile(folder.path() / "A.xml").library_name == "./lib/A.dll");
+    const auto file = folder.application(Folder::sub("A", "..\\x\\A.xml"));
+    CHECK(read_application_profile(file).subcomponents[0].reference == "../x/A.xml");
 }
 
 TEST_CASE("components start last listed first, but never before those they depend on") {

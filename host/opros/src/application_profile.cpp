@@ -21,13 +21,19 @@ std::string named(const pugi::xml_node& node, const char* name) {
     return value.empty() ? XmlFile::text(node, name) : value;
 }
 
+/// Empty if there is none.
+std::string port_type_error(const pugi::xml_node& node) {
+    const std::string type = named(node, "port_type");
+    if (type == "data" || type == "event" || type == "service") return "";
+    if (type.empty()) return tag(node.name()) + " lacks its attribute port_type";
+    return "port_type is '" + type + "', expected data, event or service";
+}
+
 PortType port_type(const XmlFile& xml, const pugi::xml_node& node) {
+    if (const std::string error = port_type_error(node); !error.empty()) xml.fail(node, error);
     const std::string type = named(node, "port_type");
     if (type == "data") return OPROS_DATA;
-    if (type == "event") return OPROS_EVENT;
-    if (type == "service") return OPROS_SERVICE;
-    if (type.empty()) xml.fail(node, tag(node.name()) + " lacks its attribute port_type");
-    xml.fail(node, "port_type is '" + type + "', expected data, event or service");
+    return type == "event" ? OPROS_EVENT : OPROS_SERVICE;
 }
 
 constexpr std::size_t longest_name = 255;
@@ -37,8 +43,11 @@ using Names = std::set<std::string>;
 Names read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, ApplicationProfile& profile) {
     Names names;
     for (const pugi::xml_node& node : root.child("subcomponents").children("subcomponent")) {
-        Subcomponent component{
-            xml.place(node), xml.required_text(node, "name"), xml.required_text(node, "reference"), {}, {}};
+        Subcomponent component{xml.place(node),
+                               xml.required_text(node, "name"),
+                               XmlFile::file_name(xml.required_text(node, "reference")),
+                               {},
+                               {}};
         // It becomes part of paths and of messages.
         if (component.name.size() > longest_name || component.reference.size() > longest_name)
             xml.fail(node, "a component's name or reference has more than " + std::to_string(longest_name) +
@@ -73,9 +82,11 @@ void require_component(const XmlFile& xml, const pugi::xml_node& node, const Nam
 void read_connections(const XmlFile& xml, const pugi::xml_node& root, const Names& names,
                       ApplicationProfile& profile) {
     for (const pugi::xml_node& node : root.child("port_connections").children("port_connection")) {
-        Connection connection{xml.place(node), port_type(xml, node), port_reference(xml, node, "source"),
-                              port_reference(xml, node, "target"), ""};
-        connection.error = unknown_component(names, connection.source.component);
+        Connection connection{xml.place(node), OPROS_DATA, port_reference(xml, node, "source"),
+                              port_reference(xml, node, "target"), port_type_error(node)};
+        if (connection.error.empty()) connection.type = port_type(xml, node);
+        if (connection.error.empty())
+            connection.error = unknown_component(names, connection.source.component);
         if (connection.error.empty())
             connection.error = unknown_component(names, connection.target.component);
         profile.connections.push_back(std::move(connection));

@@ -70,7 +70,7 @@ ComponentProfile read_component_profile(const XmlFile& xml) {
     profile.name = xml.required_text(root, "name");
     const pugi::xml_node environment = root.child("execution_environment");
     if (!environment) xml.fail(root, "<component_profile> lacks its <execution_environment>");
-    profile.library_name = xml.required_text(environment, "library_name");
+    profile.library_name = XmlFile::file_name(xml.required_text(environment, "library_name"));
     profile.library_place = xml.place(environment.child("library_name"));
     const pugi::xml_node semantics = root.child("execution_semantics");
     if (!semantics) xml.fail(root, "<component_profile> lacks its <execution_semantics>");

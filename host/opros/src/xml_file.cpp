@@ -83,6 +83,11 @@ pugi::xml_node XmlFile::root(std::initializer_list<const char*> names) const {
     fail(root, "root element is " + tag(root.name()) + ", expected " + expected);
 }
 
+std::string XmlFile::file_name(std::string text) {
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+}
+
 std::string XmlFile::trimmed(std::string_view text) {
     const char* blank = " \t\r\n";
     const auto first = text.find_first_not_of(blank);

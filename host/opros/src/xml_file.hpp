@@ -28,6 +28,8 @@ class XmlFile {
     Place place(const pugi::xml_node& node) const;
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const;
 
+    /// Profiles come from Windows: its backslashes separate folders.
+    static std::string file_name(std::string text);
     static std::string trimmed(std::string_view text);
     /// Text of the child element, trimmed; empty when there is none.
     static std::string text(const pugi::xml_node& node, const char* child);
