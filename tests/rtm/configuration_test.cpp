@@ -107,6 +107,12 @@ TEST_CASE("A component's own file and the arguments of its creation configure it
                       Catch::Contains("known: ") && Catch::Contains("Counter"));
 }
 
+TEST_CASE("A component whose own file is not there has its defaults") {
+    Stage stage(true,
+                {"test.Counter.config_file:not_handed_on.conf", "test.Counter0.config_file:nor_this.conf"});
+    CHECK(stage.create<Counter>("Counter").step_ == 1);
+}
+
 TEST_CASE("Properties are a tree with defaults") {
     const char* const spec[] = {"name", "X", "conf.default.gain", "2", "conf.default.mode", "a.b", ""};
     coil::Properties p(spec);

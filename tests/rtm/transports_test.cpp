@@ -13,7 +13,8 @@ namespace {
 
 // The wire of this transport: who listens under an address.
 std::map<std::string, RTC::InPortConnector*> listening;
-std::map<std::string, RTC::CdrBufferBase*> waiting;
+std::map<std::string, std::function<RTC::BufferStatus(RTC::ByteData&)>> waiting;
+std::function<void(RTC::ByteData&)> received;
 int live_ends = 0;
 std::string settings_seen;
 
@@ -27,7 +28,11 @@ struct PostIn : RTC::InPortProvider, Counted {
     ~PostIn() override { listening.erase("box"); }
     void init(coil::Properties& prop) override { settings_seen = prop.getProperty("post.colour"); }
     void setBuffer(RTC::BufferBase<RTC::ByteData>*) override {}
-    void setListener(RTC::ConnectorInfo&, RTC::ConnectorListenersBase*) override {}
+    void setListener(RTC::ConnectorInfo& info, RTC::ConnectorListenersBase* listeners) override {
+        received = [told = info, listeners](RTC::ByteData& data) mutable {
+            listeners->notifyIn(RTC::ConnectorDataListenerType::ON_RECEIVED, told, data);
+        };
+    }
     void setConnector(RTC::InPortConnector* connector) override {
         listening["box"] = connector;
         CORBA_SeqUtil::push_back(m_properties, NVUtil::newNV("dataport.post.address", "box"));
@@ -39,6 +44,7 @@ struct PostOut : RTC::InPortConsumer, Counted {
     RTC::DataPortStatus put(RTC::ByteData& data) override {
         const auto found = listening.find(address);
         if (found == listening.end()) return RTC::DataPortStatus::CONNECTION_LOST;
+        received(data);
         return found->second->write(data) == RTC::BufferStatus::OK ? RTC::DataPortStatus::PORT_OK
                                                                    : RTC::DataPortStatus::BUFFER_ERROR;
     }
@@ -55,9 +61,21 @@ struct PostOut : RTC::InPortConsumer, Counted {
 struct FetchOut : RTC::OutPortProvider, Counted {
     FetchOut() { setInterfaceType("post"); }
     ~FetchOut() override { waiting.erase("shelf"); }
-    void setBuffer(RTC::CdrBufferBase* buffer) override { waiting["shelf"] = buffer; }
-    void setListener(RTC::ConnectorInfo&, RTC::ConnectorListenersBase*) override {}
-    void setConnector(RTC::OutPortConnector*) override {}
+    void setBuffer(RTC::CdrBufferBase*) override {}
+    void setListener(RTC::ConnectorInfo& info, RTC::ConnectorListenersBase* listeners) override {
+        info_ = info;
+        listeners_ = listeners;
+    }
+    void setConnector(RTC::OutPortConnector* connector) override {
+        waiting["shelf"] = [this, connector](RTC::ByteData& data) {
+            const auto status = connector->read(data);
+            if (status == RTC::BufferStatus::OK)
+                listeners_->notifyOut(RTC::ConnectorDataListenerType::ON_SEND, info_, data);
+            return status;
+        };
+    }
+    RTC::ConnectorInfo info_;
+    RTC::ConnectorListenersBase* listeners_ = nullptr;
 };
 
 struct FetchIn : RTC::OutPortConsumer, Counted {
@@ -65,11 +83,21 @@ struct FetchIn : RTC::OutPortConsumer, Counted {
     void setBuffer(RTC::CdrBufferBase*) override {}
     void setListener(RTC::ConnectorInfo&, RTC::ConnectorListenersBase*) override {}
     RTC::DataPortStatus get(RTC::ByteData& data) override {
-        return waiting.at("shelf")->read(data) == RTC::BufferStatus::OK ? RTC::DataPortStatus::PORT_OK
-                                                                        : RTC::DataPortStatus::BUFFER_EMPTY;
+        return waiting.at("shelf")(data) == RTC::BufferStatus::OK ? RTC::DataPortStatus::PORT_OK
+                                                                  : RTC::DataPortStatus::BUFFER_EMPTY;
     }
     bool subscribeInterface(const SDOPackage::NVList&) override { return waiting.count("shelf") == 1; }
     void unsubscribeInterface(const SDOPackage::NVList&) override {}
+};
+
+struct Heard : RTC::ConnectorDataListenerT<RTC::TimedLong> {
+    USE_CONNLISTENER_STATUS;
+    explicit Heard(std::vector<int>& heard) : values(heard) {}
+    ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong& value) override {
+        values.push_back(static_cast<int>(value.data));
+        return NO_CHANGE;
+    }
+    std::vector<int>& values;
 };
 
 template <class Base, class Made>
@@ -96,6 +124,8 @@ TEST_CASE("a registered push transport carries the data of connections that ask 
     CHECK_THAT(interface_types(summer.in_), Catch::Contains("corba_cdr"));
 
     stage.connect("Counter0.out?port=Summer0.in&interface_type=post&post.colour=red");
+    std::vector<int> heard;
+    summer.in_.addConnectorDataListener(RTC::ON_RECEIVED, new Heard(heard));
     CHECK(settings_seen == "red");
     CHECK(live_ends == 2);
     stage.activate(counter);
@@ -106,6 +136,7 @@ TEST_CASE("a registered push transport carries the data of connections that ask 
     }
     CHECK(summer.received_ == 4);
     CHECK(summer.sum_ == 10);
+    CHECK(heard == std::vector<int>{1, 2, 3, 4}); // from the provider
 
     listening.clear(); // nothing takes another way
     stage.step(counter);
@@ -122,12 +153,15 @@ TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
     auto& counter = stage.create<Counter>("Counter");
     auto& summer = stage.create<Summer>("Summer");
     stage.connect("Counter0.out?port=Summer0.in&interface_type=post&dataflow_type=pull");
+    std::vector<int> sent;
+    counter.out_.addConnectorDataListener(RTC::ON_SEND, new Heard(sent));
     stage.activate(counter);
     for (int i = 0; i < 3; ++i) stage.step(counter);
     for (int i = 0; i < 3; ++i) {
         REQUIRE(summer.in_.read());
         CHECK(summer.value_.data == i + 1);
     }
+    CHECK(sent == std::vector<int>{1, 2, 3});
     counter.out_.disconnect_all();
     CHECK(live_ends == 0);
 }

@@ -45,6 +45,14 @@ TEST_CASE("A TimedLong travels as seconds and nanoseconds and value in either by
     CHECK(bytes_of(data, false) == Bytes{0, 0, 0, 1, 1, 2, 3, 4, 0xff, 0xff, 0xff, 0xfe});
 }
 
+TEST_CASE("An interface and a reference to it have the interface's id and name") {
+    CHECK(id_of<RTC::RTObject>() == "IDL:omg.org/RTC/RTObject:1.0");
+    CHECK(id_of<RTC::RTObject_ptr>() == id_of<RTC::RTObject>());
+    CHECK(CORBA_Util::toTypename<RTC::RTObject>() == std::string("RTObject"));
+    CHECK(CORBA_Util::toTypename<RTC::RTObject_ptr>() == std::string("RTObject"));
+    CHECK(CORBA_Util::toTypename<RTC::TimedLong>() == std::string("TimedLong"));
+}
+
 TEST_CASE("A sequence of doubles is aligned behind its length") {
     RTC::TimedDoubleSeq data;
     data.tm.sec = data.tm.nsec = 0;
@@ -65,8 +73,8 @@ TEST_CASE("A camera image travels as size and format and pixels") {
     image.pixels.length(2);
     image.pixels[0] = 7;
     image.pixels[1] = 9;
-    const Bytes expected{0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 8, 0, 0, 0, 2, 0, 0, 0, 'g', 0,
-                         0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 7, 9};
+    const Bytes expected{0, 0,   0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 8, 0, 0, 0, 2, 0, 0,
+                         0, 'g', 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 7, 9};
     CHECK(bytes_of(image) == expected);
 }
 

@@ -31,7 +31,8 @@ ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInf
         data.writeData(static_cast<const unsigned char*>(stream.bufPtr()), stream.bufSize());
     return result;
 }
-ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInfo& info, cdrMemoryStream& data) {
+ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInfo& info,
+                                                                    cdrMemoryStream& data) {
     (*this)(static_cast<const ConnectorInfo&>(info), static_cast<const cdrMemoryStream&>(data));
     return NO_CHANGE;
 }
@@ -70,6 +71,11 @@ bool ConnectorListeners::Holder<Listener>::remove(Listener* listener) {
 }
 
 ConnectorListeners::~ConnectorListeners() = default;
+
+std::string ConnectorListeners::marshalingType(const ConnectorInfo& info, const std::string& end) {
+    return info.properties.getProperty(end + ".marshaling_type",
+                                       info.properties.getProperty("marshaling_type", "cdr"));
+}
 
 bool ConnectorListeners::addListener(ConnectorDataListenerType type, ConnectorDataListener* listener,
                                      bool autoclean) {

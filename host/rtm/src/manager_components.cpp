@@ -31,7 +31,13 @@ void configure_from(const Manager::Impl& impl, const std::string& node_name, coi
     if (!file.empty()) {
         std::filesystem::path path(coil::replaceEnv(file));
         if (path.is_relative() && !std::filesystem::exists(path)) path = impl.conf_file.parent_path() / path;
-        read_conf_file(path, out);
+        if (std::filesystem::exists(path)) {
+            read_conf_file(path, out);
+        } else { // as in OpenRTM-aist: configurations are handed on without the files that they name
+            Logger rtclog("manager");
+            RTC_WARN(("%s.config_file: there is no %s; the component has its defaults", node_name.c_str(),
+                      file.c_str()));
+        }
     }
     out << *node;
 }

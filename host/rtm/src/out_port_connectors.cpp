@@ -18,6 +18,11 @@ DataPortStatus OutPortConnector::write(ByteDataStreamBase* stream) {
     return write(m_bytes);
 }
 
+BufferStatus OutPortConnector::read(ByteData& bytes) {
+    CdrBufferBase* buffer = getBuffer();
+    return buffer == nullptr ? BufferStatus::PRECONDITION_NOT_MET : buffer->read(bytes);
+}
+
 bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return false; }
 
 bool OutPortConnector::writeDirect(const DirectPut&, DataPortStatus&) { return false; }

@@ -63,6 +63,11 @@ class Lines : public coil::LogStreamBuffer {
     }
 };
 
+// The names of an interface's consumers are looked up like those of types.
+const char* const interface_names[] = {
+    CORBA_Util::toRepositoryId<RTC::RTObject>(), CORBA_Util::toRepositoryId<RTC::RTObject_ptr>(),
+    CORBA_Util::toTypename<RTC::RTObject>(), CORBA_Util::toTypenameOfObject<RTC::RTObject>()};
+
 class Slow : public RTC::ExtTrigExecutionContext {};
 
 extern "C" void RareInit(RTC::Manager* manager) {

@@ -55,6 +55,9 @@ public:
         return serialized ? write(static_cast<ByteDataStreamBase*>(stream)) : DataPortStatus::PORT_ERROR;
     }
 
+    /// What waits to be fetched: for the OutPortProvider of a library, which tells the listeners itself.
+    virtual BufferStatus read(ByteData& bytes);
+
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
     /// Ours: could this connector send the bytes another one has serialized?

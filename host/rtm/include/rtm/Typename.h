@@ -12,6 +12,15 @@ struct RtmAnyProbe : T {
     RtmAnyProbe() : T() {}
 };
 
+/// The same for references to an interface, of which omniORB's class does not say whose it is.
+template <class T>
+struct RtmAnyReference {
+    operator T*() const {
+        static T* const nil = new T(); // as omniORB's own: for ever
+        return nil;
+    }
+};
+
 namespace CORBA_Util {
 
 /// TypeCode of an IDL struct; the caller owns the reference.
@@ -23,9 +32,9 @@ CORBA::TypeCode_ptr typeCodeOf() {
     return any.type();
 }
 
-/// Repository id, `IDL:RTC/TimedLong:1.0`; the type's signature becomes known on the way.
+/// Repository id of an IDL struct, `IDL:RTC/TimedLong:1.0`; the type's signature becomes known on the way.
 template <class T>
-const char* toRepositoryId() {
+const char* toRepositoryIdOfStruct() {
     static const std::string id = [] {
         CORBA::TypeCode_var code = typeCodeOf<T>();
         RTC::InterfaceSignatures::addType(code->id(), code.in());
@@ -33,20 +42,69 @@ const char* toRepositoryId() {
     }();
     return id.c_str();
 }
-
 template <class T>
-const char* toTypename() {
+const char* toTypenameOfStruct() {
     static const std::string name = CORBA::TypeCode_var(typeCodeOf<T>())->name();
     return name.c_str();
 }
 
+/// TypeCode of an interface by the target of its _ptr type; the caller owns the reference.
 template <class T>
-const char* toRepositoryIdOfStruct() {
-    return toRepositoryId<T>();
+CORBA::TypeCode_ptr typeCodeOfReference() {
+    const RtmAnyReference<T> probe;
+    CORBA::Any any;
+    any <<= probe;
+    return any.type();
+}
+
+template <class T>
+struct TargetOf;
+template <class T>
+struct TargetOf<T*> {
+    using Type = T;
+};
+
+/// Of an IDL interface.
+template <class T>
+const char* toRepositoryIdOfObject() {
+    return T::_PD_repoId;
 }
 template <class T>
-const char* toTypenameOfStruct() {
-    return toTypename<T>();
+const char* toTypenameOfObject() {
+    using Target = typename TargetOf<typename T::_ptr_type>::Type;
+    static const std::string name = CORBA::TypeCode_var(typeCodeOfReference<Target>())->name();
+    return name.c_str();
+}
+
+template <class T, class = void>
+struct NameOf { // a struct
+    static const char* id() { return toRepositoryIdOfStruct<T>(); }
+    static const char* name() { return toTypenameOfStruct<T>(); }
+};
+template <class T>
+struct NameOf<T, decltype(T::_nil(), void())> { // an interface
+    static const char* id() { return toRepositoryIdOfObject<T>(); }
+    static const char* name() { return toTypenameOfObject<T>(); }
+};
+template <class T>
+struct NameOf<T*, void> { // its _ptr type
+    static const char* id() {
+        static const std::string text = CORBA::TypeCode_var(typeCodeOfReference<T>())->id();
+        return text.c_str();
+    }
+    static const char* name() {
+        static const std::string text = CORBA::TypeCode_var(typeCodeOfReference<T>())->name();
+        return text.c_str();
+    }
+};
+
+template <class T>
+const char* toRepositoryId() {
+    return NameOf<T>::id();
+}
+template <class T>
+const char* toTypename() {
+    return NameOf<T>::name();
 }
 
 } // namespace CORBA_Util
