@@ -59,6 +59,47 @@ TEST_CASE("A value a key cannot have is refused with file, line and what it can 
     CHECK(checked("corba.endpoints:\nmanager.shutdown_auto:\n").empty());
 }
 
+TEST_CASE("Each key refuses each value that it cannot have") {
+    const std::string long_text(1000, 'x');
+    int refused = 0;
+    for (const auto& key : RTC::conf_keys()) {
+        if (key.value == RTC::ConfKey::text) continue;
+        std::string name = coil::replaceString(coil::replaceString(key.name, "**", "x.y"), "*", "x");
+        for (const std::string value : {"-1", "nan", "1e300", "-inf", "0x", "yes no", "\x95\x5c\x82", ";",
+                                        "1,,-2", "99999999999999999999", long_text.c_str()}) {
+            CAPTURE(name, value);
+            const bool fits = (key.value == RTC::ConfKey::whole && value == "-1"); // a number, at least
+            if (fits) continue;
+            CHECK_THROWS_WITH(checked(name + ": " + value + "\n"),
+                              Catch::Contains(":1: " + name + " is ") && Catch::Contains(", expected "));
+            ++refused;
+        }
+    }
+    CHECK(refused > 200);
+}
+
+TEST_CASE("Files that are no configuration are refused in one line and those of other systems are read") {
+    using Catch::Contains;
+    coil::Properties conf;
+    CHECK(
+        checked("\xef\xbb\xbfmanager.name: a\r\n# \x95\x5c\r\nmanager.shutdown_auto: NO\r\n", conf).empty());
+    CHECK(conf.getProperty("manager.name") == "a");
+    CHECK(conf.getProperty("manager.shutdown_auto") == "NO");
+    CHECK(checked("test.A.title: \x83\x65\x83\x58\x83\x67\n").empty()); // Shift-JIS, as it is
+    CHECK(checked("manager.name: no end of line").empty());
+    CHECK_THROWS_WITH(checked(std::string("m\0a\0:\0 \0b\0\n", 9)), Contains("expected `key: value`"));
+    CHECK_THROWS_WITH(checked(std::string(900000, 'x') + "\n"), Contains(":1: expected") && Contains("..."));
+    CHECK_THROWS_WITH(checked(std::string(1100000, '#')), Contains("more than 1 MB"));
+    std::string many;
+    for (int i = 0; i < 10001; ++i) many += "a.b.c" + std::to_string(i) + ": 1\n";
+    CHECK_THROWS_WITH(checked(many), Contains(":10001: more than 10000 settings"));
+    std::string deep = "a";
+    for (int i = 0; i < 400000; ++i) deep += ".a";
+    CHECK(checked(deep + ": 1\n").empty());
+    CHECK_THROWS_WITH(RTC::read_conf_file("/dev/zero", conf), Contains("more than 1 MB"));
+    CHECK_THROWS_WITH(RTC::read_conf_file("/", conf), Contains("it is no file"));
+}
+
 TEST_CASE("Keys that do nothing are in the table of differences with a reason and no others") {
     std::ifstream in(TANDEM_RTM_FOLDER "/DIFFERENCES.md");
     const std::string text{std::istreambuf_iterator<char>(in), {}};

@@ -17,9 +17,10 @@ template <class Data>
 OpenRTM::PortStatus give(DataOutlet& outlet, Data*& data) {
     ByteData bytes;
     const DataPortStatus status = outlet.fetch(bytes);
+    const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
     data = new Data;
-    data->length(static_cast<CORBA::ULong>(bytes.getDataLength()));
-    bytes.readData(data->get_buffer(), bytes.getDataLength());
+    data->length(length);
+    bytes.readData(data->get_buffer(), length);
     return to_wire(status);
 }
 

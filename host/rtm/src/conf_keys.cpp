@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "conf_keys.hpp"
+#include "conf_file.hpp"
 #include <algorithm>
+#include <cmath>
 #include <coil/stringutil.h>
 #include <cstdlib>
 #include <optional>
+#include <rtm/ExecutionContextBase.h>
 #include <rtm/Manager.h>
 #include <utility>
 
@@ -175,9 +178,9 @@ bool is_section(const std::string& name) {
 std::optional<std::string> complaint(const std::string& key) {
     if (find_conf_key(key) != nullptr) return std::nullopt;
     const auto parts = coil::split(key, ".");
-    const Nearest near = nearest(key);
+    const Nearest near = nearest(key.substr(0, 100));
     if (parts.size() >= 3 && !is_section(parts[0]) && near.distance > 2) return std::nullopt;
-    return "there is no key " + key + "; did you mean " + near.name + "?";
+    return "there is no key " + printable(key) + "; did you mean " + near.name + "?";
 }
 
 bool is_number(const std::string& text, double& number) {
@@ -207,11 +210,11 @@ std::string expectation(ConfKey::Value kind, std::string& value) {
         if (is_one_of({"no", "false", "off", "0", "disable"})) return value = "NO", "";
         return "YES or NO";
     case ConfKey::seconds:
-        return numeric && number >= 0 ? "" : "seconds";
+        return numeric && number >= 0 && number <= 1e9 ? "" : "seconds, 1e9 at most";
     case ConfKey::hertz:
-        return numeric && number > 0 ? "" : "a rate in Hz above 0";
+        return numeric && ExecutionContextBase::isRate(number) ? "" : "a rate in Hz above 0, 1e9 at most";
     case ConfKey::whole:
-        return numeric && number == static_cast<double>(static_cast<long>(number)) ? "" : "a whole number";
+        return numeric && std::abs(number) < 1e9 && number == std::trunc(number) ? "" : "a whole number";
     case ConfKey::processors:
         return are_processors(value) ? "" : "numbers of processors, as 0, 1";
     case ConfKey::level:
@@ -238,6 +241,11 @@ const ConfKey* find_conf_key(const std::string& key) {
     return nullptr;
 }
 
+bool value_fits(const std::string& key, std::string& value) {
+    const ConfKey* known = find_conf_key(key);
+    return known == nullptr || value.empty() || expectation(known->value, value).empty();
+}
+
 std::vector<std::string> check_settings(coil::Properties& config, const Places& places) {
     std::vector<std::string> unknown;
     for (const auto& [key, place] : places) {
@@ -247,7 +255,7 @@ std::vector<std::string> check_settings(coil::Properties& config, const Places& 
         if (known == nullptr || value.empty()) continue; // empty: as if it were not there
         const std::string expected = expectation(known->value, value);
         if (!expected.empty())
-            throw ManagerError(place + ": " + key + " is " + value + ", expected " + expected);
+            throw ManagerError(place + ": " + key + " is " + printable(value) + ", expected " + expected);
         config.setProperty(key, value);
     }
     return unknown;

@@ -22,6 +22,9 @@ const std::vector<ConfKey>& conf_keys();
 /// NULL: there is no such key.
 const ConfKey* find_conf_key(const std::string& key);
 
+/// May the key have this value? Words for yes and no become YES and NO.
+bool value_fits(const std::string& key, std::string& value);
+
 /// Checks every setting that has a place. Words for yes and no become YES and NO. Returns one line for each
 /// key that nobody knows. Throws ManagerError, beginning with the place, for a value a key cannot have.
 std::vector<std::string> check_settings(coil::Properties& config, const Places& places);

@@ -74,6 +74,18 @@ std::vector<coil::Properties*> ConfigAdmin::getConfigurationSets() const {
     return sets;
 }
 
+std::vector<coil::Properties> ConfigAdmin::copies() const {
+    Lock lock(m_mutex);
+    std::vector<coil::Properties> sets;
+    for (auto* set : m_configsets.getLeaf()) sets.push_back(*set);
+    return sets;
+}
+
+std::string ConfigAdmin::activeId() const {
+    Lock lock(m_mutex);
+    return m_activeId;
+}
+
 coil::Properties ConfigAdmin::getConfigurationSet(const char* config_id) const {
     Lock lock(m_mutex);
     const coil::Properties* set = m_configsets.hasKey(config_id);
@@ -91,7 +103,9 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
 
 bool ConfigAdmin::addConfigurationSet(const coil::Properties& config_set) {
     Lock lock(m_mutex);
-    if (std::string(config_set.getName()).empty() || haveConfig(config_set.getName())) return false;
+    const std::string id = config_set.getName();
+    // A dot would make it a set within another.
+    if (id.empty() || id.find('.') != std::string::npos || haveConfig(id.c_str())) return false;
     m_configsets.getNode(config_set.getName()) << config_set;
     m_newConfig.push_back(config_set.getName());
     notifySet(ON_ADD_CONFIG_SET, config_set);

@@ -140,7 +140,7 @@ void ConnectionKeeper::look_at_peers() {
                     // Twice in a row: a name that is being moved may miss a beat.
                     silent[id] = silent_[id] + 1;
                     if (silent[id] < 2) continue;
-                    if (auto* port = local_object<PortBase>(ports[p])) port->forget(id.c_str());
+                    if (auto port = local_object<PortBase>(ports[p])) port->forget(id.c_str());
                 }
             }
         } catch (const CORBA::SystemException&) {

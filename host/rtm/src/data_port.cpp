@@ -43,6 +43,10 @@ std::string unsupported(const coil::Properties& connector_properties) {
     const std::string order = byte_order(connector_properties);
     if (!order.empty() && order != "big" && order != "little")
         return "serializer.cdr.endian is " + order + ", expected little or big";
+    const std::string length = connector_properties.getProperty("buffer.length");
+    double messages = 0;
+    if (!length.empty() && !(coil::stringTo(messages, length.c_str()) && messages >= 1 && messages <= 1e6))
+        return "buffer.length is " + length + ", expected 1 to 1000000 messages";
     return "";
 }
 

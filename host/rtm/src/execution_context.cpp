@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all execution contexts share: participants, transitions, the cycle.
 #include "participant.hpp"
+#include <cmath>
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/ExecutionContextBase.h>
@@ -18,14 +19,14 @@ void deleteExecutionContext(ExecutionContextBase* context) {
 void ExecutionContextBase::init(coil::Properties& props) {
     m_properties << props;
     double rate = 0, phase_ms = 0;
-    if (coil::stringTo(rate, m_properties.getProperty("rate").c_str()) && rate > 0) m_rate = rate;
-    if (coil::stringTo(phase_ms, m_properties.getProperty("phase").c_str()))
+    if (coil::stringTo(rate, m_properties.getProperty("rate").c_str()) && isRate(rate)) m_rate = rate;
+    if (coil::stringTo(phase_ms, m_properties.getProperty("phase").c_str()) && std::abs(phase_ms) < 9e12)
         m_phase = std::chrono::nanoseconds(static_cast<std::int64_t>(phase_ms * 1e6));
     auto set_wait = [this](const std::string& kind, Wait& wait) {
         wait.sync = coil::toBool(m_properties.getProperty("sync_" + kind), "YES", "NO", wait.sync);
-        double seconds = 0;
-        if (coil::stringTo(seconds, m_properties.getProperty(kind + "_timeout").c_str()) && seconds > 0)
-            wait.timeout = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+        std::chrono::nanoseconds timeout{0};
+        coil::stringTo(timeout, m_properties.getProperty(kind + "_timeout").c_str());
+        if (timeout.count() > 0) wait.timeout = timeout;
     };
     Wait all;
     set_wait("transition", all);
@@ -88,7 +89,7 @@ std::chrono::nanoseconds ExecutionContextBase::getPeriod() const {
 }
 
 ReturnCode_t ExecutionContextBase::setRate(double rate) {
-    if (!(rate > 0)) return BAD_PARAMETER;
+    if (!isRate(rate)) return BAD_PARAMETER;
     {
         std::lock_guard<std::mutex> lock(m_mutex);
         m_rate = rate;

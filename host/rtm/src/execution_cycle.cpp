@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cycle of an execution context, and how requested transitions get done.
 #include "participant.hpp"
+#include <algorithm>
 #include <rtm/ExecutionContextBase.h>
 
 namespace RTC {
@@ -69,8 +70,10 @@ ReturnCode_t ExecutionContextBase::transit(LightweightRTObject_ptr comp, LifeCyc
 
 ReturnCode_t ExecutionContextBase::await(const Participant& participant, LifeCycleState to,
                                          std::chrono::nanoseconds timeout) {
-    // A slow context cannot be expected to be done before its next cycle.
-    const auto bound = timeout + 2 * getPeriod();
+    // A slow context cannot be expected to be done before its next cycle; but nobody waits for days.
+    const std::chrono::nanoseconds patience =
+        std::min<std::chrono::nanoseconds>(2 * getPeriod(), std::chrono::minutes(1));
+    const auto bound = timeout + patience;
     std::unique_lock<std::mutex> lock(m_changedMutex);
     m_changed.wait_for(lock, bound, [&] { return !participant->pending(); });
     return participant->state() == to && !participant->pending() ? RTC_OK : RTC_ERROR;

@@ -105,7 +105,7 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
         return RTC_OK;
     }
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
-        auto* port = local_object<OutPortBase>(profile.ports[i]);
+        auto port = local_object<OutPortBase>(profile.ports[i]);
         auto outlet = port ? port->outlet(profile.connector_id) : nullptr;
         if (outlet == nullptr) continue;
         addConnector(new InPortPullConnector(*this, info, outlet));

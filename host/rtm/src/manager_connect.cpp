@@ -119,7 +119,7 @@ std::string connect_ports(const ConnectionLine& line, std::size_t other, PortSer
     NVUtil::copyFromProperties(profile.properties, line.properties);
     try {
         // A port of ours says why it refuses; it may as well be the second.
-        auto* here = local_object<PortBase>(is_remote(line.ports[0]) ? second : first);
+        auto here = local_object<PortBase>(is_remote(line.ports[0]) ? second : first);
         const ReturnCode_t result = here ? here->connect(profile) : first->connect(profile);
         if (result == RTC_OK) return static_cast<const char*>(profile.connector_id);
         throw ManagerError(

@@ -31,7 +31,9 @@ coil::vstring orb_arguments(const coil::Properties& config) {
     add("-ORBclientCallTimeOutPeriod", "10000"); // ms: no call waits for ever
     add("-ORBgiopMaxMsgSize", "67108864");       // camera images and point clouds fit
     add("-ORBinConScanPeriod", "0");             // an idle tool keeps its connection
-    add("-ORBtraceLevel", "0");                  // what goes wrong is said by us, in one line
+    // omniORB 4.2 uses freed memory when it serves broken requests of one connection at the same time.
+    add("-ORBmaxServerThreadPerConnection", "1");
+    add("-ORBtraceLevel", "0"); // what goes wrong is said by us, in one line
     for (const auto& arg : coil::parseArgs(config.getProperty("corba.args"))) args.push_back(arg);
     return args;
 }

@@ -54,7 +54,9 @@ void mergeFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop) {
     for (const auto& key : prop.propertyNames()) set(nv, key.c_str(), prop.getProperty(key).c_str());
 }
 
+// Lists come from other processes; looking a name up takes the longer the more there are.
 void copyToProperties(coil::Properties& prop, const SDOPackage::NVList& nv) {
+    if (nv.length() > 10000) throw CORBA::IMP_LIMIT(0, CORBA::COMPLETED_NO);
     for (CORBA::ULong i = 0; i < nv.length(); ++i) {
         const char* value = nullptr;
         if (nv[i].value >>= value) prop.setProperty(static_cast<const char*>(nv[i].name), value);

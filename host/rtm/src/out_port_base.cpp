@@ -92,7 +92,7 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
     }
     bool local = false;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
-        auto* port = local_object<InPortBase>(profile.ports[i]);
+        auto port = local_object<InPortBase>(profile.ports[i]);
         auto inlet = port ? port->inlet(profile.connector_id) : nullptr;
         if (inlet == nullptr) continue;
         addConnector(new OutPortPushConnector(*this, info, inlet));

@@ -12,7 +12,7 @@ using RTC::RTC_OK;
 
 RTObjectStateMachine::RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTObject_ptr component)
     : id_(id), reference_(RTC::LightweightRTObject::_duplicate(component)),
-      local_(RTC::local_object<RTC::RTObject_impl>(component)) {
+      local_(RTC::local_object<RTC::RTObject_impl>(component).get()) {
     if (local_ == nullptr) remote_actions_ = RTC::DataFlowComponentAction::_narrow(component);
 }
 

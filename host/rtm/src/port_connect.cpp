@@ -67,11 +67,11 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
     try {
         const std::string why = misfit(profile.ports);
         if (!why.empty()) return refuse(BAD_PARAMETER, why);
-        auto* first = local_object<PortBase>(profile.ports[0]);
+        auto first = local_object<PortBase>(profile.ports[0]);
         const ReturnCode_t result =
             first ? first->notify_connect(profile) : profile.ports[0]->notify_connect(profile);
         if (result == RTC_OK) return refuse(RTC_OK, "");
-        if (first && first != this) refuse(result, first->connectError());
+        if (first && first.get() != this) refuse(result, first->connectError());
         const std::string id(profile.connector_id);
         const std::string reason = connectError();
         disconnect(id.c_str()); // whatever part of it was established
@@ -101,6 +101,11 @@ void PortBase::tell(PortConnectRetListenerType type, ConnectorProfile& profile, 
 }
 
 ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
+    // Twice would be a circle: each passes the call on to the next one.
+    const auto places = placesOf(profile);
+    if (places != 1)
+        return refuse(BAD_PARAMETER, std::string(getName()) + " is " + std::to_string(places) +
+                                         " times in the list of ports to connect, expected once");
     const coil::Properties properties = NVUtil::toProperties(profile.properties);
     const bool duplicates =
         coil::toBool(properties.getProperty("dataport.allow_dup_connection",
@@ -120,8 +125,8 @@ ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
     const ReturnCode_t subscribed = passed_on == RTC_OK ? subscribeInterfaces(profile) : passed_on;
     tell(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
-    // Kept even when it has failed: the disconnection that follows finds by it what to undo.
-    updateConnectorProfile(profile);
+    // Kept even when it has failed later: the disconnection that follows finds by it what to undo.
+    if (published == RTC_OK) updateConnectorProfile(profile);
     if (subscribed == RTC_OK && has_remote_port(profile)) Manager::instance().impl().connections->watch();
     return subscribed;
 }
@@ -156,15 +161,20 @@ bool PortBase::alreadyConnectedTo(const ConnectorProfile& profile) {
     return false;
 }
 
+CORBA::ULong PortBase::placesOf(const ConnectorProfile& profile) const {
+    CORBA::ULong places = 0;
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
+        if (m_objref->_is_equivalent(profile.ports[i])) ++places;
+    return places;
+}
+
 ReturnCode_t PortBase::connectNext(ConnectorProfile& profile) {
     const CORBA::Long me =
         CORBA_SeqUtil::find(profile.ports, [this](PortService_ptr p) { return m_objref->_is_equivalent(p); });
-    if (me < 0)
-        return refuse(BAD_PARAMETER, std::string(getName()) + " is not in the list of ports to connect");
     const CORBA::ULong next = static_cast<CORBA::ULong>(me) + 1;
     if (next >= profile.ports.length()) return RTC_OK;
     PortService_var port = RTC::PortService::_duplicate(profile.ports[next]);
-    auto* local = local_object<PortBase>(port.in());
+    auto local = local_object<PortBase>(port.in());
     const ReturnCode_t result = local ? local->notify_connect(profile) : port->notify_connect(profile);
     return result == RTC_OK || !local ? result : refuse(result, local->connectError());
 }
@@ -176,7 +186,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     ReturnCode_t result = RTC_ERROR;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         try {
-            auto* local = local_object<PortBase>(profile.ports[i]);
+            auto local = local_object<PortBase>(profile.ports[i]);
             if (local == nullptr) bound_calls(profile.ports[i]);
             result = local ? local->notify_disconnect(connector_id)
                            : profile.ports[i]->notify_disconnect(connector_id);
@@ -217,7 +227,7 @@ void PortBase::forget(const char* connector_id) {
     RTC_WARN(("%s: the other side of connection %s is gone", getName(), connector_id));
     if (m_onConnectionLost != nullptr) (*m_onConnectionLost)(profile);
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
-        if (auto* local = local_object<PortBase>(profile.ports[i])) local->release(connector_id);
+        if (auto local = local_object<PortBase>(profile.ports[i])) local->release(connector_id);
     Manager::instance().impl().connections->lost(profile);
 }
 
@@ -227,7 +237,7 @@ ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
     if (me < 0) return BAD_PARAMETER;
     for (CORBA::ULong next = static_cast<CORBA::ULong>(me) + 1; next < profile.ports.length(); ++next) {
         try {
-            auto* local = local_object<PortBase>(profile.ports[next]);
+            auto local = local_object<PortBase>(profile.ports[next]);
             if (local == nullptr) bound_calls(profile.ports[next]);
             return local ? local->notify_disconnect(profile.connector_id)
                          : profile.ports[next]->notify_disconnect(profile.connector_id);

@@ -53,6 +53,7 @@ void RTObject_impl::retire() {
 }
 
 ReturnCode_t RTObject_impl::initialize() {
+    if (m_initialized.exchange(true)) return PRECONDITION_NOT_MET; // anybody may ask for it, by CORBA
     createContexts();
     const ReturnCode_t result = on_initialize();
     if (result != RTC_OK) return result;

@@ -23,24 +23,34 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
                                     PostComponentActionListenerType post, Callback callback) {
     ReturnCode_t result = RTC_ERROR;
     std::string trouble;
-    try {
+    auto attempt = [&](auto call) {
+        try {
+            call();
+        } catch (const std::exception& e) {
+            trouble = std::string("threw: ") + e.what();
+        } catch (const CORBA::Exception& e) {
+            trouble = std::string("threw CORBA exception ") + e._name();
+        } catch (...) {
+            trouble = "threw something that is not a std::exception";
+        }
+    };
+    attempt([&] {
         m_actionListeners.preaction_[m_actionListeners.at(pre)].forEach(
             [&](auto& listener) { listener(ec_id); });
         result = callback();
         if (result != RTC_OK) trouble = "returned " + std::to_string(static_cast<int>(result));
-    } catch (const std::exception& e) {
-        trouble = std::string("threw: ") + e.what();
-    } catch (const CORBA::Exception& e) {
-        trouble = std::string("threw CORBA exception ") + e._name();
-    } catch (...) {
-        trouble = "threw something that is not a std::exception";
-    }
+    });
     const bool repeats = pre == PreComponentActionListenerType::PRE_ON_ERROR;
     if (!trouble.empty() && !(repeats && m_errorReported)) RTC_ERROR(("%s %s", what, trouble.c_str()));
     m_errorReported = repeats && !trouble.empty();
-    m_actionListeners.postaction_[m_actionListeners.at(post)].forEach(
-        [&](auto& listener) { listener(ec_id, result); });
-    return result;
+    trouble.clear();
+    attempt([&] {
+        m_actionListeners.postaction_[m_actionListeners.at(post)].forEach(
+            [&](auto& listener) { listener(ec_id, result); });
+    });
+    if (trouble.empty()) return result;
+    RTC_ERROR(("a listener after %s %s", what, trouble.c_str()));
+    return RTC_ERROR;
 }
 
 using Pre = PreComponentActionListenerType;

@@ -71,15 +71,15 @@ CORBA::Any* Configuration_impl::get_configuration_parameter_value(const char* na
 CORBA::Boolean Configuration_impl::set_configuration_parameter(const char* name, const CORBA::Any& value) {
     const char* text = nullptr;
     if (!(value >>= text)) throw InvalidParameter("the value is not a string");
-    coil::Properties change(sets_.getActiveId());
+    coil::Properties change(sets_.activeId().c_str());
     change.setProperty(name, text);
     return sets_.setConfigurationSetValues(change);
 }
 
 ConfigurationSetList* Configuration_impl::get_configuration_sets() {
     ConfigurationSetList_var list = new ConfigurationSetList;
-    for (auto* set : sets_.getConfigurationSets())
-        if (!describes_parameters(*set)) CORBA_SeqUtil::push_back(list.inout(), to_corba(*set));
+    for (const auto& set : sets_.copies())
+        if (!describes_parameters(set)) CORBA_SeqUtil::push_back(list.inout(), to_corba(set));
     return list._retn();
 }
 

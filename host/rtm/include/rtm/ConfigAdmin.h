@@ -77,8 +77,11 @@ class ConfigAdmin {
     bool isActive() const { return m_active; }
 
     std::vector<coil::Properties*> getConfigurationSets() const;
+    /// Ours: what may be looked at while others change and remove sets.
+    std::vector<coil::Properties> copies() const;
+    std::string activeId() const;
     coil::Properties getConfigurationSet(const char* config_id) const;
-    coil::Properties getActiveConfigurationSet() const { return getConfigurationSet(m_activeId.c_str()); }
+    coil::Properties getActiveConfigurationSet() const { return getConfigurationSet(activeId().c_str()); }
     bool setConfigurationSetValues(const coil::Properties& config_set);
     bool addConfigurationSet(const coil::Properties& config_set);
     bool removeConfigurationSet(const char* config_id);

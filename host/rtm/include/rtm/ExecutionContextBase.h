@@ -44,6 +44,8 @@ class ExecutionContextBase {
     double getRate() const;
     std::chrono::nanoseconds getPeriod() const;
     ReturnCode_t setRate(double rate);
+    /// Ours: is this a rate in Hz with a period that a clock can keep?
+    static bool isRate(double rate) { return rate >= 1e-6 && rate <= 1e9; }
     ExecutionKind getKind() const { return m_kind; }
 
     ReturnCode_t addComponent(LightweightRTObject_ptr comp);

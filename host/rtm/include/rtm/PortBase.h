@@ -133,6 +133,7 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     void tell(PortConnectListenerType type, ConnectorProfile& profile);
     void tell(PortConnectRetListenerType type, ConnectorProfile& profile, ReturnCode_t result);
     bool alreadyConnectedTo(const ConnectorProfile& connector_profile);
+    CORBA::ULong placesOf(const ConnectorProfile& connector_profile) const;
 
     PortableServer::POA_var m_poa;
     PortableServer::ObjectId_var m_oid;

@@ -389,7 +389,8 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     ComponentActionListeners m_actionListeners;
     FsmActionListeners m_fsmListeners;
     PortConnectListeners m_portConnectListeners;
-    bool m_created = true;
+    std::atomic<bool> m_created{true};
+    std::atomic<bool> m_initialized{false};
     std::atomic<bool> m_exiting{false};
     bool m_errorReported = false; // onError fails once per cycle, it is said once
     bool m_readAll = false, m_readAllCompletion = false;

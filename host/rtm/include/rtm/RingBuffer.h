@@ -20,7 +20,7 @@ class RingBuffer : public BufferBase<DataType> {
 
     void init(const coil::Properties& prop) override {
         std::size_t n = 0;
-        if (coil::stringTo(n, prop.getProperty("length").c_str()) && n > 0) length(n);
+        if (coil::stringTo(n, prop.getProperty("length").c_str()) && n > 0 && n <= 1000000) length(n);
         init_side(prop, "write.full_policy", "overwrite", overwrite_, block_write_);
         init_side(prop, "read.empty_policy", "readback", readback_, block_read_);
         coil::stringTo(write_timeout_, prop.getProperty("write.timeout").c_str());

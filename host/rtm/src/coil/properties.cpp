@@ -9,14 +9,16 @@ namespace {
 
 const std::string nothing;
 
-// `a.b\.c` -> {a, b.c}
+// `a.b\.c` -> {a, b.c}. A key comes from files and from other processes: its depth is bounded, since a tree
+// is copied and deleted by recursion. What is deeper is one name with dots.
 std::vector<std::string> path_of(const std::string& key) {
+    constexpr std::size_t deepest = 100;
     std::vector<std::string> path;
     std::string part;
     for (std::size_t i = 0; i < key.size(); ++i) {
         if (key[i] == '\\' && i + 1 < key.size() && key[i + 1] == '.') {
             part += key[++i];
-        } else if (key[i] == '.') {
+        } else if (key[i] == '.' && path.size() + 1 < deepest) {
             path.push_back(part);
             part.clear();
         } else {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <coil/stringutil.h>
 
 namespace coil {
@@ -7,7 +8,7 @@ namespace {
 template <class Duration>
 bool seconds_to(Duration& val, const char* str) {
     double seconds = 0;
-    if (!stringTo(seconds, str)) return false;
+    if (!stringTo(seconds, str) || !(std::abs(seconds) < 9e9)) return false; // 292 years of nanoseconds
     val = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds));
     return true;
 }
