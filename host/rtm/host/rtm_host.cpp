@@ -8,14 +8,17 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <thread>
+#include <unistd.h>
 
 namespace {
 
@@ -106,10 +109,19 @@ class SignalWatch {
     std::thread thread_;
 };
 
-int run(const Arguments& a) {
+// The same program with the same arguments; what this process has opened is closed on the way.
+[[noreturn]] void begin_anew(char** argv) {
+    std::fflush(nullptr);
+    execv("/proc/self/exe", argv);
+    std::fprintf(stderr, "rtm_host: cannot begin anew: %s\n", std::strerror(errno));
+    std::_Exit(1);
+}
+
+int run(const Arguments& a, char** arguments) {
     for (const auto& notice : tandem::rt::apply(a.switches)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep.empty();
+    options.can_restart = true;
     options.cpu = a.switches.cpu;
     options.tick_spin = a.switches.tick_spin();
     options.plugin_path = plugin_path(a);
@@ -130,6 +142,8 @@ int run(const Arguments& a) {
         std::fflush(stdout);
         manager.runManager();
         all_ended = manager.endedInOrder();
+        steps.reset();
+        if (manager.restartWanted()) begin_anew(arguments);
     } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         manager.shutdown();
@@ -157,7 +171,7 @@ int main(int argc, char** argv) {
     describe(app, arguments);
     CLI11_PARSE(app, argc, argv);
     try {
-        return run(arguments);
+        return run(arguments, argv);
     } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         return 1;

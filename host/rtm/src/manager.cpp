@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's life: start, activation, run loop, orderly end.
+#include "conf_keys.hpp"
 #include "manager_impl.hpp"
 #include "shared_composite.hpp"
 #include <algorithm>
@@ -107,6 +108,20 @@ Manager& Manager::instance() {
 }
 
 coil::Properties& Manager::getConfig() { return m_impl->config; }
+coil::Properties Manager::Impl::settings() const {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    return config;
+}
+bool Manager::Impl::change_setting(const std::string& key, std::string value) {
+    if (key.empty() || !value_fits(key, value)) return false;
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    config.setProperty(key, value);
+    return true;
+}
+std::string Manager::Impl::setting(const std::string& key) const {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    return config.getProperty(key);
+}
 std::string& Manager::getLogLevel() { return m_impl->config["logger.log_level"]; }
 void Manager::setModuleInitProc(ModuleInitProc proc) { m_impl->init_proc = proc; }
 
@@ -244,7 +259,7 @@ class LonelinessWatch {
 void Manager::runManager(bool no_block) {
     if (no_block) return;
     for (int number : {SIGINT, SIGTERM, SIGHUP}) handle_signal(number);
-    LonelinessWatch lonely(m_impl->config);
+    LonelinessWatch lonely(m_impl->settings());
     while (!end_wanted) {
         sleep_until_rung(100);
         m_impl->run_due_tasks();
@@ -256,6 +271,7 @@ void Manager::runManager(bool no_block) {
 }
 
 bool Manager::endedInOrder() const { return m_impl->ended_in_order; }
+bool Manager::restartWanted() const { return m_impl->restart_wanted; }
 
 void Manager::addManagerActionListener(RTM::ManagerActionListener* listener, bool autoclean) {
     m_impl->listeners.manager_.addListener(listener, autoclean);

@@ -3,6 +3,7 @@
 #include "host/plugin/find_library.hpp"
 #include "manager_impl.hpp"
 #include <algorithm>
+#include <optional>
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -24,13 +25,14 @@ coil::Properties inherited(const coil::Properties& config, const coil::Propertie
 }
 
 // <category>.<name>.config_file, and what rtc.conf says below <category>.<name>.
-void configure_from(const Manager::Impl& impl, const std::string& node_name, coil::Properties& out) {
-    const auto* node = impl.config.findNode(node_name);
+void configure_from(const coil::Properties& config, const std::filesystem::path& folder,
+                    const std::string& node_name, coil::Properties& out) {
+    const auto* node = config.findNode(node_name);
     if (node == nullptr) return;
     const std::string file = node->getProperty("config_file");
     if (!file.empty()) {
         std::filesystem::path path(coil::replaceEnv(file));
-        if (path.is_relative() && !std::filesystem::exists(path)) path = impl.conf_file.parent_path() / path;
+        if (path.is_relative() && !std::filesystem::exists(path)) path = folder / path;
         if (std::filesystem::exists(path)) {
             read_conf_file(path, out);
         } else { // as in OpenRTM-aist: configurations are handed on without the files that they name
@@ -68,12 +70,14 @@ namespace {
 // rtc.conf, the component's own files, then the arguments of its creation: the later win.
 void configure(Manager::Impl& impl, RTObject_impl& component, const coil::Properties& profile,
                const coil::Properties& arguments) {
-    coil::Properties properties = inherited(impl.config, profile);
+    const coil::Properties config = impl.settings();
+    coil::Properties properties = inherited(config, profile);
     impl.listeners.rtclifecycle_.forEach([&](auto& listener) { listener.preConfigure(properties); });
     const std::string category(component.getCategory());
     const std::string name(component.getInstanceName());
-    configure_from(impl, category + "." + component.getTypeName(), properties);
-    configure_from(impl, category + "." + name, properties);
+    const auto folder = impl.conf_file.parent_path();
+    configure_from(config, folder, category + "." + component.getTypeName(), properties);
+    configure_from(config, folder, category + "." + name, properties);
     properties << arguments;
     for (const auto& key : arguments.propertyNames()) // ?gain=2 for the configuration parameter gain
         if (profile.findNode("conf.default." + key) != nullptr)
@@ -81,8 +85,43 @@ void configure(Manager::Impl& impl, RTObject_impl& component, const coil::Proper
     properties.setProperty("instance_name", name);
     component.setProperties(properties);
     coil::Properties& own = component.getProperties();
-    own.setProperty("naming.names", format_name(own.getProperty("naming.formats"), own, impl.config));
+    own.setProperty("naming.names", format_name(own.getProperty("naming.formats"), own, config));
     impl.listeners.rtclifecycle_.forEach([&](auto& listener) { listener.postConfigure(properties); });
+}
+
+} // namespace
+
+namespace {
+
+// Which name a component is to have: taken from here on, though it is not there yet.
+class NameTaken {
+  public:
+    NameTaken(Manager::Impl& impl, std::string name) : impl_(impl), name_(std::move(name)) {
+        std::lock_guard<std::recursive_mutex> lock(impl.mutex);
+        const bool there =
+            !impl.references([&](auto& one) { return name_ == one.getInstanceName(); }).empty();
+        if (there || !impl.coming.insert(name_).second)
+            throw ManagerError("there is already a component " + name_);
+    }
+    ~NameTaken() {
+        std::lock_guard<std::recursive_mutex> lock(impl_.mutex);
+        impl_.coming.erase(name_);
+    }
+
+  private:
+    Manager::Impl& impl_;
+    std::string name_;
+};
+
+// OpenRTM-aist starts other managers and passes such requests on to them.
+void require_this_manager(const Manager::Impl& impl, const coil::Properties& arguments) {
+    const std::string wanted = arguments.getProperty("manager_name");
+    const std::string name = impl.setting("manager.instance_name");
+    if (!wanted.empty() && wanted != name && wanted != impl.setting("manager.name"))
+        throw ManagerError("manager_name is " + wanted + ", this manager is " + name +
+                           " and has no others; ask that one");
+    const std::string address = arguments.getProperty("manager_address");
+    if (!address.empty()) throw ManagerError("manager_address is " + address + "; ask the manager there");
 }
 
 } // namespace
@@ -93,6 +132,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     listeners.forEach([&](auto& listener) { listener.preCreate(args); });
     const ComponentArguments wanted = parse_component_arguments(args);
     const std::string type = wanted.id.getProperty("implementation_id");
+    require_this_manager(*m_impl, wanted.properties);
 
     // Not locked while the component's own code runs: it may ask the manager from threads of its own.
     FactoryBase* factory = nullptr;
@@ -108,10 +148,11 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
         throw ManagerError("there is no component type " + type + " (known: " +
                            listed(getModulesFactories()) + "); name its library in manager.modules.preload");
     RTObject_impl& component = makeOrThrow(*factory);
+    std::optional<NameTaken> taken;
     try {
         listeners.forEach([&](auto& listener) { listener.postCreate(&component); });
         const std::string name = wanted.properties.getProperty("instance_name", component.getInstanceName());
-        if (getComponent(name.c_str()) != nullptr) throw ManagerError("there is already a component " + name);
+        taken.emplace(*m_impl, name);
         component.setInstanceName(name.c_str());
         configure(*m_impl, component, factory->profile(), wanted.properties);
         listeners.forEach([](auto& listener) { listener.preInitialize(); });
@@ -180,10 +221,11 @@ std::vector<RTObject_impl*> Manager::getComponents() {
     return all;
 }
 
-std::vector<RTObject_var> Manager::Impl::references() const {
+std::vector<RTObject_var> Manager::Impl::references(const std::function<bool(RTObject_impl&)>& fits) const {
     std::lock_guard<std::recursive_mutex> lock(mutex);
     std::vector<RTObject_var> all;
-    for (const auto& component : components) all.emplace_back(component.object->getObjRef());
+    for (const auto& component : components)
+        if (fits(*component.object)) all.emplace_back(component.object->getObjRef());
     return all;
 }
 

@@ -11,6 +11,7 @@
 #include <rtm/ManagerActionListener.h>
 #include <rtm/ManagerServant.h>
 #include <rtm/NamingManager.h>
+#include <set>
 
 namespace RTC {
 class LogstreamBase;
@@ -44,26 +45,36 @@ struct Manager::Impl {
     };
     mutable std::recursive_mutex mutex; // guards what follows
     std::vector<Module> modules;
+    std::set<std::shared_ptr<tandem::plugin::Library>> libraries; // of those that were unloaded, too
     std::vector<std::unique_ptr<FactoryBase>> factories;
     std::map<std::string, ContextType> contexts;
     std::vector<Component> components; // in the order of their creation
     std::vector<Component> finalized;  // have left, wait for their deletion
+    std::set<std::string> coming;      // names of those that are being created
     std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks;
     std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
     bool ever_had_components = false;
     bool shut_down = false;
     std::atomic<bool> ended_in_order{true};
+    std::atomic<bool> restart_wanted{false};
 
     std::vector<LogstreamBase*> log_streams; // from modules
 
     RTM::ManagerActionListeners listeners;
 
+    /// rtc.conf as it is now: tools change it while components are created from it.
+    coil::Properties settings() const;
+    std::string setting(const std::string& key) const;
+    /// What a tool sets; false for a value that the key cannot have.
+    bool change_setting(const std::string& key, std::string value);
     FactoryBase* find_factory(const coil::Properties& id);
     std::vector<std::filesystem::path> module_dirs() const;
     void run_due_tasks();
     void repeat(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
                 std::chrono::nanoseconds period);
-    std::vector<RTObject_var> references() const; ///< to the components, which may leave meanwhile
+    /// To the components, which may leave meanwhile: to all, or to those that fit.
+    std::vector<RTObject_var> references(const std::function<bool(RTObject_impl&)>& fits =
+                                             [](RTObject_impl&) { return true; }) const;
 };
 
 /// Command line and rtc.conf into properties. Throws ManagerError.

@@ -9,7 +9,7 @@ namespace RTC {
 
 std::vector<std::filesystem::path> Manager::Impl::module_dirs() const {
     std::vector<std::filesystem::path> dirs;
-    for (const auto& dir : coil::split(config.getProperty("manager.modules.load_path"), ",", true)) {
+    for (const auto& dir : coil::split(setting("manager.modules.load_path"), ",", true)) {
         dirs.emplace_back(coil::replaceEnv(dir));
         // A configuration folder can be moved as a whole.
         if (!conf_file.empty() && dirs.back().is_relative())
@@ -61,7 +61,7 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
     try {
         namespace plugin = tandem::plugin;
         if (std::filesystem::path(name).is_absolute() &&
-            !coil::toBool(m_impl->config.getProperty("manager.modules.abs_path_allowed"), "YES", "NO", true))
+            !coil::toBool(m_impl->setting("manager.modules.abs_path_allowed"), "YES", "NO", true))
             throw ManagerError("module " + name +
                                ": absolute paths are not allowed (manager.modules.abs_path_allowed: NO)");
         const auto file = plugin::find_library(name, m_impl->module_dirs());
@@ -73,6 +73,8 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
         {
             // Kept for ever: objects and code of a component may be in use to the end of the process.
             std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+            m_impl->libraries.insert(library);
+            std::erase_if(m_impl->modules, [&](auto& one) { return one.library->path() == library->path(); });
             m_impl->modules.push_back({name, library});
         }
         call([&] { init(this); }, symbol + "() of module " + file.string());
@@ -83,8 +85,7 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
 }
 
 bool Manager::loadForType(const std::string& type) {
-    if (!coil::toBool(m_impl->config.getProperty("manager.modules.search_auto"), "YES", "NO", true))
-        return false;
+    if (!coil::toBool(m_impl->setting("manager.modules.search_auto"), "YES", "NO", true)) return false;
     try {
         tandem::plugin::find_library(type, m_impl->module_dirs());
     } catch (const tandem::plugin::Error&) {
@@ -104,19 +105,6 @@ ReturnCode_t Manager::load(const std::string& file_name, const std::string& init
         return RTC_ERROR;
     }
 }
-
-std::vector<coil::Properties> Manager::getLoadedModules() {
-    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
-    std::vector<coil::Properties> modules;
-    for (auto& module : m_impl->modules) {
-        modules.emplace_back();
-        modules.back().setProperty("module_file_name", module.name);
-        modules.back().setProperty("module_file_path", module.library->path().string());
-    }
-    return modules;
-}
-
-std::vector<coil::Properties> Manager::getLoadableModules() { return {}; }
 
 bool Manager::registerFactory(coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func) {
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);

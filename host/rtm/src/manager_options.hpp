@@ -18,6 +18,7 @@ struct HostOptions {
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
     std::vector<std::filesystem::path> plugin_path; ///< searched after manager.modules.load_path
     std::optional<tandem::plugin::Probe> probe;     ///< modules are tried in a child process first
+    bool can_restart = false;                       ///< it looks at Manager::restartWanted() in the end
     bool strict = false;                            ///< rtc.conf must exist and be well-formed
 };
 

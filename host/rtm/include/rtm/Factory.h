@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_FACTORY_H
 #define RTC_FACTORY_H
+#include <atomic>
 #include <coil/Properties.h>
 #include <memory>
 #include <rtm/NumberingPolicy.h>
@@ -35,7 +36,7 @@ class FactoryBase {
 
   protected:
     coil::Properties m_Profile;
-    int m_Number = -1;
+    std::atomic<int> m_Number{-1};
 };
 
 class FactoryCXX : public FactoryBase {
@@ -48,6 +49,8 @@ class FactoryCXX : public FactoryBase {
     }
     RTObject_impl* create(Manager* manager) override;
     void destroy(RTObject_impl* comp) override;
+    /// Ours: of which library the components are.
+    RtcNewFunc creator() const { return m_New; }
 
   private:
     RtcNewFunc m_New;

@@ -72,6 +72,8 @@ class Manager {
     bool shutdown();
     /// Ours: what shutdown() returned.
     bool endedInOrder() const;
+    /// Ours: a tool wants the program to begin anew when shutdown() is done.
+    bool restartWanted() const;
     /// Ours: has terminate() been called?
     static bool endWanted();
 
@@ -87,8 +89,10 @@ class Manager {
     /// rule. Throws ManagerError.
     std::string tryFactories(const std::function<void(const std::string&)>& before,
                              std::chrono::nanoseconds patience);
-    void unload(const char*) {}
-    void unloadAll() {}
+    /// Forgets a module's component types; its code stays for what may still use it. PRECONDITION_NOT_MET while
+    /// there are components of it.
+    ReturnCode_t unload(const char* file_name);
+    void unloadAll();
     std::vector<coil::Properties> getLoadedModules();
     std::vector<coil::Properties> getLoadableModules();
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTM_MANAGERSERVANT_H
 #define RTM_MANAGERSERVANT_H
+#include <functional>
 #include <rtm/Manager.h>
 #include <rtm/idl/ManagerSkel.h>
 
@@ -43,6 +44,7 @@ class ManagerServant : public virtual POA_RTM::Manager, public virtual PortableS
     void setObjRef(RTM::Manager_ptr ref) { m_objref = RTM::Manager::_duplicate(ref); }
 
   private:
+    RTC::RTCList_var components(const std::function<bool(RTC::RTObject_impl&)>& fits) const;
     RTC::Manager& manager_;
     RTM::Manager_var m_objref;
 };
