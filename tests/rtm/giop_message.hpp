@@ -5,6 +5,7 @@
 #include <cstring>
 #include <netinet/in.h>
 #include <omniORB4/CORBA.h>
+#include <random>
 #include <string>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -131,6 +132,29 @@ inline Bytes request(const std::string& key, const std::string& operation, const
     }
     m.append(arguments);
     return m.finish();
+}
+
+/// The same in two pieces or more: fragments of GIOP 1.2.
+inline std::vector<Bytes> in_fragments(const Bytes& whole, std::size_t first, std::size_t each) {
+    const bool little = whole[6] & 1;
+    std::vector<Bytes> pieces;
+    std::size_t at = std::min(whole.size(), 12 + (first / 8 + 1) * 8); // pieces end at multiples of 8
+    Bytes head(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(at));
+    while (true) {
+        const bool more = at < whole.size();
+        head[6] = static_cast<unsigned char>(little | (more ? 2 : 0));
+        MessageWriter sized(little, 2, head[7]);
+        sized.bytes = head;
+        pieces.push_back(sized.finish());
+        if (!more) return pieces;
+        MessageWriter next(little, 2, 7);
+        next.number(7); // of request 7
+        const std::size_t end = std::min(whole.size(), at + (each / 8 + 1) * 8);
+        next.append(Bytes(whole.begin() + static_cast<std::ptrdiff_t>(at),
+                          whole.begin() + static_cast<std::ptrdiff_t>(end)));
+        head = next.bytes;
+        at = end;
+    }
 }
 
 /// A socket to the port on the loopback interface, or -1.

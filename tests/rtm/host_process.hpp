@@ -4,6 +4,8 @@
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
+#include <filesystem>
+#include <fstream>
 #include <poll.h>
 #include <stdexcept>
 #include <string>
@@ -63,6 +65,18 @@ class HostProcess {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return false;
+    }
+    pid_t pid() const { return pid_; }
+    std::size_t descriptors() const {
+        const std::filesystem::directory_iterator all("/proc/" + std::to_string(pid_) + "/fd");
+        return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+    }
+    /// MB that it has in memory now; with `peak` the most that it ever had.
+    long memory(bool peak = false) const {
+        std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
+        for (std::string line; std::getline(status, line);)
+            if (line.compare(0, 6, peak ? "VmHWM:" : "VmRSS:") == 0) return std::stol(line.substr(6)) / 1024;
+        return -1;
     }
     /// Exit code, or minus the signal that has ended it; -1000 when it does not end.
     int wait(std::chrono::seconds bound = std::chrono::seconds(30)) {

@@ -140,6 +140,75 @@ TEST_CASE("Whichever callback a component does not return from the others end in
     }
 }
 
+TEST_CASE("Whatever a component throws and wherever its host says it in one line and lives on") {
+    const std::vector<std::string> callbacks{"Startup", "Activated", "Execute",     "StateUpdate", "Aborting",
+                                             "Error",   "Shutdown",  "Deactivated", "Finalize"};
+    for (const std::string how : {"int", "corba", "std"}) {
+        std::vector<std::unique_ptr<Folder>> folders;
+        std::vector<std::unique_ptr<HostProcess>> hosts;
+        for (const auto& callback : callbacks) {
+            std::string in = callback == "StateUpdate" ? "update" : callback;
+            in[0] = static_cast<char>(std::tolower(in[0]));
+            folders.push_back(std::make_unique<Folder>(callback));
+            hosts.push_back(std::make_unique<HostProcess>(std::vector<std::string>{
+                "-f", folders.back()->conf("manager.modules.preload: TestComponents.so\n"
+                                           "manager.components.precreate: Counter, Teller, Sleeper?how=" +
+                                           how + "&in=" + in +
+                                           "\nmanager.components.preconnect: Counter0.out?port=Teller0.in\n"
+                                           "manager.components.preactivation: Counter0, Teller0, Sleeper0\n"
+                                           "exec_cxt.periodic.rate: 100\n")}));
+        }
+        for (auto& host : hosts) {
+            CHECK(host->says("ready\n"));
+            CHECK(host->says("received 1")); // the others go on
+            host->send(SIGTERM);
+        }
+        const std::string said = how == "int"   ? "something that is not"
+                                 : how == "std" ? ": on purpose"
+                                                : "NO_MEMORY";
+        for (std::size_t i = 0; i < hosts.size(); ++i) {
+            CAPTURE(how, callbacks[i], hosts[i]->output, hosts[i]->errors);
+            CHECK(hosts[i]->wait() == 0);
+            const std::string line = "Sleeper0: on" + callbacks[i] + " threw";
+            const std::size_t at = hosts[i]->errors.find(line);
+            REQUIRE(at != std::string::npos);
+            CHECK(hosts[i]->errors.find(said, at) != std::string::npos);
+            CHECK(hosts[i]->errors.find(line, at + 1) == std::string::npos);
+            CHECK(hosts[i]->output.find("Teller0 finalized") != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("A component that throws where it is to initialize does not let its host start") {
+    using Catch::Contains;
+    for (const std::string how : {"int", "corba", "std"}) {
+        Folder folder;
+        HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                            "manager.components.precreate: Sleeper?in=initialize&how=" +
+                                            how + "\n")});
+        CHECK(host.wait() == 1);
+        CHECK_THAT(host.errors, Contains("Sleeper0: onInitialize threw") && Contains("does not start"));
+    }
+}
+
+TEST_CASE("A component that ends the process ends it with its own code and in time") {
+    const std::vector<std::string> callbacks{"initialize", "startup",  "activated",   "execute",
+                                             "update",     "shutdown", "deactivated", "finalize"};
+    for (const auto& [how, code] : {std::pair("exit", 7), {"abort", -SIGABRT}})
+        for (const auto& callback : callbacks) {
+            CAPTURE(how, callback);
+            Folder folder;
+            HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                                "manager.components.precreate: Teller, Sleeper?in=" +
+                                                callback + "&how=" + how +
+                                                "\nmanager.components.preactivation: Teller0, Sleeper0\n"
+                                                "exec_cxt.periodic.rate: 100\n")});
+            host.says("ready\n", std::chrono::seconds(2));
+            host.send(SIGTERM);
+            CHECK(host.wait() == code);
+        }
+}
+
 TEST_CASE("In lock-step components run when they are told to and at no other time") {
     Folder folder;
     const std::string socket = (folder.path / "steps").string();

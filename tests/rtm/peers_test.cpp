@@ -95,6 +95,112 @@ TEST_CASE("A peer that dies or hangs in its notify_connect leaves nothing behind
     CHECK(summer.received_ > 0);
 }
 
+TEST_CASE("A peer that dies or hangs in its notify_disconnect leaves nothing behind") {
+    OtherHost other("BadPeer"), well("Teller");
+    REQUIRE(other.host.says("ready\n"));
+    REQUIRE(well.host.says("ready\n"));
+    Stage stage(true, {"corba.args:-ORBclientCallTimeOutPeriod 500"});
+    auto& counter = stage.create<Counter>("Counter");
+    auto* orb = stage.manager().theORB();
+    RTC::RTObject_var bad = other.component(orb, "BadPeer0"), teller = well.component(orb, "Teller0");
+    REQUIRE(connect(counter.out_, teller.in(), "in") == RTC::RTC_OK);
+    REQUIRE(connect(counter.out_, bad.in(), "hangs_late") == RTC::RTC_OK);
+    REQUIRE(connect(counter.out_, bad.in(), "dies_late") == RTC::RTC_OK);
+    CHECK(connections(counter.out_) == 3);
+    for (const int left : {2, 1}) {
+        RTC::ConnectorProfileList_var all = counter.out_.get_connector_profiles();
+        CHECK(counter.out_.disconnect(all[1].connector_id) == RTC::RTC_OK);
+        CHECK(connections(counter.out_) == static_cast<std::size_t>(left));
+        CHECK(counter.out_.getConnectorIds().size() == static_cast<std::size_t>(left));
+    }
+    CHECK(other.host.wait() == 3);
+    CORBA_RTCUtil::activate(teller.in());
+    stage.activate(counter);
+    for (int i = 0; i < 40; ++i) {
+        stage.step(counter);
+        if (i % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
+    }
+    CHECK(well.host.says("received 1"));
+}
+
+TEST_CASE("A component that does not return from onExecute keeps no tool from the others") {
+    OtherHost other("Counter,Hanger", free_port(), {"manager.components.preactivation:Counter0,Hanger0"});
+    REQUIRE(other.host.says("hanging\n"));
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    auto* orb = stage.manager().theORB();
+    RTC::RTObject_var counter = other.component(orb, "Counter0"), hanger = other.component(orb, "Hanger0");
+    for (int i = 0; i < 3; ++i) {
+        CHECK(CORBA_RTCUtil::deactivate(counter.in()) == RTC::RTC_OK);
+        CHECK(CORBA_RTCUtil::activate(counter.in()) == RTC::RTC_OK);
+    }
+    CHECK(CORBA_RTCUtil::deactivate(hanger.in()) == RTC::RTC_ERROR);
+    CHECK(CORBA_RTCUtil::is_in_active(hanger.in()));
+    CHECK(counter->exit() == RTC::RTC_OK);
+    RTM::Manager_var manager = other.manager(orb);
+    RTC::RTCList_var left = manager->get_components();
+    CHECK(left->length() == 1);
+    other.host.send(SIGTERM);
+    CHECK(other.host.wait() == 0);
+}
+
+TEST_CASE("Whichever way a receiver that hangs is sent to the others get what is theirs") {
+    OtherHost stuck("Teller"), well("Teller");
+    REQUIRE(stuck.host.says("ready\n"));
+    REQUIRE(well.host.says("ready\n"));
+    Stage stage(true);
+    auto& counter = stage.create<Counter>("Counter");
+    auto* orb = stage.manager().theORB();
+    RTC::RTObject_var a = stuck.component(orb, "Teller0"), b = well.component(orb, "Teller0");
+    for (auto* one : {&a, &b}) CORBA_RTCUtil::activate(one->in());
+    REQUIRE(connect(counter.out_, b.in(), "in") == RTC::RTC_OK);
+    for (const char* way : {"flush", "new", "periodic"})
+        for (const char* full : {"overwrite", "do_nothing", "block"})
+            REQUIRE(connect(counter.out_, a.in(), "in",
+                            {{"subscription_type", way},
+                             {"push_rate", "200"},
+                             {"allow_dup_connection", "YES"},
+                             {"buffer.write.full_policy", full},
+                             {"buffer.write.timeout", "0.01"}}) == RTC::RTC_OK);
+    stage.activate(counter);
+    REQUIRE(stuck.host.freeze());
+    for (int i = 0; i < 60; ++i) {
+        counter.value_.data = i;
+        counter.out_.write();
+        if (i % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
+    }
+    CHECK(well.host.says("received 1"));
+    CHECK(stuck.host.output.find("received 1") == std::string::npos);
+    stuck.host.send(SIGCONT);
+    CHECK(stuck.host.says("received 1"));
+}
+
+TEST_CASE("A sender that hangs keeps an InPort that pulls from it waiting once and no other component") {
+    OtherHost stuck("Counter", free_port(), {"manager.components.preactivation:Counter0"});
+    REQUIRE(stuck.host.says("ready\n"));
+    Stage stage(true);
+    auto& puller = stage.create<Summer>("Summer");
+    auto& summer = stage.create<Summer>("Summer");
+    auto& counter = stage.create<Counter>("Counter");
+    stage.connect("Counter0.out?port=Summer1.in");
+    RTC::RTObject_var there = stuck.component(stage.manager().theORB(), "Counter0");
+    REQUIRE(connect(puller.in_, there.in(), "out", {{"dataflow_type", "pull"}}) == RTC::RTC_OK);
+    CHECK(soon([&] { return puller.in_.read(); }));
+    REQUIRE(stuck.host.freeze());
+    for (auto* one : std::initializer_list<RTC::RTObject_impl*>{&puller, &summer, &counter})
+        stage.activate(*one);
+    int refused = 0;
+    for (int i = 0; i < 50; ++i) {
+        if (!puller.in_.read()) ++refused; // waits for an answer once in two seconds at most
+        stage.step(counter);
+        stage.step(summer);
+    }
+    CHECK(refused > 40);
+    CHECK(summer.received_ == 50);
+    stuck.host.send(SIGCONT);
+    CHECK(soon([&] { return puller.in_.read(); }));
+}
+
 TEST_CASE("A receiver that hangs keeps nothing from the others and gets all when it goes on") {
     OtherHost stuck("Teller"), well("Teller");
     REQUIRE(stuck.host.says("ready\n"));
@@ -108,7 +214,7 @@ TEST_CASE("A receiver that hangs keeps nothing from the others and gets all when
     for (auto* one : {&a, &b}) CORBA_RTCUtil::activate(one->in());
     stage.activate(counter);
     stage.step(counter);
-    stuck.host.send(SIGSTOP);
+    REQUIRE(stuck.host.freeze());
     int refused = 0;
     for (int i = 0; i < 200; ++i) {
         counter.value_.data = i;

@@ -57,13 +57,13 @@ class Hanger : public RTC::DataFlowComponentBase {
     }
 };
 
-/// Never returns from the callback that the parameter `in` names.
 /// Has an InPort `dies` in whose notify_connect() the process ends, and one `hangs` that does not return from
-/// it.
+/// it; `dies_late` and `hangs_late` do so when they are disconnected.
 class BadPeer : public RTC::DataFlowComponentBase {
   public:
     explicit BadPeer(RTC::Manager* manager)
-        : DataFlowComponentBase(manager), dies_("dies", value_), hangs_("hangs", value_) {}
+        : DataFlowComponentBase(manager), dies_("dies", value_), hangs_("hangs", value_),
+          dies_late_("dies_late", value_), hangs_late_("hangs_late", value_) {}
     RTC::ReturnCode_t onInitialize() override {
         struct Die : RTC::ConnectionCallback {
             void operator()(RTC::ConnectorProfile&) override { std::_Exit(3); }
@@ -79,14 +79,20 @@ class BadPeer : public RTC::DataFlowComponentBase {
         hangs_.setOnPublishInterfaces(&hang);
         addInPort("dies", dies_);
         addInPort("hangs", hangs_);
+        dies_late_.setOnUnsubscribeInterfaces(&die);
+        hangs_late_.setOnUnsubscribeInterfaces(&hang);
+        addInPort("dies_late", dies_late_);
+        addInPort("hangs_late", hangs_late_);
         return RTC::RTC_OK;
     }
 
   private:
     RTC::TimedLong value_{};
-    RTC::InPort<RTC::TimedLong> dies_, hangs_;
+    RTC::InPort<RTC::TimedLong> dies_, hangs_, dies_late_, hangs_late_;
 };
 
+/// Never returns from the callback that the parameter `in` names; with `how` it throws std, int or corba
+/// there, or ends the process by exit or abort.
 class Sleeper : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
@@ -111,6 +117,12 @@ class Sleeper : public RTC::DataFlowComponentBase {
     std::string in() { return getProperties().getProperty("in"); }
     RTC::ReturnCode_t at(const std::string& callback) {
         if (in() != callback) return RTC::RTC_OK;
+        const std::string how = getProperties().getProperty("how");
+        if (how == "std") throw std::runtime_error("on purpose");
+        if (how == "int") throw 7;
+        if (how == "corba") throw CORBA::NO_MEMORY();
+        if (how == "exit") std::exit(7);
+        if (how == "abort") std::abort();
         std::puts("asleep");
         std::fflush(stdout);
         std::this_thread::sleep_for(std::chrono::hours(1));

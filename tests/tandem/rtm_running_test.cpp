@@ -4,6 +4,8 @@
 #include "tests/rtm/other_host.hpp"
 
 #include <algorithm>
+#include <arpa/inet.h>
+#include <thread>
 
 using tandem::test::Result;
 using tandem::test::tandem_program;
@@ -35,6 +37,42 @@ struct Running {
         CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
         return result.errors;
     }
+};
+
+/// Takes connections and says nothing; or, told so, what no GIOP server says.
+class WrongServer {
+  public:
+    explicit WrongServer(std::string answer) : answer_(std::move(answer)) {
+        fd_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        if (bind(fd_, reinterpret_cast<sockaddr*>(&address), size) != 0 || listen(fd_, 8) != 0)
+            throw std::runtime_error("no server");
+        getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size);
+        at = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+        thread_ = std::thread([this] { serve(); });
+    }
+    ~WrongServer() {
+        shutdown(fd_, SHUT_RDWR);
+        thread_.join();
+        close(fd_);
+    }
+    std::string at;
+
+  private:
+    void serve() {
+        std::vector<int> taken;
+        for (int fd; (fd = accept(fd_, nullptr, nullptr)) >= 0;) {
+            taken.push_back(fd);
+            if (!answer_.empty()) send(fd, answer_.data(), answer_.size(), MSG_NOSIGNAL);
+        }
+        for (const int fd : taken) close(fd);
+    }
+    std::string answer_;
+    int fd_ = -1;
+    std::thread thread_;
 };
 
 } // namespace
@@ -87,4 +125,28 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     CHECK_THAT(host.failed({"inject", "Teller0:in", "5000000000"}), Catch::Contains("does not fit"));
     CHECK_THAT(host.failed({"inject", "Counter0:out", "7"}), Catch::Contains("expected a DataInPort"));
     CHECK_THAT(host.failed({"cat", "Teller0:in"}), Catch::Contains("expected a DataOutPort"));
+}
+
+TEST_CASE("tandem rtm says in one line and in time that a server is dead or stuck or something else") {
+    const std::string dead = "127.0.0.1:9";
+    WrongServer stuck(""), web("HTTP/1.1 400 Bad Request\r\n\r\n"),
+        half(std::string("GIOP\1\2\1\1\100\0\0\0", 12));
+    for (const auto& at : {dead, stuck.at, web.at, half.at})
+        for (std::vector<std::string> command :
+             {std::vector<std::string>{"list", "--manager", at, "--nameserver", at},
+              {"tree", "--manager", at, "--nameserver", at},
+              {"info", "rtcloc://" + at + "/A0"},
+              {"activate", "rtcname://" + at + "/a/A0.rtc"},
+              {"exit", "rtcloc://" + at + "/A0"},
+              {"connect", "rtcloc://" + at + "/A0:out", "rtcloc://" + at + "/B0:in"},
+              {"cat", "rtcloc://" + at + "/A0:out"},
+              {"inject", "rtcloc://" + at + "/A0:in", "1"}}) {
+            command.insert(command.begin(), "rtm");
+            command.insert(command.end(), {"--timeout", "0.3"});
+            const Result result = tandem_program(command);
+            INFO(command[1] << " " << at << ": " << result.output << result.errors);
+            CHECK(result.exit_code == 1);
+            CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+            CHECK_THAT(result.errors, Catch::Contains(at));
+        }
 }
