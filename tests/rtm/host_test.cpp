@@ -209,6 +209,25 @@ TEST_CASE("A component that ends the process ends it with its own code and in ti
         }
 }
 
+TEST_CASE("Neither a read of stdin nor a static destructor holds the host for ever") {
+    for (const auto& [how, said, code, line] :
+         {std::tuple("stdin", "reads\n", 0, "a component does not stop"),
+          {"static", "is there\n", 1, "does not come back from its static destructors"}}) {
+        CAPTURE(how);
+        Folder folder;
+        HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                            "manager.components.precreate: Teller, Sleeper?in=execute&how=" +
+                                            std::string(how) +
+                                            "\nmanager.components.preactivation: Teller0, Sleeper0\n")});
+        REQUIRE(host.says("ready\n"));
+        REQUIRE(host.says(said));
+        host.send(SIGTERM);
+        CHECK(host.wait() == code);
+        CHECK(host.errors.find(line) != std::string::npos);
+        CHECK(host.output.find("Teller0 deactivated\n") != std::string::npos);
+    }
+}
+
 TEST_CASE("In lock-step components run when they are told to and at no other time") {
     Folder folder;
     const std::string socket = (folder.path / "steps").string();

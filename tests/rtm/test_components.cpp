@@ -3,11 +3,18 @@
 #include "components.hpp"
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <thread>
+#include <unistd.h>
 
 namespace {
 
 using namespace testing;
+
+void say(const char* line) {
+    std::puts(line);
+    std::fflush(stdout);
+}
 
 /// Says on standard output what it received, once it is 10.
 class Teller : public Summer {
@@ -40,8 +47,7 @@ class Thrower : public RTC::DataFlowComponentBase {
     using DataFlowComponentBase::DataFlowComponentBase;
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override { throw std::runtime_error("on purpose"); }
     RTC::ReturnCode_t onAborting(RTC::UniqueId) override {
-        std::puts("aborting");
-        std::fflush(stdout);
+        say("aborting");
         return RTC::RTC_OK;
     }
 };
@@ -50,8 +56,7 @@ class Hanger : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
-        std::puts("hanging");
-        std::fflush(stdout);
+        say("hanging");
         std::this_thread::sleep_for(std::chrono::hours(1));
         return RTC::RTC_OK;
     }
@@ -92,7 +97,7 @@ class BadPeer : public RTC::DataFlowComponentBase {
 };
 
 /// Never returns from the callback that the parameter `in` names; with `how` it throws std, int or corba
-/// there, or ends the process by exit or abort.
+/// there, ends the process by exit or abort, reads stdin, or leaves a static object that does not end.
 class Sleeper : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
@@ -122,9 +127,23 @@ class Sleeper : public RTC::DataFlowComponentBase {
         if (how == "int") throw 7;
         if (how == "corba") throw CORBA::NO_MEMORY();
         if (how == "exit") std::exit(7);
+        if (how == "static") {
+            static const struct Slow {
+                ~Slow() { std::this_thread::sleep_for(std::chrono::hours(1)); }
+            } slow;
+            say("is there");
+            return RTC::RTC_OK;
+        }
+        if (how == "stdin") { // nothing ever comes
+            int ends[2];
+            if (pipe(ends) != 0) std::abort();
+            dup2(ends[0], STDIN_FILENO);
+            say("reads");
+            int number = 0;
+            std::cin >> number;
+        }
         if (how == "abort") std::abort();
-        std::puts("asleep");
-        std::fflush(stdout);
+        say("asleep");
         std::this_thread::sleep_for(std::chrono::hours(1));
         return RTC::RTC_OK;
     }

@@ -1,52 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/ending.hpp"
+#include "host/rt/leave.hpp"
 
-#include <atomic>
-#include <cstdlib>
 #include <cstring>
-#include <iostream>
 #include <mutex>
 #include <semaphore>
-#include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
 #include <thread>
-#include <unistd.h>
 
 namespace tandem::engine {
-namespace {
-
-// Made before main(), so gone after all that a component's library has made. The flag outlives it.
-std::atomic<bool> libraries_are_done{false};
-struct Last {
-    ~Last() { libraries_are_done = true; }
-} const last;
-
-} // namespace
-
 using namespace std::chrono_literals;
-
-void leave(int code) {
-    std::cout.flush();
-    std::cerr.flush();
-    std::_Exit(code);
-}
-
-void bound_exit(std::chrono::nanoseconds grace, const std::vector<std::string>& components) {
-    if (components.empty()) return;
-    std::string names;
-    for (const std::string& name : components) names += (names.empty() ? "component " : " or ") + name;
-    const double seconds = std::chrono::duration<double>(grace).count();
-    // All of the text now, and no logger: the program's own statics may be gone when it is needed.
-    std::thread([grace,
-                 text = fmt::format("opros_host: {} does not come back from its static destructors within "
-                                    "{} s; the host ends without it\n",
-                                    names, seconds)] {
-        std::this_thread::sleep_for(grace);
-        if (libraries_are_done) return;
-        [[maybe_unused]] const auto written = write(STDERR_FILENO, text.data(), text.size());
-        std::_Exit(1);
-    }).detach();
-}
 
 struct Ending::State {
     using Clock = std::chrono::steady_clock;
@@ -91,7 +54,7 @@ void Ending::watch(State& state, const sigset_t& signals, std::chrono::nanosecon
     if (state.ready.try_acquire_for(grace)) return;
     spdlog::error("{} does not come back within {} s; the host ends", state.what(),
                   std::chrono::duration<double>(grace).count());
-    leave(1);
+    rt::leave(1);
 }
 
 void Ending::busy_with(const std::string& component, const char* step) {

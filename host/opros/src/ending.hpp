@@ -5,15 +5,8 @@
 #include <csignal>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace tandem::engine {
-
-[[noreturn]] void leave(int code); ///< no clean-up under the feet of threads that have not come back
-
-/// [main-thread] To be called before main() returns, with the components whose libraries are still loaded:
-/// when their static destructors take longer, the process ends with code 1 and a line that names them.
-void bound_exit(std::chrono::nanoseconds grace, const std::vector<std::string>& components);
 
 /// Waits for one of the signals (which all threads block) in a thread of its own, so that the set-up, too,
 /// can be ended: when it is not over `grace` after a signal, the process ends. What takes long in the set-up

@@ -6,6 +6,7 @@
 #include "host/opros/src/plugin_path.hpp"
 #include "host/opros/src/probe_component.hpp"
 #include "host/plugin/probe_switches.hpp"
+#include "host/rt/leave.hpp"
 #include "host/rt/switches.hpp"
 
 #include <CLI/CLI.hpp>
@@ -58,6 +59,7 @@ int run(Options options) {
     options.host.busy_with = [&ending](const std::string& component, const char* step) {
         ending.busy_with(component, step);
     };
+    const tandem::rt::SuddenExit sudden_exit;
     tandem::engine::Application application(options.application, options.host);
     application.start();
     std::cout << "ready" << std::endl;
@@ -67,8 +69,15 @@ int run(Options options) {
     if (options.stats)
         for (const std::string& line : application.stats()) std::cout << line << "\n";
     application.unload();
-    if (!application.stuck().empty()) tandem::engine::leave(1);
-    tandem::engine::bound_exit(options.host.grace, application.still_loaded());
+    if (!application.stuck().empty()) tandem::rt::leave(1);
+    std::string loaded;
+    for (const std::string& name : application.still_loaded())
+        loaded += (loaded.empty() ? "component " : " or ") + name;
+    if (!loaded.empty())
+        tandem::rt::bound_exit(options.host.grace,
+                               fmt::format("opros_host: {} does not come back from its static destructors "
+                                           "within {} s; the host ends without it",
+                                           loaded, options.grace_s));
     return 0;
 }
 
@@ -92,7 +101,7 @@ int main(int argc, char** argv) {
         return run(options);
     } catch (const std::exception& error) {
         std::cerr << "opros_host: " << error.what() << std::endl;
-        if (tandem::engine::work_goes_on()) tandem::engine::leave(1);
+        if (tandem::engine::work_goes_on()) tandem::rt::leave(1);
         return 1;
     }
 }

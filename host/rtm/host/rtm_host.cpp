@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names.
 #include "host/plugin/probe_switches.hpp"
+#include "host/rt/leave.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rt/switches.hpp"
 #include "host/rtm/src/manager_options.hpp"
@@ -101,8 +102,7 @@ class SignalWatch {
             if (now - wanted_since < patience) continue;
             spdlog::warn("a component does not let the host start; leaving without it");
             manager.shutdown();
-            std::fflush(nullptr);
-            std::_Exit(0);
+            tandem::rt::leave(0);
         }
     }
     std::atomic<bool> done_{false};
@@ -111,10 +111,22 @@ class SignalWatch {
 
 // The same program with the same arguments; what this process has opened is closed on the way.
 [[noreturn]] void begin_anew(char** argv) {
-    std::fflush(nullptr);
+    tandem::rt::flush_streams();
     execv("/proc/self/exe", argv);
     std::fprintf(stderr, "rtm_host: cannot begin anew: %s\n", std::strerror(errno));
-    std::_Exit(1);
+    tandem::rt::leave(1);
+}
+
+// Static destructors of component libraries run after main().
+void bound_exit(RTC::Manager& manager) {
+    std::string libraries;
+    for (const auto& module : manager.getLoadedModules())
+        libraries += (libraries.empty() ? "" : " or ") + module.getProperty("module_file_path");
+    if (libraries.empty()) return;
+    tandem::rt::bound_exit(std::chrono::seconds(2),
+                           "rtm_host: " + libraries +
+                               " does not come back from its static destructors within 2 s; the host ends "
+                               "without it");
 }
 
 int run(const Arguments& a, char** arguments) {
@@ -128,6 +140,7 @@ int run(const Arguments& a, char** arguments) {
     options.probe = a.probe.probe();
     coil::Argv argv(manager_arguments(a));
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
+    const tandem::rt::SuddenExit sudden_exit;
     bool all_ended = true;
     try {
         {
@@ -147,14 +160,13 @@ int run(const Arguments& a, char** arguments) {
     } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         manager.shutdown();
-        std::fflush(nullptr);
-        std::_Exit(1); // components may be half made: none of their static objects shall run now
+        tandem::rt::leave(1); // components may be half made: none of their static objects shall run now
     }
     if (!all_ended) {
         spdlog::warn("a component does not stop; leaving without it");
-        std::fflush(nullptr);
-        std::_Exit(0);
+        tandem::rt::leave(0);
     }
+    bound_exit(manager);
     return 0;
 }
 
