@@ -48,7 +48,7 @@ class HostProcess {
     }
 
     /// Does `text` come on standard output within the time?
-    bool says(const std::string& text, std::chrono::seconds bound = std::chrono::seconds(30)) {
+    bool says(const std::string& text, std::chrono::milliseconds bound = std::chrono::seconds(30)) {
         const auto end = std::chrono::steady_clock::now() + bound;
         while (output.find(text) == std::string::npos)
             if (std::chrono::steady_clock::now() > end || !read_some())

@@ -26,6 +26,15 @@ RTC::ReturnCode_t connect(RTC::PortBase& ours, RTC::RTObject_ptr theirs, const c
     return ours.connect(profile.inout());
 }
 
+// Writes until the Teller over there says what it received: it does so at 10, and a buffer holds 8.
+bool tells(HostProcess& host, Counter& counter) {
+    for (int i = 0; i < 600; ++i) {
+        counter.out_.write();
+        if (host.says("received 1", std::chrono::milliseconds(50))) return true;
+    }
+    return false;
+}
+
 } // namespace
 
 TEST_CASE(
@@ -120,7 +129,7 @@ TEST_CASE("A peer that dies or hangs in its notify_disconnect leaves nothing beh
         stage.step(counter);
         if (i % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
     }
-    CHECK(well.host.says("received 1"));
+    CHECK(tells(well.host, counter));
 }
 
 TEST_CASE("A component that does not return from onExecute keeps no tool from the others") {
@@ -169,10 +178,10 @@ TEST_CASE("Whichever way a receiver that hangs is sent to the others get what is
         counter.out_.write();
         if (i % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
     }
-    CHECK(well.host.says("received 1"));
+    CHECK(tells(well.host, counter));
     CHECK(stuck.host.output.find("received 1") == std::string::npos);
     stuck.host.send(SIGCONT);
-    CHECK(stuck.host.says("received 1"));
+    CHECK(tells(stuck.host, counter));
 }
 
 TEST_CASE("A sender that hangs keeps an InPort that pulls from it waiting once and no other component") {
@@ -201,7 +210,7 @@ TEST_CASE("A sender that hangs keeps an InPort that pulls from it waiting once a
     CHECK(soon([&] { return puller.in_.read(); }));
 }
 
-TEST_CASE("A receiver that hangs keeps nothing from the others and gets all when it goes on") {
+TEST_CASE("A receiver that hangs keeps nothing from the others and is served again when it goes on") {
     OtherHost stuck("Teller"), well("Teller");
     REQUIRE(stuck.host.says("ready\n"));
     REQUIRE(well.host.says("ready\n"));
@@ -222,10 +231,10 @@ TEST_CASE("A receiver that hangs keeps nothing from the others and gets all when
         if (i % 8 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
     }
     CHECK(refused == 0);
-    CHECK(well.host.says("received 1"));
+    CHECK(tells(well.host, counter));
     CHECK(stuck.host.output.find("received 1") == std::string::npos);
     stuck.host.send(SIGCONT);
-    CHECK(stuck.host.says("received 1"));
+    CHECK(tells(stuck.host, counter));
     CHECK(counter.out_.getConnectorIds().size() == 2);
 }
 

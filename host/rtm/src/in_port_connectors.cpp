@@ -86,8 +86,9 @@ InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
 
 InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
                                          std::unique_ptr<RemoteSender> remote)
-    : InPortConnector(info, port.getListeners(), &unused_), remote_(std::move(remote)) {
-    remote_->setTimeout(static_cast<unsigned long>(RemotePush::bounds(info.properties).alone.count()));
+    : InPortConnector(info, port.getListeners(), &unused_), remote_(std::move(remote)),
+      patience_(RemotePush::bounds(info.properties).alone) {
+    remote_->setTimeout(patience_);
 }
 
 DataPortStatus InPortPullConnector::read(ByteData& bytes) {
@@ -97,11 +98,27 @@ DataPortStatus InPortPullConnector::read(ByteData& bytes) {
     return status;
 }
 
+// The reader, often a component's cycle, waits for a sender that hangs once for long, then rarely and shortly
+// until that answers again: to a question that takes no message from it.
+std::optional<DataPortStatus> InPortPullConnector::ask(ByteData& bytes) {
+    using namespace std::chrono_literals;
+    if (doubt_ == 0ms || remote_->answers()) {
+        if (doubt_ != 0ms) remote_->setTimeout(patience_);
+        if (const auto answer = remote_->get(bytes)) {
+            doubt_ = 0ms;
+            return answer;
+        }
+    }
+    doubt_ = doubt_ == 0ms ? 10ms : std::min<std::chrono::milliseconds>(2 * doubt_, 200ms);
+    remote_->setTimeout(doubt_);
+    retry_ = std::chrono::steady_clock::now() + 10 * doubt_;
+    return std::nullopt;
+}
+
 DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now < retry_) return DataPortStatus::RECV_TIMEOUT;
+    if (std::chrono::steady_clock::now() < retry_) return DataPortStatus::RECV_TIMEOUT;
     bytes.isLittleEndian(m_littleEndian);
-    const DataPortStatus status = remote_->get(bytes).value_or(DataPortStatus::RECV_TIMEOUT);
+    const DataPortStatus status = ask(bytes).value_or(DataPortStatus::RECV_TIMEOUT);
     switch (status) {
     case DataPortStatus::PORT_OK:
         return status;
@@ -109,7 +126,6 @@ DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
         m_listeners->notify(ConnectorListenerType::ON_SENDER_EMPTY, m_profile);
         return DataPortStatus::BUFFER_EMPTY;
     case DataPortStatus::RECV_TIMEOUT:
-        retry_ = now + std::chrono::seconds(2);
         m_listeners->notify(ConnectorListenerType::ON_SENDER_TIMEOUT, m_profile);
         return status;
     default:

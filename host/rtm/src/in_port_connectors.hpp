@@ -4,6 +4,7 @@
 #include "cdr_servants.hpp"
 #include "registered_transports.hpp"
 #include <chrono>
+#include <optional>
 #include <rtm/InPortConnector.h>
 
 namespace RTC {
@@ -41,10 +42,13 @@ class InPortPullConnector : public InPortConnector {
 
   private:
     DataPortStatus fetch(ByteData& bytes);
+    std::optional<DataPortStatus> ask(ByteData& bytes);
 
     std::shared_ptr<DataOutlet> local_;
     std::unique_ptr<RemoteSender> remote_;
-    std::chrono::steady_clock::time_point retry_{}; // a sender that did not answer is left alone until then
+    std::chrono::milliseconds patience_{0}; // for an answer
+    std::chrono::milliseconds doubt_{0}; // after one that did not come: how long is waited for a sign of life
+    std::chrono::steady_clock::time_point retry_{}; // the sender is left alone until then
     CdrRingBuffer unused_;
 };
 

@@ -36,7 +36,7 @@ class Receiver : public RemoteReceiver {
         ByteData copy(bytes); // the consumer's to change
         return consumer_->put(copy);
     }
-    void setTimeout(unsigned long) override {} // its own affair
+    void setTimeout(std::chrono::milliseconds) override {} // its own affair
 
   private:
     Made<InPortConsumer> consumer_;
@@ -49,7 +49,8 @@ class Sender : public RemoteSender {
         : consumer_(std::move(consumer)), properties_(properties) {}
     ~Sender() override { consumer_->unsubscribeInterface(properties_); }
     std::optional<DataPortStatus> get(ByteData& bytes) override { return consumer_->get(bytes); }
-    void setTimeout(unsigned long) override {}
+    bool answers() override { return true; }
+    void setTimeout(std::chrono::milliseconds) override {}
 
   private:
     Made<OutPortConsumer> consumer_;

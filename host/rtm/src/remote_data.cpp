@@ -17,6 +17,10 @@ std::optional<DataPortStatus> after(const CORBA::SystemException& e) {
     return DataPortStatus::PORT_ERROR;
 }
 
+void bound_calls(CORBA::Object_ptr object, std::chrono::milliseconds bound) {
+    omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(bound.count()));
+}
+
 auto call_put(OpenRTM::InPortCdr_ptr object, const OpenRTM::CdrData& data) { return object->put(data); }
 auto call_put(RTC::DataPushService_ptr object, const RTC::OctetSeq& data) { return object->push(data); }
 auto call_get(OpenRTM::OutPortCdr_ptr object, OpenRTM::CdrData_out data) { return object->get(data); }
@@ -35,9 +39,7 @@ class Receiver : public RemoteReceiver {
             return after(e);
         }
     }
-    void setTimeout(unsigned long milliseconds) override {
-        omniORB::setClientCallTimeout(object_.in(), static_cast<CORBA::ULong>(milliseconds));
-    }
+    void setTimeout(std::chrono::milliseconds bound) override { bound_calls(object_.in(), bound); }
 
   private:
     typename Interface::_var_type object_;
@@ -58,9 +60,15 @@ class Sender : public RemoteSender {
             return after(e);
         }
     }
-    void setTimeout(unsigned long milliseconds) override {
-        omniORB::setClientCallTimeout(object_.in(), static_cast<CORBA::ULong>(milliseconds));
+    bool answers() override {
+        try {
+            object_->_non_existent();
+        } catch (const CORBA::SystemException& e) {
+            return after(e).has_value();
+        }
+        return true;
     }
+    void setTimeout(std::chrono::milliseconds bound) override { bound_calls(object_.in(), bound); }
 
   private:
     typename Interface::_var_type object_;

@@ -2,6 +2,7 @@
 // The other end of a data connection when it is in another process, by interface type: corba_cdr,
 // data_service.
 #pragma once
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <rtm/ByteData.h>
@@ -19,7 +20,7 @@ class RemoteReceiver {
     /// such object any more. SEND_TIMEOUT: its buffer was full for too long, as it says itself.
     virtual std::optional<DataPortStatus> put(const ByteData& bytes) = 0;
     /// Bound of each following call; at first it is the ORB's.
-    virtual void setTimeout(unsigned long milliseconds) = 0;
+    virtual void setTimeout(std::chrono::milliseconds bound) = 0;
     /// What the profile of a connection offers; NULL when that is nothing for this interface type.
     static std::unique_ptr<RemoteReceiver> find(const ConnectorProfile& profile,
                                                 const std::string& interface_type);
@@ -31,7 +32,9 @@ class RemoteSender {
     virtual ~RemoteSender() = default;
     /// RECV_EMPTY: it has none. Nothing, CONNECTION_LOST: as above.
     virtual std::optional<DataPortStatus> get(ByteData& bytes) = 0;
-    virtual void setTimeout(unsigned long milliseconds) = 0;
+    /// False: no answer in time. Takes no message.
+    virtual bool answers() = 0;
+    virtual void setTimeout(std::chrono::milliseconds bound) = 0;
     static std::unique_ptr<RemoteSender> find(const ConnectorProfile& profile,
                                               const std::string& interface_type);
 };

@@ -22,9 +22,7 @@ struct RemotePush::Lane {
     bool has_thread = false, lost = false, ending = false, alone = true;
     bool hangs = false; // a wait for it was in vain: no other before it goes on
 
-    void set_bound(std::chrono::milliseconds bound) {
-        receiver->setTimeout(static_cast<unsigned long>(bound.count()));
-    }
+    void set_bound(std::chrono::milliseconds bound) { receiver->setTimeout(bound); }
     bool full(const ByteData& message) const {
         return waiting.size() >= 8 && bytes + message.getDataLength() > bounds.bytes;
     }
