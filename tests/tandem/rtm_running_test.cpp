@@ -19,9 +19,7 @@ struct Running {
 
     Result run(std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), "rtm");
-        const std::vector<std::string> where{"--manager", "127.0.0.1:" + other.port, "--nameserver",
-                                             "127.0.0.1:9"};
-        arguments.insert(arguments.end(), where.begin(), where.end());
+        arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + other.port});
         return tandem_program(arguments);
     }
     Result good(const std::vector<std::string>& arguments) {
@@ -125,6 +123,17 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     CHECK_THAT(host.failed({"inject", "Teller0:in", "5000000000"}), Catch::Contains("does not fit"));
     CHECK_THAT(host.failed({"inject", "Counter0:out", "7"}), Catch::Contains("expected a DataInPort"));
     CHECK_THAT(host.failed({"cat", "Teller0:in"}), Catch::Contains("expected a DataOutPort"));
+}
+
+TEST_CASE("tandem rtm list and tree show what answers and fail for a place that was named and does not") {
+    Running host;
+    REQUIRE(host.other.host.says("ready\n"));
+    for (const char* command : {"list", "tree"}) {
+        const Result result = host.run({command, "--nameserver", "127.0.0.1:9"});
+        CHECK(result.says("Counter0"));
+        CHECK(result.exit_code == 1);
+        CHECK(result.errors == "tandem: name server 127.0.0.1:9: nobody listens there\n");
+    }
 }
 
 TEST_CASE("tandem rtm says in one line and in time that a server is dead or stuck or something else") {

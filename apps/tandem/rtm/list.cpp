@@ -12,9 +12,7 @@ int rtm_list(const PeerOptions& options) {
     const auto places = survey(peers);
     nlohmann::json json = nlohmann::json::array();
     Table table({"INSTANCE", "TYPE", "STATE", ">PORTS", "ADDRESS"});
-    bool answered = false;
     for (const auto& place : places) {
-        answered = answered || place.trouble.empty();
         for (const auto& seen : place.components) {
             json.push_back({{"instance", seen.instance},
                             {"type", seen.type},
@@ -33,13 +31,7 @@ int rtm_list(const PeerOptions& options) {
         print_json(json);
     else if (!table.empty())
         print_text(table.text());
-    if (!answered) {
-        std::string reasons;
-        for (const auto& place : places) reasons += (reasons.empty() ? "" : "; ") + place.trouble;
-        if (peers.managers().empty()) reasons += "; none of your processes here is a manager";
-        throw std::runtime_error(reasons + "; start rtm_host or omniNames, or name one with --nameserver or "
-                                           "--manager");
-    }
+    require_answers(peers, places);
     return 0;
 }
 

@@ -43,8 +43,10 @@ std::vector<std::string> default_name_servers() {
 
 Peers::Peers(const PeerOptions& options, bool as_component)
     : call_ms_(static_cast<unsigned long>(options.seconds * 1000)), as_component_(as_component),
-      name_servers_(options.name_servers.empty() ? default_name_servers() : options.name_servers),
-      managers_(options.managers) {
+      named_(!options.name_servers.empty() || !options.managers.empty()),
+      name_servers_(named_ ? options.name_servers : default_name_servers()), managers_(options.managers) {
+    path_server_ =
+        RTC::with_port(name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
     if (as_component) {
         orb_ = manager_orb(call_ms_);
     } else {
@@ -54,7 +56,7 @@ Peers::Peers(const PeerOptions& options, bool as_component)
     }
     for (auto& server : name_servers_) server = RTC::with_port(server, 2809);
     for (auto& manager : managers_) manager = RTC::with_port(manager, 2810);
-    if (managers_.empty()) managers_ = local_managers(orb_.in());
+    if (!named_) managers_ = local_managers(orb_.in());
 }
 
 Peers::~Peers() {
@@ -78,7 +80,7 @@ Component Peers::find(const std::string& name) const {
         });
     };
     if (name.find("://") != std::string::npos) return found(name);
-    if (name.find('/') != std::string::npos) return found("rtcname://" + name_servers_.front() + "/" + name);
+    if (name.find('/') != std::string::npos) return found("rtcname://" + path_server_ + "/" + name);
     const bool has_kind = name.size() > 4 && name.compare(name.size() - 4, 4, ".rtc") == 0;
     const std::string plain = has_kind ? name.substr(0, name.size() - 4) : name;
     std::vector<std::string> reasons;

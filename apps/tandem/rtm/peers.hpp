@@ -41,8 +41,10 @@ class Peers {
     unsigned long call_ms() const { return call_ms_; }
     /// Those of the options, else of $RTCSH_NAMESERVERS (as rtshell has it), else localhost.
     const std::vector<std::string>& name_servers() const { return name_servers_; }
-    /// Those of the options, and all that this user's processes have on this machine.
+    /// Those of the options, else all that this user's processes have on this machine.
     const std::vector<std::string>& managers() const { return managers_; }
+    /// Have the options said where to look? Then that is all that is looked at.
+    bool named() const { return named_; }
 
     /// `rtcname://HOST:PORT/PATH.rtc`, `rtcloc://HOST:PORT/NAME`, a path in the first name server, or a name
     /// for which the name servers and the managers are searched. Throws std::runtime_error.
@@ -51,7 +53,8 @@ class Peers {
   private:
     CORBA::ORB_var orb_;
     unsigned long call_ms_;
-    bool as_component_;
+    bool as_component_, named_;
+    std::string path_server_; // where paths without a server begin
     std::vector<std::string> name_servers_, managers_;
 };
 

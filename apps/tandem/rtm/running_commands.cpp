@@ -12,7 +12,8 @@ using Chosen = std::function<int()>;
 constexpr const char* addresses =
     "COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a\n"
     "path PATH/NAME.rtc in the default name server, or NAME alone: then the name servers and this user's\n"
-    "managers on this machine are searched. A port is COMPONENT:PORT.\n"
+    "managers on this machine are searched; with --nameserver or --manager only these, which must answer.\n"
+    "A port is COMPONENT:PORT.\n"
     "Exit code 1, with one line, when something is not there or does not answer in time.";
 
 CLI::App* add(CLI::App& rtm, const char* name, const char* brief, PeerOptions& peers,

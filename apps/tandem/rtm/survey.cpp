@@ -58,7 +58,7 @@ Place place(const char* kind, const std::string& address, Look look) {
     } catch (const RTC::NotThere& e) {
         place.trouble = e.what();
     } catch (const CORBA::Exception& e) {
-        place.trouble = RTC::meaning(e);
+        place.trouble = std::string(kind) + " " + address + ": " + RTC::meaning(e);
     }
     return place;
 }
@@ -82,6 +82,18 @@ std::vector<Place> survey(const Peers& peers) {
             }
         }));
     return places;
+}
+
+void require_answers(const Peers& peers, const std::vector<Place>& places) {
+    std::string troubles;
+    bool answered = false;
+    for (const auto& place : places) {
+        answered = answered || place.trouble.empty();
+        if (!place.trouble.empty()) troubles += (troubles.empty() ? "" : "; ") + place.trouble;
+    }
+    if (!answered && peers.managers().empty()) troubles += "; none of your processes here is a manager";
+    if (!answered) troubles += "; start rtm_host or omniNames, or name one with --nameserver or --manager";
+    if (!troubles.empty() && (peers.named() || !answered)) throw std::runtime_error(troubles);
 }
 
 } // namespace tandem::command

@@ -17,12 +17,15 @@ struct Seen {
 struct Place {
     std::string kind;    ///< name server, manager
     std::string address; ///< host:port
-    std::string trouble; ///< why it does not answer
+    std::string trouble; ///< why it does not answer, with kind and address
     std::vector<Seen> components;
 };
 
 /// All name servers and managers. A component that several know is shown with each; one that does not answer
 /// (a stale name) with its trouble.
 std::vector<Place> survey(const Peers& peers);
+
+/// Throws std::runtime_error, one line, when none of the places answers, or not all that the user has named.
+void require_answers(const Peers& peers, const std::vector<Place>& places);
 
 } // namespace tandem::command

@@ -56,10 +56,10 @@ int rtm_tree(const PeerOptions& options) {
     const Peers peers(options);
     nlohmann::json json = nlohmann::json::array();
     std::string text;
-    for (const auto& place : survey(peers)) {
+    const auto places = survey(peers);
+    for (const auto& place : places) {
         nlohmann::json components = nlohmann::json::array();
-        text += fmt::format("{} {}{}\n", place.kind, place.address,
-                            place.trouble.empty() ? "" : " (" + place.trouble + ")");
+        text += (place.trouble.empty() ? place.kind + " " + place.address : place.trouble) + "\n";
         for (const auto& seen : place.components) {
             nlohmann::json ports = nlohmann::json::array();
             std::string trouble = seen.trouble;
@@ -93,6 +93,7 @@ int rtm_tree(const PeerOptions& options) {
         print_json(json);
     else
         print_text(text);
+    require_answers(peers, places);
     return 0;
 }
 
