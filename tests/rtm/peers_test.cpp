@@ -26,11 +26,11 @@ RTC::ReturnCode_t connect(RTC::PortBase& ours, RTC::RTObject_ptr theirs, const c
     return ours.connect(profile.inout());
 }
 
-// Writes until the Teller over there says what it received: it does so at 10, and a buffer holds 8.
+// Writes until the Teller over there says what it received: it does so from 10 on, and a buffer holds 8.
 bool tells(HostProcess& host, Counter& counter) {
     for (int i = 0; i < 600; ++i) {
         counter.out_.write();
-        if (host.says("received 1", std::chrono::milliseconds(50))) return true;
+        if (host.says("received ", std::chrono::milliseconds(50))) return true;
     }
     return false;
 }
@@ -179,7 +179,7 @@ TEST_CASE("Whichever way a receiver that hangs is sent to the others get what is
         if (i % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
     }
     CHECK(tells(well.host, counter));
-    CHECK(stuck.host.output.find("received 1") == std::string::npos);
+    CHECK(stuck.host.output.find("received ") == std::string::npos);
     stuck.host.send(SIGCONT);
     CHECK(tells(stuck.host, counter));
 }
@@ -232,7 +232,7 @@ TEST_CASE("A receiver that hangs keeps nothing from the others and is served aga
     }
     CHECK(refused == 0);
     CHECK(tells(well.host, counter));
-    CHECK(stuck.host.output.find("received 1") == std::string::npos);
+    CHECK(stuck.host.output.find("received ") == std::string::npos);
     stuck.host.send(SIGCONT);
     CHECK(tells(stuck.host, counter));
     CHECK(counter.out_.getConnectorIds().size() == 2);
