@@ -135,7 +135,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     require_this_manager(*m_impl, wanted.properties);
 
     // Not locked while the component's own code runs: it may ask the manager from threads of its own.
-    FactoryBase* factory = nullptr;
+    std::shared_ptr<FactoryBase> factory;
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         factory = m_impl->find_factory(wanted.id);

@@ -37,7 +37,7 @@ struct Manager::Impl {
     };
     struct Component {
         RTObject_impl* object;
-        FactoryBase* factory;
+        std::shared_ptr<FactoryBase> factory; // which a tool may unload meanwhile
     };
     struct ContextType {
         ECNewFunc create;
@@ -46,7 +46,7 @@ struct Manager::Impl {
     mutable std::recursive_mutex mutex; // guards what follows
     std::vector<Module> modules;
     std::set<std::shared_ptr<tandem::plugin::Library>> libraries; // of those that were unloaded, too
-    std::vector<std::unique_ptr<FactoryBase>> factories;
+    std::vector<std::shared_ptr<FactoryBase>> factories;
     std::map<std::string, ContextType> contexts;
     std::vector<Component> components; // in the order of their creation
     std::vector<Component> finalized;  // have left, wait for their deletion
@@ -67,7 +67,7 @@ struct Manager::Impl {
     std::string setting(const std::string& key) const;
     /// What a tool sets; false for a value that the key cannot have.
     bool change_setting(const std::string& key, std::string value);
-    FactoryBase* find_factory(const coil::Properties& id);
+    std::shared_ptr<FactoryBase> find_factory(const coil::Properties& id);
     std::vector<std::filesystem::path> module_dirs() const;
     void run_due_tasks();
     void repeat(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,

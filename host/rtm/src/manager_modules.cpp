@@ -112,18 +112,18 @@ bool Manager::registerFactory(coil::Properties& profile, RtcNewFunc new_func, Rt
     for (const char* key : {"implementation_id", "vendor", "category", "version", "language"})
         id.setProperty(key, profile.getProperty(key));
     if (m_impl->find_factory(id) != nullptr) return false;
-    m_impl->factories.push_back(std::make_unique<FactoryCXX>(profile, new_func, delete_func));
+    m_impl->factories.push_back(std::make_shared<FactoryCXX>(profile, new_func, delete_func));
     return true;
 }
 
-FactoryBase* Manager::Impl::find_factory(const coil::Properties& id) {
-    for (auto& factory : factories) {
+std::shared_ptr<FactoryBase> Manager::Impl::find_factory(const coil::Properties& id) {
+    for (const auto& factory : factories) {
         bool same = true;
         for (const char* key : {"implementation_id", "vendor", "category", "version", "language"}) {
             const std::string wanted = id.getProperty(key);
             same = same && (wanted.empty() || wanted == factory->profile().getProperty(key));
         }
-        if (same) return factory.get();
+        if (same) return factory;
     }
     return nullptr;
 }
