@@ -120,6 +120,35 @@ TEST_CASE("a component profile lists ports and the files of types") {
     CHECK(profile.service_types == std::vector<std::string>{"Arm.xml"});
 }
 
+TEST_CASE("the words that a profile chooses may be in either case") {
+    const Folder folder;
+    const auto component = read_component_profile(folder.write(
+        "C.xml",
+        "<component_profile><name>C</name><execution_environment><library_name>C</library_name>"
+        "</execution_environment><execution_semantics><type>Periodic-Shared</type><period>1</period>"
+        "<policy>Sched_Fifo</policy></execution_semantics><ports>"
+        "<data_port><name>a</name><usage>Input</usage><queueing_policy>Last</queueing_policy></data_port>"
+        "<event_port><name>e</name><usage>OUTPUT</usage></event_port>"
+        "<service_port><name>s</name><type>Arm</type><usage>Provided</usage></service_port>"
+        "</ports></component_profile>"));
+    CHECK(component.execution == Execution::periodic_shared);
+    CHECK(component.scheduling == Scheduling::fifo);
+    CHECK(component.port_faults.empty());
+    REQUIRE(component.data_ports.size() == 1);
+    CHECK(component.data_ports[0].input);
+    REQUIRE(component.data_ports[0].queue);
+    CHECK(component.data_ports[0].queue->policy == OPROS_LAST);
+    REQUIRE(component.event_ports.size() == 1);
+    CHECK_FALSE(component.event_ports[0].input);
+    REQUIRE(component.service_ports.size() == 1);
+    CHECK(component.service_ports[0].provided);
+    const auto application = read_application_profile(
+        folder.application(Folder::sub("A", "A.xml"), Folder::connect("Service", "A", "x", "A", "y")));
+    REQUIRE(application.connections.size() == 1);
+    CHECK(application.connections[0].error.empty());
+    CHECK(application.connections[0].type == OPROS_SERVICE);
+}
+
 TEST_CASE("wrong queue settings are named") {
     const auto queue_error = [](const std::string& queue) {
         return component_error("<component_profile><name>C</name><execution_environment><library_name>C"

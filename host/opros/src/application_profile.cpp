@@ -23,15 +23,15 @@ std::string named(const pugi::xml_node& node, const char* name) {
 
 /// Empty if there is none.
 std::string port_type_error(const pugi::xml_node& node) {
-    const std::string type = named(node, "port_type");
-    if (type == "data" || type == "event" || type == "service") return "";
-    if (type.empty()) return tag(node.name()) + " lacks its attribute port_type";
+    const std::string type = named(node, "port_type"), word = XmlFile::word(type);
+    if (word == "data" || word == "event" || word == "service") return "";
+    if (word.empty()) return tag(node.name()) + " lacks its attribute port_type";
     return "port_type is '" + type + "', expected data, event or service";
 }
 
 PortType port_type(const XmlFile& xml, const pugi::xml_node& node) {
     if (const std::string error = port_type_error(node); !error.empty()) xml.fail(node, error);
-    const std::string type = named(node, "port_type");
+    const std::string type = XmlFile::word(named(node, "port_type"));
     if (type == "data") return OPROS_DATA;
     return type == "event" ? OPROS_EVENT : OPROS_SERVICE;
 }

@@ -3,7 +3,6 @@
 #include "host/opros/src/xml_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 namespace tandem::engine {
@@ -11,13 +10,8 @@ namespace {
 
 std::chrono::nanoseconds milliseconds(double ms) { return std::chrono::nanoseconds(std::llround(ms * 1e6)); }
 
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 Execution execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
-    const std::string type = lower(xml.required_text(semantics, "type"));
+    const std::string type = XmlFile::word(xml.required_text(semantics, "type"));
     if (type == "periodic" || type == "periodic-exclusive") return Execution::periodic;
     if (type == "periodic-shared") return Execution::periodic_shared;
     if (type == "aperiodic" || type == "non-periodic" || type == "nonperiodic") return Execution::aperiodic;
@@ -31,12 +25,13 @@ Execution execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
 
 /// Real time only for those who ask for it: nearly all profiles name a priority, and hardly one means it.
 Scheduling scheduling(const XmlFile& xml, const pugi::xml_node& semantics) {
-    const std::string policy = XmlFile::text(semantics, "policy");
-    if (policy == "SCHED_FIFO") return Scheduling::fifo;
-    if (policy == "SCHED_RR") return Scheduling::round_robin;
-    if (policy.empty() || policy == "SCHED_OTHER") return Scheduling::other;
-    xml.fail(semantics.child("policy"),
-             "<policy> is '" + policy + "', expected SCHED_OTHER, SCHED_FIFO or SCHED_RR");
+    const pugi::xml_node node = semantics.child("policy");
+    const std::string policy = XmlFile::word(node.child_value());
+    if (policy == "sched_fifo") return Scheduling::fifo;
+    if (policy == "sched_rr") return Scheduling::round_robin;
+    if (policy.empty() || policy == "sched_other") return Scheduling::other;
+    xml.fail(node, "<policy> is '" + XmlFile::trimmed(node.child_value()) +
+                       "', expected SCHED_OTHER, SCHED_FIFO or SCHED_RR");
 }
 
 void read_semantics(const XmlFile& xml, const pugi::xml_node& semantics, ComponentProfile& profile) {

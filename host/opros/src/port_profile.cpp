@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/src/port_profile.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 namespace tandem::engine {
 namespace {
 
@@ -17,13 +14,11 @@ pugi::xml_node policy_node(const pugi::xml_node& port) {
 }
 
 DataPortPolicy policy_of(const XmlFile& xml, const pugi::xml_node& node) {
-    std::string text = XmlFile::trimmed(node.child_value());
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    if (text == "FIFO") return OPROS_FIFO;
-    if (text == "LIFO") return OPROS_LIFO;
-    if (text == "UFIFO") return OPROS_UFIFO;
-    if (text == "LAST") return OPROS_LAST;
+    const std::string policy = XmlFile::word(node.child_value());
+    if (policy == "fifo") return OPROS_FIFO;
+    if (policy == "lifo") return OPROS_LIFO;
+    if (policy == "ufifo") return OPROS_UFIFO;
+    if (policy == "last") return OPROS_LAST;
     xml.fail(node, std::string("<") + node.name() + "> is '" + XmlFile::trimmed(node.child_value()) +
                        "', expected FIFO, LIFO, UFIFO or LAST");
 }
@@ -45,16 +40,18 @@ std::optional<QueueProfile> queue_of(const XmlFile& xml, const pugi::xml_node& p
     return QueueProfile{policy ? policy_of(xml, policy) : OPROS_FIFO, static_cast<unsigned int>(wanted)};
 }
 
+std::string usage_of(const pugi::xml_node& port) { return XmlFile::word(port.child("usage").child_value()); }
+
 /// Those of real profiles that are none (`output1`) are left out, as by the original engine.
 bool listed(const XmlFile& xml, const pugi::xml_node& port, const char* one, const char* other,
             ComponentProfile& profile) {
-    const std::string name = XmlFile::text(port, "name"), usage = XmlFile::text(port, "usage");
+    const std::string name = XmlFile::text(port, "name"), usage = usage_of(port);
     const std::string place = xml.place(port).text() + ": <" + port.name() + "> ";
     if (name.empty())
         profile.port_faults.push_back(place + "lacks its <name>");
     else if (usage != one && usage != other)
-        profile.port_faults.push_back(place + "'" + name + "' has the <usage> '" + usage + "', expected " +
-                                      one + " or " + other);
+        profile.port_faults.push_back(place + "'" + name + "' has the <usage> '" +
+                                      XmlFile::text(port, "usage") + "', expected " + one + " or " + other);
     else
         return true;
     return false;
@@ -65,7 +62,7 @@ bool listed(const XmlFile& xml, const pugi::xml_node& port, const char* one, con
 void read_ports(const XmlFile& xml, const pugi::xml_node& ports, ComponentProfile& profile) {
     for (const pugi::xml_node& port : ports.children("data_port")) {
         if (!listed(xml, port, "input", "output", profile)) continue;
-        const bool input = XmlFile::text(port, "usage") == "input";
+        const bool input = usage_of(port) == "input";
         profile.data_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
                                       XmlFile::text(port, "data_type"), input,
                                       input ? queue_of(xml, port) : std::nullopt});
@@ -73,13 +70,12 @@ void read_ports(const XmlFile& xml, const pugi::xml_node& ports, ComponentProfil
     for (const pugi::xml_node& port : ports.children("event_port"))
         if (listed(xml, port, "input", "output", profile))
             profile.event_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
-                                           XmlFile::text(port, "data_type"),
-                                           XmlFile::text(port, "usage") == "input"});
+                                           XmlFile::text(port, "data_type"), usage_of(port) == "input"});
     for (const pugi::xml_node& port : ports.children("service_port"))
         if (listed(xml, port, "provided", "required", profile))
             profile.service_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
                                              XmlFile::text(port, "type"), XmlFile::text(port, "reference"),
-                                             XmlFile::text(port, "usage") == "provided"});
+                                             usage_of(port) == "provided"});
 }
 
 } // namespace tandem::engine

@@ -4,6 +4,7 @@
 #include "host/opros/src/encoding.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -93,6 +94,13 @@ std::string XmlFile::trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(blank);
     if (first == std::string_view::npos) return "";
     return std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
+}
+
+std::string XmlFile::word(std::string_view text) {
+    std::string word = trimmed(text);
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return word;
 }
 
 std::string XmlFile::text(const pugi::xml_node& node, const char* child) {

@@ -31,6 +31,8 @@ class XmlFile {
     /// Profiles come from Windows: its backslashes separate folders.
     static std::string file_name(std::string text);
     static std::string trimmed(std::string_view text);
+    /// A word that a profile chooses from a few: trimmed, in lower case.
+    static std::string word(std::string_view text);
     /// Text of the child element, trimmed; empty when there is none.
     static std::string text(const pugi::xml_node& node, const char* child);
     std::string required_text(const pugi::xml_node& node, const char* child) const;
