@@ -98,6 +98,22 @@ TEST_CASE("tandem opros check tells a connection that is listed again and again 
     CHECK(result.says("app: 1 fault\n"));
 }
 
+TEST_CASE("tandem opros check tells a wrong connection that is listed again and again in one line") {
+    const Folder folder;
+    folder.component("M", "maker");
+    std::string connections;
+    for (int i = 0; i < 3000; ++i)
+        connections += Folder::connect("data", "M", "numbers", "Q", "numbers") +
+                       Folder::connect("mail", "M", "news", "M", "news");
+    const auto result = check(folder.application(Folder::sub("M", "M.xml"), connections));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.says(
+        "app.xml:7: unknown component 'Q', expected one of M, in a connection that is listed 3000 times\n"));
+    CHECK(result.says("app.xml:8: port_type is 'mail'"));
+    CHECK(result.says("app: 2 faults\n"));
+}
+
 TEST_CASE("tandem opros check refuses a file that is no application in one line") {
     const Folder folder;
     const auto result = check(folder.write("bad.xml", "<package_profile>\n<name>x</nam>"));

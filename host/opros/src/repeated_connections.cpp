@@ -19,12 +19,32 @@ struct Seen {
     std::size_t times = 1;
 };
 
+/// Takes what is wrong in the same way again off the list: the first of them tells how many.
+std::vector<Connection> wrong_once(std::vector<Connection> connections) {
+    std::map<std::pair<Ports, std::string>, Seen> seen;
+    std::vector<Connection> kept;
+    for (Connection& connection : connections) {
+        if (!connection.error.empty()) {
+            const auto [entry, is_new] =
+                seen.try_emplace({ports(connection), connection.error}, Seen{kept.size(), 0, 0});
+            if (++entry->second.times > 1) continue;
+        }
+        kept.push_back(std::move(connection));
+    }
+    for (const auto& [key, each] : seen)
+        if (each.times > 1)
+            kept[each.first].error +=
+                ", in a connection that is listed " + std::to_string(each.times) + " times";
+    return kept;
+}
+
 } // namespace
 
 void mark_repeated(std::vector<Connection>& connections) {
     std::map<Ports, Seen> seen;
     std::map<std::pair<std::string, std::string>, std::size_t> providers; // of required ports
     std::vector<Connection> kept;
+    connections = wrong_once(std::move(connections));
     for (Connection& connection : connections) {
         if (connection.error.empty()) {
             const auto [entry, is_new] = seen.try_emplace(ports(connection), Seen{kept.size()});
