@@ -31,6 +31,8 @@ const char* expected_text(Kind kind) {
         return "an OPRoS component, which exports getComponent";
     case Kind::rtc_module:
         return "an RTC module, which exports NAMEInit (extern \"C\")";
+    case Kind::device_api:
+        return "a device API, which exports GetAPI (extern \"C\")";
     default:
         return kind_text(kind);
     }

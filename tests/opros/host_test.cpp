@@ -105,6 +105,24 @@ TEST_CASE("bad input is one line on standard error and exit code 1") {
     CHECK_THAT(missing.said, Catch::Contains("/nowhere/app.xml"));
 }
 
+TEST_CASE("a device library that is none is told of in one line with what it is") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>",
+                     "<property name=\"ApiName\">printer</property><property name=\"DllName\">Text</property>"
+                     "<property name=\"ArmApiName\">Nowhere</property>");
+    folder.write("Text.so", "int main() {}\n");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, folder.application(Folder::sub("M", "M.xml"))});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.said, Catch::Contains("warning: ApiName printer: library ") &&
+                              Catch::Contains("libprinter.so is an OPRoS component (exports getComponent), "
+                                              "expected a device API, which exports GetAPI (extern \"C\")"));
+    CHECK_THAT(host.said, Catch::Contains("warning: DllName Text: ") && Catch::Contains("Text.so"));
+    CHECK_THAT(host.said, Catch::Contains("ArmApiName Nowhere: left to the component to find: library "
+                                          "'Nowhere' not found: looked for Nowhere.so, libNowhere.so"));
+}
+
 TEST_CASE("a component that calls nobody while it starts is told of in one line") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start calls")});

@@ -59,12 +59,19 @@ std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
 std::string find_device_library(const ComponentProfile& profile, const std::string& property,
                                 const std::string& value, const std::vector<std::filesystem::path>& dirs) {
     if (value.empty() || !names_device_library(property)) return value;
+    std::string found = value;
     try {
-        return std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, dirs))).string();
+        found = std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, dirs))).string();
     } catch (const plugin::Error& error) {
         spdlog::info("{} {}: left to the component to find: {}", property, value, error.what());
         return value;
     }
+    try { // all that the component could say is that it has no device
+        plugin::require_kind(found, plugin::read_contents(found), plugin::Kind::device_api);
+    } catch (const plugin::Error& error) {
+        spdlog::warn("{} {}: {}", property, value, error.what());
+    }
+    return found;
 }
 
 // Components of OPRoS v1 ask for APIName, and open DllName on Linux.
