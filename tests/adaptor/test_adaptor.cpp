@@ -344,6 +344,31 @@ TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
     CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
 }
 
+TEST_CASE("an adaptor in ERROR that is reset or recovered resets the RTC and activates it again") {
+    const bool by_reset = GENERATE(true, false);
+    Scene scene("again");
+    REQUIRE(scene.component.start() == OPROS_SUCCESS);
+    scene.partner.link.call({"", link::control::failed, "", link::control::encode("RTC went to ERROR")},
+                            soon);
+    REQUIRE(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
+    {
+        const std::lock_guard lock(scene.partner.mutex);
+        scene.partner.told.clear();
+    }
+    scene.partner.refuse = "reset";
+    CHECK((by_reset ? scene.component.reset() : scene.component.recover()) != OPROS_SUCCESS);
+    CHECK(scene.component.getStatus() == OPROS_CS_ERROR);
+    CHECK_FALSE(scene.partner.was_told(".activate"));
+    scene.partner.refuse.clear();
+    if (by_reset)
+        CHECK(scene.component.reset() == OPROS_SUCCESS);
+    else
+        CHECK((scene.component.recover() == OPROS_SUCCESS && scene.component.start() == OPROS_SUCCESS));
+    CHECK(scene.component.getStatus() == OPROS_CS_ACTIVE);
+    CHECK(scene.partner.was_told(".reset"));
+    CHECK(scene.partner.was_told(".activate"));
+}
+
 TEST_CASE("an adaptor without a link name, or with a number that is none, does not initialize") {
     adaptor::AdaptorComp nameless;
     CHECK(nameless.initialize() != OPROS_SUCCESS);

@@ -119,6 +119,35 @@ TEST_CASE("a component that throws goes to ERROR and the others go on") {
     CHECK(recorder(application, "M").executions == 2);
 }
 
+TEST_CASE("a component in ERROR that is recovered or reset is executed again, with its connections") {
+    const bool by_reset = GENERATE(true, false);
+    const Folder folder;
+    folder.component("M", "maker", "<type>periodic</type><period>1</period>", trouble("stops itself"));
+    folder.component("P", "printer", "<type>periodic</type><period>1</period>");
+    Application application(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"),
+                                               Folder::connect("data", "M", "numbers", "P", "numbers")),
+                            test_options(folder, false));
+    application.start();
+    auto& broken = application.find("M")->component(); // it goes to ERROR in each cycle
+    std::vector<std::string> expected{"initialize M ", "start", "error"};
+    for (int times = 1;; ++times) {
+        REQUIRE(eventually([&] { return broken.getStatus() == OPROS_CS_ERROR; }));
+        REQUIRE(eventually([&] { return recorder(application, "P").last_number == times; }));
+        if (times == 3) break;
+        if (by_reset) {
+            CHECK(broken.reset() == OPROS_SUCCESS);
+            expected.insert(expected.end(), {"reset", "initialize M ", "start", "error"});
+        } else {
+            CHECK(broken.recover() == OPROS_SUCCESS);
+            CHECK(broken.start() == OPROS_SUCCESS);
+            expected.insert(expected.end(), {"recover", "start", "error"});
+        }
+    }
+    application.end();
+    expected.push_back("destroy");
+    CHECK(recorder(application, "M").calls == expected);
+}
+
 TEST_CASE("a component that cannot initialise or start is left out, with its connections") {
     const std::string kind = GENERATE("initialize fails", "initialize throws", "start fails");
     const Folder folder;
