@@ -22,7 +22,7 @@ class TwoHosts {
         std::string name = (std::filesystem::temp_directory_path() / "tandem-bridge-XXXXXX").string();
         folder_ = mkdtemp(name.data());
         link_ = folder_.filename().string();
-        for (const char* profile : {"TalkerComp.xml", "CameraComp.xml"})
+        for (const char* profile : {"TalkerComp.xml", "CameraComp.xml", "SurveyComp.xml"})
             std::filesystem::copy_file(std::string(TEST_SOURCES "/opros/") + profile, folder_ / profile);
         connections_ = connection("data", "Talker", "word", "Adaptor", "word") +
                        connection("data", "Adaptor", "reply", "Talker", "reply") +
@@ -45,6 +45,11 @@ class TwoHosts {
     void set_connections(const std::string& xml) { connections_ = xml; }
     /// The OPRoS component that is there as Talker.
     void set_talker(const std::string& component) { talker_ = component; }
+    /// The RTC behind the bridge.
+    void set_rtc(const std::string& rtc) {
+        rtc_ = rtc;
+        set_interceptor("rtc=" + rtc + "0");
+    }
     void set_large_kib(const std::string& of_adaptor) { large_kib_ = of_adaptor; }
     void set_wait(const std::string& seconds) { wait_ = seconds; }
     void set_interceptor(const std::string& parameters) { interceptor_ = parameters; }
@@ -72,9 +77,9 @@ class TwoHosts {
         std::ofstream(folder_ / "rtc.conf")
             << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: "
                "100\n"
-            << "manager.modules.preload: EchoRtc.so, InterceptorComp.so\n"
-            << "manager.components.precreate: EchoRtc, InterceptorComp?link=" << link_ << "&" << interceptor_
-            << "\n"
+            << "manager.modules.preload: " << rtc_ << ".so, InterceptorComp.so\n"
+            << "manager.components.precreate: " << rtc_ << ", InterceptorComp?link=" << link_ << "&"
+            << interceptor_ << "\n"
             << rtc_conf_more_;
         start("rtm", {RTM_HOST, "-f", (folder_ / "rtc.conf").string()});
     }
@@ -125,7 +130,7 @@ class TwoHosts {
     }
 
     std::filesystem::path folder_;
-    std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30",
+    std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
                                      interceptor_ = "rtc=EchoRtc0", rtc_conf_more_;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::wheelchair::ChildProcess> hosts_;
