@@ -67,6 +67,20 @@ TEST_CASE("opros_host runs the good plugins on without the bad one") {
                Catch::Contains("Bad.xml:3: ") && Catch::Contains(bad) && Catch::Contains("stopping on"));
 }
 
+TEST_CASE("a component that calls exit while opros_host runs others ends it with its own code") {
+    const Folder folder;
+    folder.component("Good", OPROS_PLUGIN);
+    folder.component("Bad", ZOO "/opros/execute_exits.so", "<type>periodic</type><period>1</period>");
+    const auto application =
+        folder.application(Folder::sub("Bad", "Bad.xml") + Folder::sub("Good", "Good.xml"));
+    const auto end =
+        tandem::plugin::run_bounded({OPROS_HOST, application.string()}, std::chrono::seconds(30));
+    INFO(end.errors);
+    REQUIRE_FALSE(end.timed_out);
+    REQUIRE(WIFEXITED(end.status));
+    CHECK(WEXITSTATUS(end.status) == 7);
+}
+
 TEST_CASE("rtm_host refuses a bad module in one line that names it") {
     const std::string bad = GENERATE(
         from_range(bad_ones), values<std::string>({"rtc_constructor_throws", "rtc_destructor_crashes"}));
