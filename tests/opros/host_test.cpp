@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <csignal>
 #include <poll.h>
 #include <sys/wait.h>
+#include <thread>
 
 namespace {
 
@@ -50,6 +52,20 @@ class Process {
         return true;
     }
     void signal(int number) { kill(pid_, number); }
+    /// The signal that ended it, of those sent until it did; 0 if it has not within a bound out of
+    /// proportion.
+    int ended_by(int number) {
+        int status = 0;
+        for (int i = 0; i < 600; ++i) {
+            signal(number);
+            if (waitpid(pid_, &status, WNOHANG) == pid_) {
+                pid_ = -1;
+                return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+        return 0;
+    }
     int exit_code() {
         says("no program says this");
         int status = 0;
@@ -140,6 +156,27 @@ TEST_CASE("a host whose component hangs says which and ends") {
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
     CHECK_THAT(host.said, Catch::Contains("component M does not come back from onExecute within 0.1 s"));
+}
+
+TEST_CASE("signals that come together are one wish to stop and everything is stopped in order") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGINT);
+    host.signal(SIGTERM);
+    host.signal(SIGHUP);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.said, Catch::Contains("M is gone\n"));
+}
+
+TEST_CASE("another signal later ends a host whose component will not stop") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "3600",
+                  one_component(folder, "maker", "stop hangs")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    REQUIRE(host.says("M hangs\n"));
+    CHECK(host.ended_by(SIGINT) == SIGINT);
 }
 
 TEST_CASE("a host whose component hangs in the set-up can be ended") {

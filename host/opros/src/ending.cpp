@@ -2,11 +2,13 @@
 #include "host/opros/src/ending.hpp"
 #include "host/rt/leave.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <mutex>
 #include <semaphore>
 #include <spdlog/spdlog.h>
 #include <thread>
+#include <unistd.h>
 
 namespace tandem::engine {
 using namespace std::chrono_literals;
@@ -51,10 +53,21 @@ void Ending::watch(State& state, const sigset_t& signals, std::chrono::nanosecon
     if (number <= 0) sigwait(&signals, &number);
     spdlog::info("stopping on {}", strsignal(number));
     state.signalled.release();
-    if (state.ready.try_acquire_for(grace)) return;
+    if (state.ready.try_acquire_for(grace)) end_on_another(signals);
     spdlog::error("{} does not come back within {} s; the host ends", state.what(),
                   std::chrono::duration<double>(grace).count());
     rt::leave(1);
+}
+
+void Ending::end_on_another(const sigset_t& signals) {
+    const auto until = State::Clock::now() + 1s;
+    for (auto left = 1000ms; left > 0ms;
+         left = std::chrono::duration_cast<std::chrono::milliseconds>(until - State::Clock::now())) {
+        const timespec rest{0, std::min<long>(left.count(), 999) * 1'000'000};
+        sigtimedwait(&signals, nullptr, &rest);
+    }
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr); // in this thread, and for the process thereby
+    for (;;) pause();
 }
 
 void Ending::busy_with(const std::string& component, const char* step) {

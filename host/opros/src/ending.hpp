@@ -10,7 +10,9 @@ namespace tandem::engine {
 
 /// Waits for one of the signals (which all threads block) in a thread of its own, so that the set-up, too,
 /// can be ended: when it is not over `grace` after a signal, the process ends. What takes long in the set-up
-/// is told.
+/// is told. A second signal ends the process at once, for a component that will not stop; what comes within a
+/// second of the first is the same wish, which a terminal, a supervisor or timeout(1) sends to the process
+/// and to its group.
 class Ending {
   public:
     Ending(const sigset_t& signals, std::chrono::nanoseconds grace);
@@ -22,6 +24,7 @@ class Ending {
   private:
     struct State;
     static void watch(State& state, const sigset_t& signals, std::chrono::nanoseconds grace);
+    [[noreturn]] static void end_on_another(const sigset_t& signals);
     std::shared_ptr<State> state_; // the thread has it, too, and may outlive this
 };
 

@@ -64,7 +64,6 @@ int run(Options options) {
     application.start();
     std::cout << "ready" << std::endl;
     ending.wait();
-    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr); // a second one ends a component that will not stop
     application.end();
     if (options.stats)
         for (const std::string& line : application.stats()) std::cout << line << "\n";
