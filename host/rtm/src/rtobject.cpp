@@ -228,10 +228,11 @@ UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
 ReturnCode_t RTObject_impl::detach_context(UniqueId ec_id) {
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);
-        const auto index = static_cast<std::size_t>(ec_id - ECOTHER_OFFSET);
-        if (ec_id < ECOTHER_OFFSET || index >= m_ecOther.size() || CORBA::is_nil(m_ecOther[index].in()))
+        const std::int64_t index = std::int64_t{ec_id} - ECOTHER_OFFSET; // any id may come by CORBA
+        if (index < 0 || index >= std::ssize(m_ecOther) ||
+            CORBA::is_nil(m_ecOther[static_cast<std::size_t>(index)].in()))
             return BAD_PARAMETER;
-        m_ecOther[index] = ExecutionContext::_nil();
+        m_ecOther[static_cast<std::size_t>(index)] = ExecutionContext::_nil();
     }
     m_actionListeners.ecaction_[1].forEach([&](auto& listener) { listener(ec_id); });
     return RTC_OK;
