@@ -191,6 +191,16 @@ TEST_CASE("A component that throws where it is to initialize does not let its ho
     }
 }
 
+TEST_CASE("A component that cannot initialize nor be destroyed does not hold its host") {
+    using Catch::Contains;
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Sleeper?in=initialize&how=fail\n")});
+    CHECK(host.wait() == 1);
+    CHECK_THAT(host.errors, Contains("Sleeper0: its destructor does not return") &&
+                                Contains("Sleeper0 does not start: its onInitialize has failed"));
+}
+
 TEST_CASE("A component that ends the process ends it with its own code and in time") {
     const std::vector<std::string> callbacks{"initialize", "startup",  "activated",   "execute",
                                              "update",     "shutdown", "deactivated", "finalize"};

@@ -124,6 +124,21 @@ TEST_CASE("A tool restarts the host which comes back as it was at first") {
     CHECK(other.host.wait() == 0);
 }
 
+TEST_CASE("A tool that asks for a component that cannot initialize nor be destroyed gets none") {
+    OtherHost other("Counter");
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    RTC::RTObject_var none = manager->create_component("Sleeper?in=initialize&how=fail&instance_name=never");
+    CHECK(CORBA::is_nil(none.in()));
+    CHECK(components(manager.in(), "never") == 0);
+    RTC::RTObject_var another = manager->create_component("Counter?instance_name=never");
+    CHECK_FALSE(CORBA::is_nil(another.in()));
+    other.host.send(SIGTERM);
+    CHECK(other.host.wait() == 0);
+    CHECK_THAT(other.host.errors, Catch::Contains("never: its destructor does not return"));
+}
+
 TEST_CASE("Only one of many that ask at once gets a component of the name they want") {
     OtherHost other("Counter");
     REQUIRE(other.host.says("ready\n"));

@@ -97,10 +97,14 @@ class BadPeer : public RTC::DataFlowComponentBase {
 };
 
 /// Never returns from the callback that the parameter `in` names; with `how` it throws std, int or corba
-/// there, ends the process by exit or abort, reads stdin, or leaves a static object that does not end.
+/// there, ends the process by exit or abort, reads stdin, leaves a static object that does not end, or
+/// fails and then does not return from its destructor.
 class Sleeper : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
+    ~Sleeper() override {
+        if (failed_) std::this_thread::sleep_for(std::chrono::hours(1));
+    }
     RTC::ReturnCode_t onInitialize() override { return at("initialize"); }
     RTC::ReturnCode_t onFinalize() override { return at("finalize"); }
     RTC::ReturnCode_t onStartup(RTC::UniqueId) override { return at("startup"); }
@@ -119,6 +123,7 @@ class Sleeper : public RTC::DataFlowComponentBase {
     }
 
   private:
+    bool failed_ = false;
     std::string in() { return getProperties().getProperty("in"); }
     RTC::ReturnCode_t at(const std::string& callback) {
         if (in() != callback) return RTC::RTC_OK;
@@ -127,6 +132,10 @@ class Sleeper : public RTC::DataFlowComponentBase {
         if (how == "int") throw 7;
         if (how == "corba") throw CORBA::NO_MEMORY();
         if (how == "exit") std::exit(7);
+        if (how == "fail") {
+            failed_ = true;
+            return RTC::RTC_ERROR;
+        }
         if (how == "static") {
             static const struct Slow {
                 ~Slow() { std::this_thread::sleep_for(std::chrono::hours(1)); }

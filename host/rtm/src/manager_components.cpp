@@ -160,9 +160,11 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
             throw ManagerError("component " + name + " does not start: its onInitialize has failed");
         listeners.forEach([](auto& listener) { listener.postInitialize(); });
     } catch (const ManagerError&) {
-        component.finalizePorts();
-        component.finalizeContexts();
-        factory->destroy(&component);
+        m_impl->destroy(component.getInstanceName(), [&component, factory] {
+            component.finalizePorts();
+            component.finalizeContexts();
+            factory->destroy(&component);
+        });
         throw;
     }
     {

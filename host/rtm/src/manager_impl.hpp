@@ -70,6 +70,8 @@ struct Manager::Impl {
     std::shared_ptr<FactoryBase> find_factory(const coil::Properties& id);
     std::vector<std::filesystem::path> module_dirs() const;
     void run_due_tasks();
+    /// Calls what ends with a component's destructor; one that does not return is told of and left behind.
+    void destroy(const std::string& name, std::function<void()> call);
     void repeat(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
                 std::chrono::nanoseconds period);
     /// To the components, which may leave meanwhile: to all, or to those that fit.

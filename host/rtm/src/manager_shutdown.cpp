@@ -49,13 +49,15 @@ void Manager::cleanupComponents() {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         leaving.swap(m_impl->finalized);
     }
-    for (auto& one : leaving) {
-        const std::string name(one.object->getInstanceName());
-        if (returns([one] { one.factory->destroy(one.object); })) continue;
-        Logger& rtclog = m_impl->log;
-        RTC_ERROR(("%s: its destructor does not return; the component is left as it is", name.c_str()));
-        m_impl->ended_in_order = false;
-    }
+    for (auto& one : leaving)
+        m_impl->destroy(one.object->getInstanceName(), [one] { one.factory->destroy(one.object); });
+}
+
+void Manager::Impl::destroy(const std::string& name, std::function<void()> call) {
+    if (returns(std::move(call))) return;
+    Logger& rtclog = log;
+    RTC_ERROR(("%s: its destructor does not return; the component is left as it is", name.c_str()));
+    ended_in_order = false;
 }
 
 bool Manager::shutdown() {
