@@ -15,6 +15,15 @@ coil::Properties connector_properties(const coil::Properties& port, const Connec
     return merged;
 }
 
+bool converts(const ConnectorProfile& profile) {
+    for (const char* key : {"dataport.marshaling_type", "dataport.outport.marshaling_type",
+                            "dataport.inport.marshaling_type"}) {
+        const std::string type = NVUtil::toString(profile.properties, key);
+        if (!type.empty() && type != "cdr") return true;
+    }
+    return false;
+}
+
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties) {
     coil::vstring ports;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {

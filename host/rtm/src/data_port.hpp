@@ -11,6 +11,9 @@ namespace RTC {
 coil::Properties connector_properties(const coil::Properties& port, const ConnectorProfile& profile,
                                       const char* side);
 
+/// Does the connection name a serializer of somebody's own? Such a one may make another type of a value.
+bool converts(const ConnectorProfile& profile);
+
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);
 
 /// The first byte order that `serializer.cdr.endian` names (little, big; a list); little when it names none.

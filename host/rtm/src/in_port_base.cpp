@@ -55,7 +55,8 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
                                              "; add it to RTC::CdrBufferFactory before connecting");
     }
     if (own || info.properties.findNode("buffer") != nullptr) buffer->init(info.properties.getNode("buffer"));
-    const bool direct = !own && coil::normalize(prop.getProperty("interface_type")) == "direct";
+    const bool direct =
+        !own && !converts(profile) && coil::normalize(prop.getProperty("interface_type")) == "direct";
     const auto lane = direct ? directLane() : nullptr;
     if (lane != nullptr)
         if (const auto* node = info.properties.findNode("buffer")) lane->init(*node);

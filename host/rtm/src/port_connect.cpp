@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connection protocol: connect -> notify_connect along the ports of the profile, and back.
+#include "data_port.hpp"
 #include "local_object.hpp"
 #include "manager_impl.hpp"
 #include "remote_names.hpp"
@@ -20,24 +21,25 @@ PortFacts facts_of(PortService_ptr port) {
 }
 
 // Why two ports can never be joined; empty when they may.
-std::string misfit(const PortFacts& a, const PortFacts& b) {
+std::string misfit(const PortFacts& a, const PortFacts& b, bool converts) {
     const bool services = a.kind == "CorbaPort" && b.kind == "CorbaPort";
     const bool data = (a.kind == "DataInPort" && b.kind == "DataOutPort") ||
                       (a.kind == "DataOutPort" && b.kind == "DataInPort");
     if (!services && !data && !a.kind.empty() && !b.kind.empty())
         return a.name + " is a " + a.kind + ", " + b.name + " is a " + b.kind + ": they cannot be connected";
-    if (data && a.data_type != b.data_type && coil::toLower(a.data_type) != "any" &&
+    if (data && !converts && a.data_type != b.data_type && coil::toLower(a.data_type) != "any" &&
         coil::toLower(b.data_type) != "any")
         return a.name + " carries " + a.data_type + ", " + b.name + " carries " + b.data_type +
                ": connect ports of one type";
     return "";
 }
 
-std::string misfit(const PortServiceList& ports) {
+std::string misfit(const ConnectorProfile& profile) {
+    const PortServiceList& ports = profile.ports;
     if (ports.length() < 2) return "";
     const PortFacts first = facts_of(ports[0]);
     for (CORBA::ULong i = 1; i < ports.length(); ++i) {
-        std::string why = misfit(first, facts_of(ports[i]));
+        std::string why = misfit(first, facts_of(ports[i]), converts(profile));
         if (!why.empty()) return why;
     }
     return "";
@@ -65,7 +67,7 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         return refuse(PRECONDITION_NOT_MET, std::string("there is a connection with id ") +
                                                 static_cast<const char*>(profile.connector_id));
     try {
-        const std::string why = misfit(profile.ports);
+        const std::string why = misfit(profile);
         if (!why.empty()) return refuse(BAD_PARAMETER, why);
         auto first = local_object<PortBase>(profile.ports[0]);
         const ReturnCode_t result =
