@@ -77,8 +77,10 @@ void RTObject_impl::createContexts() {
     }
 }
 
-ReturnCode_t RTObject_impl::finalize() {
-    if (m_created || !m_exiting) return PRECONDITION_NOT_MET;
+// Anybody may ask for it, by CORBA; it is the last step of exit() and of nothing else.
+ReturnCode_t RTObject_impl::finalize() { return PRECONDITION_NOT_MET; }
+
+ReturnCode_t RTObject_impl::finish() {
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);
         m_ecOther.clear();
@@ -130,7 +132,7 @@ ReturnCode_t RTObject_impl::exit() {
         RTC_ERROR(("a callback does not return; the component is left as it is"));
         return RTC_ERROR;
     }
-    return finalize();
+    return finish();
 }
 
 void RTObject_impl::finalizePorts() {

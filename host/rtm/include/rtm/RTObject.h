@@ -374,6 +374,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     std::shared_ptr<SDOPackage::Organizations> m_ownedOrganizations, m_organizations;
 
   private:
+    ReturnCode_t finish(); // the last step of exit()
     template <class Callback>
     ReturnCode_t guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
                          PostComponentActionListenerType post, Callback callback);
