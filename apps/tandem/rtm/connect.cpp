@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/running.hpp"
 #include "apps/tandem/text.hpp"
+#include "host/rtm/src/data_port.hpp"
 
 #include <fmt/format.h>
 #include <rtm/CORBA_RTCUtil.h>
@@ -27,23 +28,15 @@ std::string fact(const Port& port, const char* key) {
     return NVUtil::toString(port.profile->properties, key);
 }
 
-bool names_serializer(const coil::Properties& properties) {
-    const std::string key = "marshaling_type";
-    for (const auto& name : properties.propertyNames())
-        if (name.size() >= key.size() && name.compare(name.size() - key.size(), key.size(), key) == 0)
-            return true;
-    return false;
-}
-
 // What the ports themselves would refuse without saying why; a serializer may make one type of another.
-void check(const Port& a, const Port& b, const coil::Properties& properties) {
+void check(const Port& a, const Port& b, const RTC::ConnectorProfile& profile) {
     const std::string ka = fact(a, "port.port_type"), kb = fact(b, "port.port_type");
     const bool services = ka == "CorbaPort" && kb == "CorbaPort";
     if (!services && (ka == kb || ka == "CorbaPort" || kb == "CorbaPort"))
         throw std::runtime_error(
             fmt::format("{} is a {}, {} is a {}: they cannot be connected", a.name, ka, b.name, kb));
     const std::string ta = fact(a, "dataport.data_type"), tb = fact(b, "dataport.data_type");
-    if (!services && !names_serializer(properties) && ta != tb && ta != "any" && tb != "any")
+    if (!services && !RTC::converts(profile) && ta != tb && ta != "any" && tb != "any")
         throw std::runtime_error(
             fmt::format("{} carries {}, {} carries {}: connect ports of one type", a.name, ta, b.name, tb));
     if (CORBA_RTCUtil::already_connected(a.object.in(), b.object.in()))
@@ -60,11 +53,10 @@ int rtm_connect(const PeerOptions& options, const ConnectOptions& what) {
         const Port other = find_port(peers, what.ports[i]);
         const std::string names = first.name + " and " + other.name;
         calling(names, [&] {
-            const coil::Properties properties = connection_properties(what.properties);
-            check(first, other, properties);
             const std::string name = what.name.empty() ? first.name + "-" + other.name : what.name;
-            RTC::ConnectorProfile_var profile =
-                CORBA_RTCUtil::create_connector(name, properties, first.object.in(), other.object.in());
+            RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
+                name, connection_properties(what.properties), first.object.in(), other.object.in());
+            check(first, other, profile.in());
             const RTC::ReturnCode_t code = first.object->connect(profile.inout());
             if (code != RTC::RTC_OK)
                 throw std::runtime_error(names + " are not connected: " + text_of(code) +
