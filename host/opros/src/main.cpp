@@ -69,14 +69,11 @@ int run(Options options) {
         for (const std::string& line : application.stats()) std::cout << line << "\n";
     application.unload();
     if (!application.stuck().empty()) tandem::rt::leave(1);
-    std::string loaded;
-    for (const std::string& name : application.still_loaded())
-        loaded += (loaded.empty() ? "component " : " or ") + name;
-    if (!loaded.empty())
+    if (const auto loaded = application.still_loaded(); !loaded.empty())
         tandem::rt::bound_exit(options.host.grace,
-                               fmt::format("opros_host: {} does not come back from its static destructors "
-                                           "within {} s; the host ends without it",
-                                           loaded, options.grace_s));
+                               fmt::format("opros_host: component {} does not come back from its static "
+                                           "destructors within {} s; the host ends without it",
+                                           fmt::join(loaded, " or "), options.grace_s));
     return 0;
 }
 

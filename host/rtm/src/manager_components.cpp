@@ -89,10 +89,6 @@ void configure(Manager::Impl& impl, RTObject_impl& component, const coil::Proper
     impl.listeners.rtclifecycle_.forEach([&](auto& listener) { listener.postConfigure(properties); });
 }
 
-} // namespace
-
-namespace {
-
 // Which name a component is to have: taken from here on, though it is not there yet.
 class NameTaken {
   public:
