@@ -8,6 +8,7 @@
 #include "apps/bench/time_each.hpp"
 
 #include "host/opros/src/application.hpp"
+#include "host/rt/periodic_tick.hpp"
 #include <fmt/format.h>
 
 #include <cmath>
@@ -60,8 +61,8 @@ class Components {
             return fmt::format(
                 "<subcomponent><name>{}</name><reference>{}</reference><properties>"
                 "<property name=\"period_ns\">{}</property><property name=\"samples\">{}</property>"
-                "</properties></subcomponent>\n",
-                name, profile, period_ns, session.limits().samples);
+                "<property name=\"origin_ns\">{}</property></properties></subcomponent>\n",
+                name, profile, period_ns, session.limits().samples, rt::grid_origin.count());
         };
         std::ofstream(folder_ / "app.xml")
             << "<package_profile><name>app</name><subcomponents>\n"

@@ -9,6 +9,7 @@
 #include "apps/bench/time_each.hpp"
 
 #include "BenchEchoSkel.h"
+#include "host/rt/periodic_tick.hpp"
 #include "host/rtm/src/manager_options.hpp"
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
@@ -152,7 +153,7 @@ void count_allocations(Session& session) {
 
 /// Runs From for so many periods, and stops.
 void tick_for(Components& components, std::uint64_t periods) {
-    components.part("From").record.prepare(period_ns, periods);
+    components.part("From").record.prepare(period_ns, periods, rt::grid_origin.count());
     components.manager().activateComponentOrThrow("From");
     std::this_thread::sleep_for(std::chrono::nanoseconds(period_ns) * periods);
     components.part("From").deactivate(0);

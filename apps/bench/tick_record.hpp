@@ -26,9 +26,10 @@ struct TickCounts {
 
 class TickRecord {
   public:
-    /// Keeps the lateness of so many ticks and counts all. Periods begin at whole multiples of their length.
-    void prepare(std::int64_t period_ns, std::size_t samples) {
+    /// Keeps the lateness of so many ticks and counts all. A period begins at the origin.
+    void prepare(std::int64_t period_ns, std::size_t samples, std::int64_t origin_ns) {
         period_ns_ = period_ns;
+        origin_ns_ = origin_ns;
         lateness_ns_.reserve(samples);
     }
 
@@ -36,7 +37,7 @@ class TickRecord {
     void tick(std::int64_t now) {
         if (ticks_++ == 0) {
             first_ns_ = now;
-            due_ns_ = now - now % period_ns_;
+            due_ns_ = now - (now - origin_ns_) % period_ns_;
         }
         last_ns_ = now;
         const std::int64_t late = now - due_ns_;
@@ -51,14 +52,14 @@ class TickRecord {
     const std::vector<std::int64_t>& lateness_ns() const { return lateness_ns_; }
     /// From the first tick to the last, in ns more or less than so many whole periods.
     double mean_drift_ns() const {
-        const std::int64_t periods = last_ns_ / period_ns_ - first_ns_ / period_ns_;
+        const std::int64_t periods = (last_ns_ - origin_ns_) / period_ns_ - (first_ns_ - origin_ns_) / period_ns_;
         if (periods == 0) return 0;
         return static_cast<double>(last_ns_ - first_ns_) / static_cast<double>(periods) -
                static_cast<double>(period_ns_);
     }
 
   private:
-    std::int64_t period_ns_ = 1, first_ns_ = 0, last_ns_ = 0, due_ns_ = 0;
+    std::int64_t period_ns_ = 1, origin_ns_ = 0, first_ns_ = 0, last_ns_ = 0, due_ns_ = 0;
     std::uint64_t ticks_ = 0;
     TickCounts counts_;
     std::vector<std::int64_t> lateness_ns_;

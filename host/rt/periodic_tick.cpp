@@ -36,8 +36,8 @@ std::int64_t monotonic_ns() noexcept {
 }
 
 PeriodicTick::PeriodicTick(const TickOptions& options)
-    : period_(options.period.count()), phase_(options.phase.count()), spin_(options.spin.count()),
-      aligned_(options.aligned), rehearsal_(options.rehearsal) {
+    : period_(options.period.count()), phase_((grid_origin + options.phase).count()),
+      spin_(options.spin.count()), aligned_(options.aligned), rehearsal_(options.rehearsal) {
     if (period_ <= 0)
         throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
                                     std::to_string(period_));

@@ -9,11 +9,16 @@
 
 namespace tandem::rt {
 
+/// Where on CLOCK_MONOTONIC the grid of all aligned ticks begins. The kernel's own timer tick falls on whole
+/// multiples of its period (1 to 10 ms; so aligned since Linux 6.3), and takes tens of us on a virtual machine:
+/// ticks of whole milliseconds would all wait for it. This is far from it for periods down to 250 us.
+inline constexpr std::chrono::nanoseconds grid_origin{375'000};
+
 struct TickOptions {
     std::chrono::nanoseconds period;
     std::chrono::nanoseconds phase{0};
-    /// Ticks fall on multiples of the period plus the phase, so that two hosts share one grid without
-    /// talking. Otherwise the grid starts at the first wait(), whose tick comes at once.
+    /// Ticks fall on grid_origin plus multiples of the period plus the phase, so that two hosts share one grid
+    /// without talking. Otherwise the grid starts at the first wait(), whose tick comes at once.
     bool aligned = true;
     /// The last stretch before a tick is polled instead of slept.
     std::chrono::nanoseconds spin{0};
@@ -56,7 +61,7 @@ class PeriodicTick {
     void sleep_until_next();
 
     const std::int64_t period_;
-    const std::int64_t phase_;
+    const std::int64_t phase_; // from the clock's beginning
     const std::int64_t spin_;
     const bool aligned_;
     const std::function<void()> rehearsal_;

@@ -9,7 +9,7 @@ using Times = std::vector<std::int64_t>;
 namespace {
 TickRecord recorded(const Times& ticks) {
     TickRecord record;
-    record.prepare(100, 10);
+    record.prepare(100, 10, 0);
     for (const std::int64_t at : ticks) record.tick(at);
     return record;
 }

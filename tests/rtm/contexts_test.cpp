@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kinds of execution contexts: who runs a cycle, when, and what is counted.
 #include "fixture.hpp"
+#include "host/rt/periodic_tick.hpp"
 #include <rtm/ExtTrigExecutionContext.h>
 #include <rtm/OpenHRPExecutionContext.h>
 #include <rtm/PeriodicExecutionContext.h>
@@ -82,7 +83,7 @@ TEST_CASE("Cycles and skipped periods together are all the periods there were: n
     const auto period = context.getPeriod();
     // Number of the grid's present period, twice; and what was counted in between.
     auto sample = [&] {
-        const auto now = std::chrono::steady_clock::now().time_since_epoch();
+        const auto now = std::chrono::steady_clock::now().time_since_epoch() - tandem::rt::grid_origin;
         const auto ticks = context.ticks();
         return std::pair(now / period, ticks.cycles + ticks.skipped);
     };

@@ -93,7 +93,8 @@ class Parts : public Component, public BenchParts, public IDoubler {
   protected:
     virtual ReturnType onInitialize() {
         ticks_.prepare(std::atoll(getProperty("period_ns").c_str()),
-                       static_cast<std::size_t>(std::atoll(getProperty("samples").c_str())));
+                       static_cast<std::size_t>(std::atoll(getProperty("samples").c_str())),
+                       std::atoll(getProperty("origin_ns").c_str()));
         return OPROS_SUCCESS;
     }
     virtual ReturnType onStart() { return OPROS_SUCCESS; }

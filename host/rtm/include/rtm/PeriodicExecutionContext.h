@@ -10,7 +10,7 @@ class Manager;
 
 namespace RTC_exp {
 
-/// A thread of its own with cycles in absolute time, on the grid of multiples of the period plus the phase;
+/// A thread of its own with cycles in absolute time, on the grid of both hosts (rt::PeriodicTick) plus the phase;
 /// cycles that were overrun are skipped. While no component is active the thread sleeps.
 class PeriodicExecutionContext : public RTC::ExecutionContextServant<POA_RTC::ExecutionContextService> {
   public:
