@@ -2,6 +2,7 @@
 // The kinds of execution contexts: who runs a cycle, when, and what is counted.
 #include "fixture.hpp"
 #include "host/rt/periodic_tick.hpp"
+#include <rtm/CORBA_RTCUtil.h>
 #include <rtm/ExtTrigExecutionContext.h>
 #include <rtm/OpenHRPExecutionContext.h>
 #include <rtm/PeriodicExecutionContext.h>
@@ -108,6 +109,53 @@ TEST_CASE("A change of the rate is told once, and time goes on at the new one") 
     CHECK(one.rates == std::vector<double>{500});
     CHECK(context_of<RTC_exp::PeriodicExecutionContext>(one).getPeriod() == std::chrono::milliseconds(2));
     REQUIRE(reaches(one, 20));
+}
+
+TEST_CASE("A context that several start and stop at the same time does in the end what it was told last") {
+    Stage stage(false);
+    auto& one = ticker(stage, "exec_cxt.periodic.rate=1000");
+    REQUIRE(Stage::activate(one) == RTC::RTC_OK);
+    auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
+    std::vector<std::thread> tools;
+    for (int t = 0; t < 4; ++t)
+        tools.emplace_back([&, t] {
+            for (int i = 0; i < 200; ++i) t % 2 == 0 ? context.start() : context.stop();
+        });
+    for (auto& tool : tools) tool.join();
+    context.stop();
+    CHECK_FALSE(context.isRunning());
+    const long stopped = one.count();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // 20 cycles of one that runs on
+    CHECK(one.count() == stopped);
+    CHECK(context.start() == RTC::RTC_OK);
+    CHECK(reaches(one, stopped + 5));
+}
+
+TEST_CASE("A component that stops its context within a cycle can be started again from outside only") {
+    struct Stopper : RTC::DataFlowComponentBase {
+        explicit Stopper(RTC::Manager* m) : DataFlowComponentBase(m) {}
+        RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+            stopped = getOwnContexts().at(0)->stop();
+            started = getOwnContexts().at(0)->start();
+            ++cycles;
+            return RTC::RTC_OK;
+        }
+        std::atomic<long> cycles{0};
+        RTC::ReturnCode_t stopped = RTC::RTC_ERROR, started = RTC::RTC_ERROR;
+    };
+    Stage stage(false);
+    register_as<Stopper>(stage.manager(), "Stopper");
+    auto& one = stage.create<Stopper>("Stopper?exec_cxt.periodic.rate=1000");
+    CORBA_RTCUtil::activate(RTC::RTObject_var(one.getObjRef()).in());
+    auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
+    for (long life = 1; life <= 3; ++life) {
+        for (int i = 0; i < 10000 && one.cycles < life; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        CHECK(one.cycles == life);
+        CHECK(context.start() == RTC::RTC_OK);
+        CHECK(one.stopped == RTC::RTC_OK);
+        CHECK(one.started == RTC::PRECONDITION_NOT_MET);
+    }
 }
 
 TEST_CASE("Each tick of an externally triggered context is one cycle in the thread of the context") {

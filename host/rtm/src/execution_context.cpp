@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all execution contexts share: participants, transitions, the cycle.
+#include "manager_options.hpp"
 #include "participant.hpp"
 #include <cmath>
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/ExecutionContextBase.h>
 #include <rtm/Manager.h>
+#include <utility>
 
 namespace RTC {
 
@@ -58,25 +60,31 @@ bool ExecutionContextBase::isRunning() const {
     return m_running;
 }
 
+// Tools start and stop at the same time: one after the other, or a thread is left that nobody stops. Within a
+// cycle stop() only asks, since another that stops waits for that cycle; a start would have to wait for its
+// own end.
 ReturnCode_t ExecutionContextBase::start() {
-    {
-        std::lock_guard<std::mutex> lock(m_mutex);
-        if (m_running) return PRECONDITION_NOT_MET;
-        m_running = true;
-    }
+    if (insideCycle()) return PRECONDITION_NOT_MET;
+    std::unique_lock<std::recursive_timed_mutex> transition(m_transition, 2 * host_options().stop_timeout);
+    if (!transition || isRunning()) return PRECONDITION_NOT_MET;
+    if (onStopping() != RTC_OK) return PRECONDITION_NOT_MET; // what a stop within a cycle has left
+    setRunning(true);
     forEach(&RTC_impl::RTObjectStateMachine::startup);
-    return onStarted();
+    return isRunning() ? onStarted() : RTC_OK; // a callback may have stopped it
 }
 
 ReturnCode_t ExecutionContextBase::stop() {
-    {
-        std::lock_guard<std::mutex> lock(m_mutex);
-        if (!m_running) return PRECONDITION_NOT_MET;
-        m_running = false;
-    }
+    std::unique_lock<std::recursive_timed_mutex> transition(m_transition, std::defer_lock);
+    if (!insideCycle() && !transition.try_lock_for(2 * host_options().stop_timeout)) return RTC_ERROR;
+    if (!setRunning(false)) return PRECONDITION_NOT_MET;
     const ReturnCode_t result = onStopping();
     if (result == RTC_OK) forEach(&RTC_impl::RTObjectStateMachine::shutdown);
     return result;
+}
+
+bool ExecutionContextBase::setRunning(bool running) {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return std::exchange(m_running, running) != running;
 }
 
 double ExecutionContextBase::getRate() const {

@@ -111,10 +111,12 @@ class ExecutionContextBase {
     ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to,
                          const Wait& wait);
     ReturnCode_t await(const Participant& participant, LifeCycleState to, std::chrono::nanoseconds timeout);
+    bool setRunning(bool running); ///< false: it was so before
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
     mutable std::mutex m_mutex; // participants, rate, running
     Participants m_participants = std::make_shared<const std::vector<Participant>>();
+    std::recursive_timed_mutex m_transition; // taken before m_mutex
     bool m_running = false;
     double m_rate = DEFAULT_EXECUTION_RATE;
     Wait m_activation, m_deactivation, m_reset;
