@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -74,5 +75,17 @@ class PeriodicTick {
 
 /// Now, in ns of CLOCK_MONOTONIC.
 std::int64_t monotonic_ns() noexcept;
+
+/// For a rehearsal: the first 2 KiB of an object with virtual functions, for writing, and the table of those.
+template <class Object>
+void bring_into_caches(const Object& object) {
+    constexpr std::size_t line = 64, bytes = 2048;
+    const auto* whole = static_cast<const std::byte*>(dynamic_cast<const void*>(&object));
+    const auto* functions = *reinterpret_cast<const std::byte* const*>(whole);
+    for (std::size_t at = 0; at < bytes; at += line) {
+        __builtin_prefetch(whole + at, 1); // a prefetch beyond the end does nothing
+        __builtin_prefetch(functions + at);
+    }
+}
 
 } // namespace tandem::rt

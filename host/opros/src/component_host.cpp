@@ -2,6 +2,7 @@
 #include "host/opros/src/component_host.hpp"
 
 #include "host/opros/src/load_component.hpp"
+#include "host/rt/periodic_tick.hpp"
 
 #include <MethodInvokeException.h>
 #include <algorithm>
@@ -169,19 +170,15 @@ void ComponentHost::report_broken() {
     error_reported_ = broken;
 }
 
-std::string ComponentHost::execute() {
+std::string ComponentHost::execute(bool rehearsal) {
     if (!active()) {
-        report_broken();
+        if (!rehearsal) report_broken();
         return "";
     }
-    return guarded("onExecute", [this] { report_code("onExecute", component_->onExecute(), last_execute_); });
-}
-
-void ComponentHost::rehearse() {
-    constexpr std::size_t line = 64, lines = 16;
-    const auto* object = static_cast<const std::byte*>(dynamic_cast<const void*>(component_.get()));
-    for (std::size_t at = 0; at < lines * line; at += line) __builtin_prefetch(object + at, 1);
-    if (active()) guarded("onExecute", [this] { report_code("onExecute", last_execute_, last_execute_); });
+    return guarded("onExecute", [this, rehearsal] {
+        if (rehearsal) return rt::bring_into_caches(*component_);
+        report_code("onExecute", component_->onExecute(), last_execute_);
+    });
 }
 
 std::string ComponentHost::update() {

@@ -47,11 +47,9 @@ class ComponentHost {
 
     /// [executor] The two passes of a cycle; nothing happens unless the component is ACTIVE. An exception
     /// puts it in ERROR and comes back as text, empty otherwise.
-    std::string execute();
+    /// A rehearsal (rt::TickOptions) goes the same way, but calls nothing of the component.
+    std::string execute(bool rehearsal = false);
     std::string update();
-
-    /// [executor] Goes the way of execute() without the component's own code: see rt::TickOptions.
-    void rehearse();
 
     /// Runs the component's own code from any thread of the engine, under the same rule.
     std::string guarded(const char* what, const std::function<void()>& code);

@@ -26,7 +26,7 @@ std::string run_cycle(const std::vector<ComponentHost*>& components) {
 Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options)
     : components_(std::move(components)), options_(options),
       pace_(make_pace(*components_.front(), options.spin, [this] {
-          for (ComponentHost* component : components_) component->rehearse();
+          for (ComponentHost* component : components_) component->execute(true);
       })) {}
 
 Executor::~Executor() {

@@ -9,22 +9,22 @@ namespace RTC {
 bool ExecutionContextBase::insideCycle() const { return m_cycling.load() == std::this_thread::get_id(); }
 
 void ExecutionContextBase::invokeWorker() {
-    {
-        std::lock_guard<std::timed_mutex> lock(m_cycle);
-        m_cycling = std::this_thread::get_id();
-        const auto all = participants();
-        for (auto& participant : *all) participant->preDo();
-        for (auto& participant : *all) participant->execute();
-        for (auto& participant : *all) participant->postDo();
-        m_cycling = std::thread::id();
-    }
+    cycle(false);
     { std::lock_guard<std::mutex> lock(m_changedMutex); }
     m_changed.notify_all();
 }
 
-void ExecutionContextBase::rehearse() {
+void ExecutionContextBase::rehearse() { cycle(true); }
+
+void ExecutionContextBase::cycle(bool rehearsal) {
     std::lock_guard<std::timed_mutex> lock(m_cycle);
-    for (auto& participant : *participants()) participant->rehearse();
+    m_cycling = std::this_thread::get_id();
+    const auto all = participants();
+    for (auto& participant : *all) participant->preDo(rehearsal);
+    for (auto& participant : *all) participant->execute(rehearsal);
+    if (!rehearsal)
+        for (auto& participant : *all) participant->postDo();
+    m_cycling = std::thread::id();
 }
 
 bool ExecutionContextBase::busy() {

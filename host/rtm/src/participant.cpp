@@ -49,14 +49,14 @@ void RTObjectStateMachine::failed() {
     next_ = ERROR_STATE;
 }
 
-void RTObjectStateMachine::preDo() {
+void RTObjectStateMachine::preDo(bool rehearsal) {
     LifeCycleState from, to;
     {
         std::lock_guard<std::mutex> lock(mutex_);
         from = current_;
         to = next_;
     }
-    if (from == to) return;
+    if (from == to || rehearsal) return;
     if (from == ACTIVE_STATE) call(Action::deactivated);
     if (from == ERROR_STATE && call(Action::reset) != RTC_OK) return failed(); // stays in the error state
     const bool ok = to == ACTIVE_STATE ? call(Action::activated) == RTC_OK : true;
@@ -66,18 +66,11 @@ void RTObjectStateMachine::preDo() {
     if (!ok) next_ = ERROR_STATE;
 }
 
-void RTObjectStateMachine::execute() {
+void RTObjectStateMachine::execute(bool rehearsal) {
     if (pending()) return;
     const LifeCycleState now = state();
-    if (now == ERROR_STATE) call(Action::error);
-    if (now == ACTIVE_STATE && call(Action::execute) != RTC_OK) failed();
-}
-
-void RTObjectStateMachine::rehearse() const {
-    if (pending() || state() != ACTIVE_STATE || local_ == nullptr) return;
-    constexpr std::size_t line = 64, lines = 32;
-    const auto* object = static_cast<const char*>(dynamic_cast<const void*>(local_));
-    for (std::size_t at = 0; at < lines * line; at += line) __builtin_prefetch(object + at, 1);
+    if (now == ERROR_STATE && !rehearsal) call(Action::error);
+    if (now == ACTIVE_STATE && call(rehearsal ? Action::rehearse : Action::execute) != RTC_OK) failed();
 }
 
 void RTObjectStateMachine::postDo() {
@@ -110,6 +103,8 @@ RTC::ReturnCode_t RTObjectStateMachine::callLocal(Action action) {
         return local_->on_reset(id_);
     case Action::execute:
         return local_->on_execute(id_);
+    case Action::rehearse:
+        return local_->execute(id_, true);
     case Action::update:
         return local_->on_state_update(id_);
     case Action::rate:
@@ -138,6 +133,8 @@ RTC::ReturnCode_t RTObjectStateMachine::callRemote(Action action) {
             return reference_->on_reset(id_);
         case Action::execute:
             return data_flow ? remote_actions_->on_execute(id_) : RTC_OK;
+        case Action::rehearse:
+            return RTC_OK;
         case Action::update:
             return data_flow ? remote_actions_->on_state_update(id_) : RTC_OK;
         case Action::rate:

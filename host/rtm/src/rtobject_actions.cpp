@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an execution context calls: the component's callbacks, and what comes before and after each.
+#include "host/rt/periodic_tick.hpp"
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -20,7 +21,8 @@ ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
 // Nothing a component throws may end its host: the reason is logged, and the state machine sees an error.
 template <class Callback>
 ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
-                                    PostComponentActionListenerType post, Callback callback) {
+                                    PostComponentActionListenerType post, Callback callback,
+                                    bool rehearsal) {
     ReturnCode_t result = RTC_ERROR;
     std::string trouble;
     auto attempt = [&](auto call) {
@@ -36,7 +38,9 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
     };
     attempt([&] {
         m_actionListeners.preaction_[m_actionListeners.at(pre)].forEach(
-            [&](auto& listener) { listener(ec_id); });
+            [&](auto& listener) {
+                if (!rehearsal) listener(ec_id);
+            });
         result = callback();
         if (result != RTC_OK) trouble = "returned " + std::to_string(static_cast<int>(result));
     });
@@ -46,7 +50,9 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
     trouble.clear();
     attempt([&] {
         m_actionListeners.postaction_[m_actionListeners.at(post)].forEach(
-            [&](auto& listener) { listener(ec_id, result); });
+            [&](auto& listener) {
+                if (!rehearsal) listener(ec_id, result);
+            });
     });
     if (trouble.empty()) return result;
     RTC_ERROR(("a listener after %s %s", what, trouble.c_str()));
@@ -115,13 +121,21 @@ ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
     return guarded("onReset", ec_id, Pre::PRE_ON_RESET, Post::POST_ON_RESET, [&] { return onReset(ec_id); });
 }
 
-ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) {
-    return guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, [&] {
+ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) { return execute(ec_id, false); }
+
+// A rehearsal (tandem::rt::TickOptions) goes the same way, but calls nothing of the component.
+ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool rehearsal) {
+    const auto callback = [&] {
+        if (rehearsal) {
+            tandem::rt::bring_into_caches(*this);
+            return RTC_OK;
+        }
         if (m_readAll) readAll();
         const ReturnCode_t result = onExecute(ec_id);
         if (m_writeAll) writeAll();
         return result;
-    });
+    };
+    return guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, callback, rehearsal);
 }
 
 ReturnCode_t RTObject_impl::on_state_update(UniqueId ec_id) {

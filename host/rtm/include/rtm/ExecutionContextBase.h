@@ -111,6 +111,7 @@ class ExecutionContextBase {
     ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to,
                          const Wait& wait);
     ReturnCode_t await(const Participant& participant, LifeCycleState to, std::chrono::nanoseconds timeout);
+    void cycle(bool rehearsal);
     bool setRunning(bool running); ///< false: it was so before
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
