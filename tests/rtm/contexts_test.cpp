@@ -111,6 +111,48 @@ TEST_CASE("A change of the rate is told once, and time goes on at the new one") 
     REQUIRE(reaches(one, 20));
 }
 
+TEST_CASE("What is rehearsed before a tick calls neither the component nor its listeners") {
+    struct Actor : RTC::DataFlowComponentBase {
+        explicit Actor(RTC::Manager* m) : DataFlowComponentBase(m) {}
+        RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return ++executed, RTC::RTC_OK; }
+        RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override { return ++updated, RTC::RTC_OK; }
+        std::atomic<long> executed{0};
+        long updated = 0, before_execute = 0, after_execute = 0, before_update = 0, after_update = 0;
+    };
+    struct Before : RTC::PreComponentActionListener {
+        explicit Before(long& n) : calls(n) {}
+        void operator()(RTC::UniqueId) override { ++calls; }
+        long& calls;
+    };
+    struct After : RTC::PostComponentActionListener {
+        explicit After(long& n) : calls(n) {}
+        void operator()(RTC::UniqueId, RTC::ReturnCode_t) override { ++calls; }
+        long& calls;
+    };
+    Stage stage(false, {}, std::chrono::milliseconds(1));
+    register_as<Actor>(stage.manager(), "Actor");
+    auto& one = stage.create<Actor>("Actor?exec_cxt.periodic.rate=500");
+    one.addPreComponentActionListener(RTC::PRE_ON_EXECUTE, new Before(one.before_execute));
+    one.addPreComponentActionListener(RTC::PRE_ON_STATE_UPDATE, new Before(one.before_update));
+    one.addPostComponentActionListener(RTC::POST_ON_EXECUTE, new After(one.after_execute));
+    one.addPostComponentActionListener(RTC::POST_ON_STATE_UPDATE, new After(one.after_update));
+    REQUIRE(one.activate(0) == RTC::RTC_OK);
+    for (int i = 0; i < 10000 && one.executed < 100; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    REQUIRE(one.deactivate(0) == RTC::RTC_OK);
+    auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
+    context.halt();
+    const long cycles = static_cast<long>(context.ticks().cycles);
+    CHECK(one.executed >= 100);
+    CHECK(one.executed <= cycles);
+    CHECK(one.executed + 2 >= cycles); // those of the activation and the deactivation
+    CHECK(one.before_execute == one.executed);
+    CHECK(one.after_execute == one.executed);
+    CHECK(one.updated == one.executed);
+    CHECK(one.before_update == one.executed);
+    CHECK(one.after_update == one.executed);
+}
+
 TEST_CASE("A context that several start and stop at the same time does in the end what it was told last") {
     Stage stage(false);
     auto& one = ticker(stage, "exec_cxt.periodic.rate=1000");

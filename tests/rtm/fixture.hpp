@@ -10,8 +10,9 @@ namespace testing {
 /// The process's manager with the test components; ended when the test case ends (one test case per process).
 class Stage {
   public:
-    explicit Stage(bool lockstep = true, std::vector<std::string> settings = {})
-        : manager_(start(lockstep, settings)) {
+    explicit Stage(bool lockstep = true, std::vector<std::string> settings = {},
+                   std::chrono::nanoseconds tick_spin = {})
+        : manager_(start(lockstep, settings, tick_spin)) {
         register_all(manager_);
     }
     ~Stage() { manager_.shutdown(); }
@@ -31,7 +32,8 @@ class Stage {
     RTC::Manager& manager() { return manager_; }
 
   private:
-    static RTC::Manager& start(bool lockstep, const std::vector<std::string>& settings) {
+    static RTC::Manager& start(bool lockstep, const std::vector<std::string>& settings,
+                               std::chrono::nanoseconds tick_spin) {
         std::vector<std::string> args{"test", "-o", "logger.log_level:SILENT", "-o", "naming.enable:NO"};
         for (const auto& setting : settings) {
             args.push_back("-o");
@@ -40,6 +42,7 @@ class Stage {
         coil::Argv argv(args);
         RTC::Manager::Options options;
         options.lockstep = lockstep;
+        options.tick_spin = tick_spin;
         return RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
     }
     RTC::Manager& manager_;
