@@ -113,6 +113,15 @@ TEST_CASE(
                       "int main() { return RTC::Manager::init(0, 0) == 0 || !Img::_tc_TimedCameraImage; }\n");
     run("bash -c \"c++ " + tree.at("x.cpp") + " -o " + tree.at("x") + " $(" + config +
         "--cflags --libs | tr \"\\n\" \" \")\"");
+    // An IDL of its own on top of the camera's, which lies beside the data types as in OpenRTM-aist 2.x.
+    tree.folder.write("Eye.idl", "#include \"CameraCommonInterface.idl\"\n"
+                                 "struct Eye { Img::CameraImage seen; };\n");
+    run("bash -c \"cd " + tree.at("") + " && omniidl $(" + config + "--idlflags | tr \"\\n\" \" \") -I$(" +
+        config + "--rtm-idldir) Eye.idl\"");
+    tree.folder.write("eye.cpp", "#include <rtm/idl/CameraCommonInterfaceUtil.h>\n#include \"Eye.hh\"\n"
+                                 "int main() { return Eye().seen.image.raw_data.length(); }\n");
+    run("bash -c \"c++ -c " + tree.at("eye.cpp") + " -o " + tree.at("eye.o") + " $(" + config +
+        "--cflags | tr \"\\n\" \" \")\"");
     const auto needed = run("readelf -d " + tree.at("x"));
     CHECK_THAT(needed, Catch::Contains("librtmCamera2.so") && !Catch::Contains("librtmManipulator2.so"));
     for (const std::string package : {"openrtm-aist", "openrtm2"})

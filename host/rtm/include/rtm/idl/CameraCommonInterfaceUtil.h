@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+// Place of OpenRTM-aist 2.x.
+#ifndef RTM_IDL_CAMERACOMMONINTERFACEUTIL_H
+#define RTM_IDL_CAMERACOMMONINTERFACEUTIL_H
+#include <rtm/ext/CameraCommonInterfaceUtil.h>
+#endif
