@@ -62,3 +62,15 @@ TEST_CASE("what does not compile in an RT-Component is one last line with the fi
     CHECK(fs::exists(folder.path() / "out/Good.so"));
     CHECK(fs::file_size(dir + "/Good.so") == 11);
 }
+
+TEST_CASE("what an interrupted omniidl has left in the folder of an RT-Component is not built") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    folder.write("Rtc/Good.cpp", module_text);
+    folder.write("Rtc/omniidl-tmp4711.idl", "# 1 \"Gone.idl\"\ninterface Gone { Lost f(); };\n");
+    folder.write("Rtc/idl/omniidl-tmp12.idl", "interface Half {");
+    const auto built = tandem_program({"rtm", "build", dir});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(fs::exists(dir + "/Good.so"));
+}

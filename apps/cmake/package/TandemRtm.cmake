@@ -4,9 +4,11 @@
 # The plugin NAME.so of an RT-Component. All but NAME has a default: the sources and IDL files that lie in the folder (the
 # current source folder), as RTCBuilder and rtc-template lay them out. Sources with a main() are programs and stay out.
 
-# The IDL files of a component's folder; those that come with OpenRTM-aist are compiled in the library already.
+# The IDL files of a component's folder; those that come with OpenRTM-aist are compiled in the library already, and
+# omniidl-tmpNUMBER.idl is what older omniidl leaves of another file when it is interrupted.
 function(tandem_rtm_folder_idl folder idls)
   file(GLOB found CONFIGURE_DEPENDS ${folder}/*.idl ${folder}/idl/*.idl)
+  list(FILTER found EXCLUDE REGEX "/omniidl-tmp[^/]*$")
   set(own "")
   foreach(idl ${found})
     get_filename_component(file ${idl} NAME)
