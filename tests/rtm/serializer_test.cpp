@@ -31,11 +31,21 @@ struct LongToDouble {
     RTC::OutPort<RTC::TimedLong> out{"a", sent};
     RTC::InPort<RTC::TimedDouble> in{"b", received};
     RTC::RTObject_impl& owner;
-    explicit LongToDouble(Stage& stage) : owner(stage.create<Recorder>("Recorder")) {
+    explicit LongToDouble(Stage& stage, const std::string& configuration = "")
+        : owner(stage.create<Recorder>("Recorder?" + configuration)) {
         owner.addOutPort("a", out);
         owner.addInPort("b", in);
         RTC::addSerializer<RTC::TimedLong, LongAsDouble>("cdr:RTC/TimedDouble:RTC/TimedLong");
         RTC::addSerializer<RTC::TimedDouble, DoubleFromLong>("cdr:RTC/TimedLong:RTC/TimedDouble");
+    }
+    void send_some() {
+        for (int i = -2; i < 3; ++i) {
+            sent.data = i * 1000;
+            REQUIRE(out.write());
+            REQUIRE(in.isNew());
+            REQUIRE(in.read());
+            CHECK(received.data == i * 1000);
+        }
     }
     ~LongToDouble() {
         owner.exit();
@@ -58,13 +68,27 @@ TEST_CASE("A serializer at either end of a connection lets a port of one type se
         LongToDouble pair(stage);
         stage.connect("Recorder0.a?port=Recorder0.b&" + serializer + "&interface_type=" + interface +
                       "&dataflow_type=" + flow + "&serializer.cdr.endian=" + order);
-        for (int i = -2; i < 3; ++i) {
-            pair.sent.data = i * 1000;
-            REQUIRE(pair.out.write());
-            REQUIRE(pair.in.isNew());
-            REQUIRE(pair.in.read());
-            CHECK(pair.received.data == i * 1000);
-        }
+        pair.send_some();
+    }
+    stage.manager().cleanupComponents();
+}
+
+TEST_CASE("A serializer in the configuration of either port counts as one that the connection names") {
+    const std::string serializer =
+        GENERATE("port.outport.a.marshaling_type=cdr:RTC/TimedDouble:RTC/TimedLong",
+                 "port.inport.b.marshaling_type=cdr:RTC/TimedLong:RTC/TimedDouble");
+    const std::string interface = GENERATE("corba_cdr", "data_service", "direct");
+    const std::string flow = GENERATE("push", "pull");
+    CAPTURE(serializer, interface, flow);
+    static Stage stage;
+    {
+        LongToDouble pair(stage, serializer);
+        const std::string line =
+            "Recorder0.a?port=Recorder0.b&interface_type=" + interface + "&dataflow_type=" + flow;
+        CHECK_THROWS_WITH(stage.connect(line + "&marshaling_type=cdr"),
+                          Catch::Contains("connect ports of one type"));
+        stage.connect(line);
+        pair.send_some();
     }
     stage.manager().cleanupComponents();
 }

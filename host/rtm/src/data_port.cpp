@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "data_port.hpp"
+#include "local_object.hpp"
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/Manager.h>
 #include <rtm/NVUtil.h>
@@ -15,10 +16,26 @@ coil::Properties connector_properties(const coil::Properties& port, const Connec
     return merged;
 }
 
-bool converts(const ConnectorProfile& profile) {
-    for (const char* key : {"dataport.marshaling_type", "dataport.outport.marshaling_type",
-                            "dataport.inport.marshaling_type"}) {
+namespace {
+
+// As the port's connector will find it: the connection's word counts more than the port's own.
+std::string marshaling_type(const ConnectorProfile& profile, const SDOPackage::NVList& port) {
+    const bool in = NVUtil::toString(port, "port.port_type") == "DataInPort";
+    for (const char* key : {in ? "dataport.inport.marshaling_type" : "dataport.outport.marshaling_type",
+                            "dataport.marshaling_type"}) {
         const std::string type = NVUtil::toString(profile.properties, key);
+        if (!type.empty()) return type;
+    }
+    return NVUtil::toString(port, "marshaling_type");
+}
+
+} // namespace
+
+bool converts(const ConnectorProfile& profile) {
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
+        const auto local = local_object<PortBase>(profile.ports[i]);
+        const PortProfile_var port = local ? local->get_port_profile() : profile.ports[i]->get_port_profile();
+        const std::string type = coil::eraseBothEndsBlank(marshaling_type(profile, port->properties));
         if (!type.empty() && type != "cdr") return true;
     }
     return false;

@@ -11,7 +11,9 @@ namespace RTC {
 coil::Properties connector_properties(const coil::Properties& port, const ConnectorProfile& profile,
                                       const char* side);
 
-/// Does the connection name a serializer of somebody's own? Such a one may make another type of a value.
+/// Does a port of the connection use a serializer of somebody's own, named by the connection or by the port's
+/// own configuration? Such a one may make another type of a value. Asks the ports: throws
+/// CORBA::SystemException.
 bool converts(const ConnectorProfile& profile);
 
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);

@@ -21,14 +21,14 @@ PortFacts facts_of(PortService_ptr port) {
 }
 
 // Why two ports can never be joined; empty when they may.
-std::string misfit(const PortFacts& a, const PortFacts& b, bool converts) {
+std::string misfit(const PortFacts& a, const PortFacts& b, const ConnectorProfile& profile) {
     const bool services = a.kind == "CorbaPort" && b.kind == "CorbaPort";
     const bool data = (a.kind == "DataInPort" && b.kind == "DataOutPort") ||
                       (a.kind == "DataOutPort" && b.kind == "DataInPort");
     if (!services && !data && !a.kind.empty() && !b.kind.empty())
         return a.name + " is a " + a.kind + ", " + b.name + " is a " + b.kind + ": they cannot be connected";
-    if (data && !converts && a.data_type != b.data_type && coil::toLower(a.data_type) != "any" &&
-        coil::toLower(b.data_type) != "any")
+    if (data && a.data_type != b.data_type && coil::toLower(a.data_type) != "any" &&
+        coil::toLower(b.data_type) != "any" && !converts(profile))
         return a.name + " carries " + a.data_type + ", " + b.name + " carries " + b.data_type +
                ": connect ports of one type";
     return "";
@@ -39,7 +39,7 @@ std::string misfit(const ConnectorProfile& profile) {
     if (ports.length() < 2) return "";
     const PortFacts first = facts_of(ports[0]);
     for (CORBA::ULong i = 1; i < ports.length(); ++i) {
-        std::string why = misfit(first, facts_of(ports[i]), converts(profile));
+        std::string why = misfit(first, facts_of(ports[i]), profile);
         if (!why.empty()) return why;
     }
     return "";
