@@ -210,6 +210,32 @@ TEST_CASE("A sender that hangs keeps an InPort that pulls from it waiting once a
     CHECK(soon([&] { return puller.in_.read(); }));
 }
 
+TEST_CASE(
+    "An InPort that pulls from two senders reads both and the other one when the first hangs or is dead") {
+    OtherHost first("Counter", free_port(), {"manager.components.preactivation:Counter0"});
+    OtherHost second("Counter?conf.default.step=-1", free_port(),
+                     {"manager.components.preactivation:Counter0"});
+    REQUIRE(first.host.says("ready\n"));
+    REQUIRE(second.host.says("ready\n"));
+    Stage stage(true, {"manager.peer_check_interval:3600"}); // the watch lets go of nobody
+    auto& puller = stage.create<Summer>("Summer");
+    auto* orb = stage.manager().theORB();
+    for (auto* host : {&first, &second}) {
+        RTC::RTObject_var there = host->component(orb, "Counter0");
+        REQUIRE(connect(puller.in_, there.in(), "out", {{"dataflow_type", "pull"}}) == RTC::RTC_OK);
+    }
+    auto reads = [&](int sign) {
+        return soon([&] { return puller.in_.read() && sign * puller.value_.data > 0; });
+    };
+    CHECK(reads(1));
+    REQUIRE(first.host.freeze());
+    while (puller.in_.read() && puller.value_.data > 0) continue; // what was on its way
+    for (int i = 0; i < 20; ++i) REQUIRE(reads(-1));
+    first.host.send(SIGKILL);
+    for (int i = 0; i < 20; ++i) REQUIRE(reads(-1));
+    CHECK(connections(puller.in_) == 2);
+}
+
 TEST_CASE("A receiver that hangs keeps nothing from the others and is served again when it goes on") {
     OtherHost stuck("Teller"), well("Teller");
     REQUIRE(stuck.host.says("ready\n"));

@@ -56,7 +56,7 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     }
     if (own || info.properties.findNode("buffer") != nullptr) buffer->init(info.properties.getNode("buffer"));
     const bool direct =
-        !own && !converts(profile) && coil::normalize(prop.getProperty("interface_type")) == "direct";
+        !own && coil::normalize(prop.getProperty("interface_type")) == "direct" && !converts(profile);
     const auto lane = direct ? directLane() : nullptr;
     if (lane != nullptr)
         if (const auto* node = info.properties.findNode("buffer")) lane->init(*node);
@@ -166,7 +166,15 @@ InPortConnector* InPortBase::readableLocked(const std::string& name, bool or_fir
         if (or_first && m_connectors.size() == 1) return first;
         if (connector->waiting() > 0) return connector;
     }
-    return or_first ? first : nullptr;
+    if (!or_first) return nullptr;
+    // A sender in another process does not say whether it has something: each is asked, since the first may
+    // be empty, hang or be dead.
+    for (auto* connector : m_connectors) {
+        if (!name.empty() && name != connector->name()) continue;
+        auto* pull = dynamic_cast<InPortPullConnector*>(connector);
+        if (pull != nullptr && pull->fetchAhead(connector == first)) return connector;
+    }
+    return first;
 }
 
 void InPortBase::stampReceived(ByteData&) {}

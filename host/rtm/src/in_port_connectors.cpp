@@ -92,10 +92,23 @@ InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
 }
 
 DataPortStatus InPortPullConnector::read(ByteData& bytes) {
-    const DataPortStatus status = local_ ? local_->fetch(bytes) : fetch(bytes);
+    const bool asked = ahead_.has_value();
+    const DataPortStatus status = asked ? *ahead_ : local_ ? local_->fetch(bytes) : fetch(bytes);
+    if (asked) {
+        bytes = aheadBytes_;
+        ahead_.reset();
+    }
     if (status == DataPortStatus::PORT_OK)
         m_listeners->notify(ConnectorDataListenerType::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
     return status;
+}
+
+bool InPortPullConnector::fetchAhead(bool final) {
+    if (local_) return false;
+    if (ahead_ != DataPortStatus::PORT_OK) ahead_ = fetch(aheadBytes_);
+    if (ahead_ == DataPortStatus::PORT_OK) return true;
+    if (!final) ahead_.reset();
+    return false;
 }
 
 // The reader, often a component's cycle, waits for a sender that hangs once for long, then rarely and shortly

@@ -39,6 +39,9 @@ class InPortPullConnector : public InPortConnector {
     using InPortConnector::read;
     DataPortStatus read(ByteData& bytes) override;
     DataPortStatus disconnect() override { return DataPortStatus::PORT_OK; }
+    /// Asks a sender in another process for a message, which the next read() returns; true: there is one.
+    /// That there is none is what the next read() says only if `final`.
+    bool fetchAhead(bool final);
 
   private:
     DataPortStatus fetch(ByteData& bytes);
@@ -49,6 +52,8 @@ class InPortPullConnector : public InPortConnector {
     std::chrono::milliseconds patience_{0}; // for an answer
     std::chrono::milliseconds doubt_{0}; // after one that did not come: how long is waited for a sign of life
     std::chrono::steady_clock::time_point retry_{}; // the sender is left alone until then
+    std::optional<DataPortStatus> ahead_;           // what came of fetchAhead()
+    ByteData aheadBytes_;
     CdrRingBuffer unused_;
 };
 
