@@ -9,10 +9,13 @@
 namespace tandem::plugin {
 namespace {
 
-bool uses_rtc_manager(const DynamicSymbols& symbols) {
-    return std::any_of(symbols.undefined.begin(), symbols.undefined.end(), [](const std::string& name) {
-        return name.find("3RTC7Manager") != std::string::npos; // as RTC::Manager is mangled
-    });
+bool uses_class(const ElfContents& elf, const std::string& mangled) {
+    return std::any_of(elf.undefined.begin(), elf.undefined.end(),
+                       [&](const std::string& name) { return name.find(mangled) != std::string::npos; });
+}
+
+Headers headers(ElfContents& elf, Model model, const std::string& mangled) {
+    return {std::move(elf.numbers[note_owner(model)]), uses_class(elf, mangled)};
 }
 
 // The init function is named after the library's file, which may have been renamed since: any one will do.
@@ -47,6 +50,8 @@ const char* remedy(Kind kind) {
 
 } // namespace
 
+const char* note_owner(Model model) { return model == Model::opros ? "TandemOPRoS" : "TandemRTM"; }
+
 const char* kind_text(Kind kind) {
     switch (kind) {
     case Kind::opros_component:
@@ -62,20 +67,22 @@ const char* kind_text(Kind kind) {
 }
 
 Contents read_contents(const std::filesystem::path& library) {
-    DynamicSymbols symbols = read_dynamic_symbols(library);
+    ElfContents elf = read_elf(library);
     Contents contents;
-    if (symbols.defined.count("getComponent")) {
+    contents.opros = headers(elf, Model::opros, "_ZN9ComponentC2E"); // the constructor of Component
+    contents.rtm = headers(elf, Model::rtm, "3RTC7Manager");         // RTC::Manager
+    if (elf.defined.count("getComponent")) {
         contents.kind = Kind::opros_component;
         contents.entry = "getComponent";
-    } else if (const std::string init = init_function(symbols.defined);
-               init == "rtc_init" || (!init.empty() && uses_rtc_manager(symbols))) {
+    } else if (const std::string init = init_function(elf.defined);
+               init == "rtc_init" || (!init.empty() && contents.rtm.used)) {
         contents.kind = Kind::rtc_module;
         contents.entry = init;
-    } else if (symbols.defined.count("GetAPI")) {
+    } else if (elf.defined.count("GetAPI")) {
         contents.kind = Kind::device_api;
         contents.entry = "GetAPI";
     }
-    contents.exports = std::move(symbols.defined);
+    contents.exports = std::move(elf.defined);
     return contents;
 }
 

@@ -126,7 +126,7 @@ void check_segments(const ElfFile& elf) {
     }
 }
 
-void read_table(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header, DynamicSymbols& symbols) {
+void read_table(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header, ElfContents& contents) {
     Elf_Data* data = elf_getdata(section, nullptr);
     if (!data || header.sh_entsize == 0) elf.damaged("its dynamic symbols cannot be read");
     const auto count = header.sh_size / header.sh_entsize;
@@ -137,13 +137,28 @@ void read_table(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header, D
         if (!name) elf.damaged("a dynamic symbol's name is not in the file");
         const bool local = GELF_ST_BIND(symbol.st_info) == STB_LOCAL;
         if (!local && *name)
-            (symbol.st_shndx == SHN_UNDEF ? symbols.undefined : symbols.defined).insert(name);
+            (symbol.st_shndx == SHN_UNDEF ? contents.undefined : contents.defined).insert(name);
+    }
+}
+
+// Only notes of type 1 with a description of four bytes, as our headers write them (TandemAbi.h).
+void read_notes(const ElfFile& elf, Elf_Scn* section, ElfContents& contents) {
+    Elf_Data* data = elf_getdata(section, nullptr);
+    if (!data) elf.damaged("its notes cannot be read");
+    const auto* bytes = static_cast<const char*>(data->d_buf);
+    GElf_Nhdr note;
+    std::size_t name = 0, description = 0;
+    for (std::size_t at = 0; (at = gelf_getnote(data, at, &note, &name, &description)) > 0;) {
+        std::uint32_t number = 0;
+        if (note.n_type != 1 || note.n_descsz != sizeof number || note.n_namesz == 0) continue;
+        std::memcpy(&number, bytes + description, sizeof number);
+        contents.numbers[std::string(bytes + name, note.n_namesz - 1)].insert(number);
     }
 }
 
 } // namespace
 
-DynamicSymbols read_dynamic_symbols(const std::filesystem::path& library) {
+ElfContents read_elf(const std::filesystem::path& library) {
     const ElfFile elf(library);
     const GElf_Ehdr header = elf.header();
     check_machine(elf, header);
@@ -152,17 +167,18 @@ DynamicSymbols read_dynamic_symbols(const std::filesystem::path& library) {
     if (header.e_shoff == 0)
         elf.fail(Reason::damaged,
                  "has no section headers, so that it cannot be looked at without running it; link it again");
-    DynamicSymbols symbols;
+    ElfContents contents;
     bool found = false;
     for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section));) {
         GElf_Shdr section_header;
         if (!gelf_getshdr(section, &section_header)) elf.damaged("a section header is not in the file");
+        if (section_header.sh_type == SHT_NOTE) read_notes(elf, section, contents);
         if (section_header.sh_type != SHT_DYNSYM) continue;
         found = true;
-        read_table(elf, section, section_header, symbols);
+        read_table(elf, section, section_header, contents);
     }
     if (!found) elf.damaged("it has no dynamic symbols, its end may be missing");
-    return symbols;
+    return contents;
 }
 
 } // namespace tandem::plugin

@@ -38,3 +38,10 @@ TEST_CASE("a device library that is missing or none leaves its component out wit
           (device == "nowhere" ? OPROS_FIND_DLL_ERROR : OPROS_LOAD_DLL_ERROR));
     CHECK_THROWS_AS(application.start(), tandem::engine::SetupError); // nothing else is there
 }
+
+TEST_CASE("a device library built against the headers of another Tandem is not given to its component") {
+    const Folder folder;
+    CHECK_THAT(setup_error(sensing(folder, "old_device"), test_options(folder)),
+               Catch::Contains("S.xml") && Catch::Contains("ApiName old_device: library ") &&
+                   Catch::Contains("was built against the headers of another Tandem"));
+}

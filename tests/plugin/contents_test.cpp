@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/plugin/contents.hpp"
+#include "host/plugin/abi.hpp"
 
 #include "host/plugin/error.hpp"
 
@@ -68,6 +68,35 @@ TEST_CASE("a library tells its component model without being mapped") {
     CHECK(read_contents(GOOD_LIBRARY).exports.count("answer") == 1);
     CHECK_FALSE(mapped(OPROS_PLUGIN));
     CHECK_FALSE(mapped(RTM_PLUGIN));
+}
+
+TEST_CASE("a library tells the ABI number of the headers that it was built against") {
+    const std::set<std::uint32_t> none;
+    const auto component = read_contents(OPROS_PLUGIN), module = read_contents(RTM_PLUGIN);
+    CHECK(component.opros.abi.size() == 1); // of several object files
+    CHECK(component.opros.used);
+    CHECK(component.rtm.abi == none);
+    CHECK(module.rtm.abi.size() == 1);
+    CHECK(module.rtm.used);
+    CHECK(module.opros.abi == none);
+    CHECK(read_contents(ZOO "/opros/another_tandem.so").opros.abi == std::set<std::uint32_t>{999999});
+    CHECK(read_contents(ZOO "/opros/another_tandem_in_part.so").opros.abi.size() == 2);
+    const auto before = read_contents(ZOO "/rtm/before_the_numbers.so");
+    CHECK(before.rtm.abi == none);
+    CHECK(before.rtm.used);
+    CHECK_FALSE(read_contents(GOOD_LIBRARY).opros.used);
+}
+
+TEST_CASE("a library is taken with our number and without any if it does not use the headers") {
+    const auto require = [](const char* file, std::uint32_t ours) {
+        tandem::plugin::require_abi(file, read_contents(file), tandem::plugin::Model::opros, ours);
+    };
+    const std::uint32_t number = *read_contents(OPROS_PLUGIN).opros.abi.begin();
+    CHECK_NOTHROW(require(OPROS_PLUGIN, number));
+    CHECK_THROWS_WITH(require(OPROS_PLUGIN, number + 1),
+                      Catch::Contains("against the headers of another Tandem"));
+    CHECK_NOTHROW(require(ZOO "/opros/entry_throws.so", number)); // a factory of whatever makes
+    CHECK_NOTHROW(require(RTM_PLUGIN, number));                   // that model's affair
 }
 
 TEST_CASE("a library of the wrong model is refused with what it is and which program takes it") {

@@ -34,7 +34,11 @@ const std::vector<std::string> bad_ones{"static_constructor_crashes",
                                         "entry_exits",
                                         "symbol_missing",
                                         "no_entry",
-                                        "device_api"};
+                                        "device_api",
+                                        "another_tandem",
+                                        "another_tandem_in_part",
+                                        "before_the_numbers",
+                                        "helper_of_another_tandem"};
 
 } // namespace
 
@@ -109,6 +113,56 @@ TEST_CASE("rtm_host warns of a component whose destructor hangs, runs it and lea
     CHECK_THAT(result.errors, Catch::Contains("the destructor of Endless does not return; the host"));
     CHECK_THAT(result.errors, Catch::Contains("Endless0: its destructor does not return"));
     CHECK_THAT(result.errors, Catch::Contains("leaving without it"));
+}
+
+TEST_CASE(
+    "a plugin built against the headers of another Tandem is refused before its code runs with what to do") {
+    const auto [bad, number] =
+        GENERATE(table<std::string, std::string>({{"another_tandem", " 999999, here it is "},
+                                                  {"another_tandem_in_part", " and 999999, here it is "},
+                                                  {"before_the_numbers", " number, here it is "}}));
+    const Folder folder;
+    folder.component("Bad", ZOO "/opros/" + bad + ".so");
+    const auto application = folder.application(Folder::sub("Bad", "Bad.xml"));
+    const auto conf = folder.write("rtc.conf", "manager.modules.preload: " ZOO "/rtm/" + bad + ".so\n");
+    for (const std::string probed : {"", " --no-probe"}) {
+        const auto opros = run(OPROS_HOST + probed + " " + application.string());
+        CHECK(opros.exit_code == 1);
+        CHECK_THAT(opros.errors,
+                   Catch::Contains("Bad.xml:3: library " ZOO "/opros/" + bad + ".so was built against") &&
+                       Catch::Contains("OPRoS ABI ") && Catch::Contains(number) &&
+                       Catch::EndsWith("build it again: tandem opros build DIR\n"));
+        const auto rtm = run(RTM_HOST + probed + " -f " + conf.string());
+        CHECK(rtm.exit_code == 1);
+        CHECK_THAT(rtm.errors, Catch::Contains("library " ZOO "/rtm/" + bad + ".so was built against") &&
+                                   Catch::Contains("RTM ABI ") && Catch::Contains(number) &&
+                                   Catch::EndsWith("build it again: tandem rtm build DIR\n"));
+    }
+}
+
+TEST_CASE("a library that a plugin needs is named when it was built against the headers of another Tandem") {
+    const Folder folder;
+    folder.component("Bad", ZOO "/opros/helper_of_another_tandem.so");
+    const auto conf =
+        folder.write("rtc.conf", "manager.modules.preload: " ZOO "/rtm/helper_of_another_tandem.so\n");
+    const auto says = [](const std::string& line, const std::string& model) {
+        CHECK_THAT(line, Catch::Contains("libzoo_old_helper.so, which " ZOO "/" + model +
+                                         "/helper_of_another_tandem.so needs, was built against"));
+    };
+    for (const std::string probed : {"", " --no-probe"}) {
+        const std::string application = folder.application(Folder::sub("Bad", "Bad.xml"));
+        says(run(OPROS_HOST + probed + " " + application).errors, "opros");
+        says(run(RTM_HOST + probed + " -f " + conf.string()).errors, "rtm");
+    }
+}
+
+TEST_CASE(
+    "a program of a component that was built against the headers of another Tandem ends with one line") {
+    const auto result = run(ZOO "/zoo_old_program");
+    CHECK(result.exit_code == 1);
+    CHECK(result.lines() == 1);
+    CHECK_THAT(result.errors, Catch::StartsWith("program " ZOO "/zoo_old_program was built against") &&
+                                  Catch::EndsWith("build it again\n"));
 }
 
 TEST_CASE("a host takes a plugin of the wrong model for what it is") {

@@ -46,8 +46,9 @@ TEST_CASE("A tool sees which modules there are and loads and unloads them") {
     };
     CHECK(has(loadable(), "TestComponents.so"));
     CHECK_FALSE(has(loadable(), "BadModule.so")); // no module: it has no such function
+    CHECK_FALSE(has(loadable(), "OldModule.so")); // built against the headers of another Tandem
     CHECK(loaded().empty());
-    for (const char* wrong : {"BadModule.so", "Missing.so", "/dev/null", "", "/"}) {
+    for (const char* wrong : {"BadModule.so", "OldModule.so", "Missing.so", "/dev/null", "", "/"}) {
         CAPTURE(wrong);
         CHECK(manager->load_module(wrong, "") == RTC::RTC_ERROR);
     }

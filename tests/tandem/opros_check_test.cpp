@@ -32,17 +32,19 @@ TEST_CASE("tandem opros check tells every fault of an application in a line of i
     folder.component("Lost", "nothing.dll");
     folder.component("Slow", "maker", "<type>periodic</type>");
     folder.component("Foreign", PLUGINS "/rtm/HWComp.so");
-    const auto result = check(folder.application(
-        Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml") + Folder::sub("Crash", "Crash.xml") +
-            Folder::sub("Lost", "Lost.xml") + Folder::sub("Slow", "Slow.xml") +
-            Folder::sub("Nobody", "Nobody.xml") + Folder::sub("Foreign", "Foreign.xml"),
-        Folder::connect("data", "M", "numbers", "P", "numbers") +
-            Folder::connect("data", "M", "nope", "P", "numbers") +
-            Folder::connect("data", "M", "words", "P", "numbers") +
-            Folder::connect("event", "M", "numbers", "P", "numbers") +
-            Folder::connect("data", "Crash", "x", "P", "numbers"),
-        "<coordination><depends source=\"M\" target=\"P\"/><depends source=\"P\" "
-        "target=\"M\"/></coordination>"));
+    folder.component("Old", ZOO "/opros/another_tandem.so");
+    const auto result =
+        check(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml") +
+                                     Folder::sub("Crash", "Crash.xml") + Folder::sub("Lost", "Lost.xml") +
+                                     Folder::sub("Slow", "Slow.xml") + Folder::sub("Nobody", "Nobody.xml") +
+                                     Folder::sub("Foreign", "Foreign.xml") + Folder::sub("Old", "Old.xml"),
+                                 Folder::connect("data", "M", "numbers", "P", "numbers") +
+                                     Folder::connect("data", "M", "nope", "P", "numbers") +
+                                     Folder::connect("data", "M", "words", "P", "numbers") +
+                                     Folder::connect("event", "M", "numbers", "P", "numbers") +
+                                     Folder::connect("data", "Crash", "x", "P", "numbers"),
+                                 "<coordination><depends source=\"M\" target=\"P\"/><depends source=\"P\" "
+                                 "target=\"M\"/></coordination>"));
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
     CHECK(result.errors.empty());
@@ -51,15 +53,17 @@ TEST_CASE("tandem opros check tells every fault of an application in a line of i
     CHECK(result.says("a periodic component needs a <period>"));
     CHECK(result.says("profile 'Nobody.xml' of component 'Nobody' not found"));
     CHECK(result.says("is an RTC module (exports HWCompInit)"));
+    CHECK(result.says("Old.xml:3: library " ZOO
+                      "/opros/another_tandem.so was built against the headers of another"));
     CHECK(result.says("app.xml:8: component 'M' has no port 'nope'"));
     CHECK(result.says("app.xml:9: type mismatch"));
     CHECK(result.says("app.xml:10: "));
-    CHECK(result.says("app: 9 faults\n"));
-    CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 10);
+    CHECK(result.says("app: 10 faults\n"));
+    CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 11);
     const auto json =
         tandem_program({"opros", "check", folder.path() / "app.xml", "--plugin-path", FIXTURES, "--json"});
     CHECK(json.exit_code == 1);
-    CHECK(json.json()["faults"].size() == 9);
+    CHECK(json.json()["faults"].size() == 10);
 }
 
 TEST_CASE("tandem opros check reads the type profiles that a component refers to, if they are there") {

@@ -57,6 +57,7 @@ TEST_CASE("tandem opros info says in one line why it cannot show a component") {
     CHECK_THAT(refused({"/nowhere/X.so"}), Catch::Contains("/nowhere/X.so"));
     CHECK_THAT(refused({"/nowhere/X.xml"}), Catch::Contains("/nowhere/X.xml"));
     CHECK_THAT(refused({PLUGINS "/rtm/HWComp.so"}), Catch::Contains("an RTC module"));
+    CHECK_THAT(refused({ZOO "/opros/another_tandem.so"}), Catch::Contains("the headers of another Tandem"));
     CHECK_THAT(refused({ZOO "/opros/entry_crashes.so"}), Catch::Contains(" in getComponent()"));
     CHECK_THAT(refused({ZOO "/opros/entry_hangs.so", "--timeout", "1"}), Catch::Contains("within 1 s"));
     CHECK_THAT(refused({ZOO "/opros/static_constructor_aborts.so"}), Catch::Contains("static constructors"));

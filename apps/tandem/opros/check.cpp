@@ -43,7 +43,7 @@ std::vector<std::string> check_component(const ApplicationProfile& application,
     const auto profile = engine::read_component_profile(file);
     const auto library = engine::find_component_library(profile, dirs);
     try {
-        plugin::require_kind(library, plugin::read_contents(library), plugin::Kind::opros_component);
+        engine::require_component(library);
         auto faults = port_faults(profile, described(library, file, options)["ports"], options.initialize);
         for (std::string& each : type_faults(profile)) faults.push_back(std::move(each));
         return faults;

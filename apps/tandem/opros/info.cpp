@@ -59,7 +59,7 @@ json executor_of(const engine::ComponentProfile& profile) {
 }
 
 json look(const Found& found, const LookOptions& options) {
-    plugin::require_kind(found.library, plugin::read_contents(found.library), plugin::Kind::opros_component);
+    engine::require_component(found.library);
     json info = described(found.library, found.profile ? found.profile->place.file : fs::path(), options);
     info["library"] = fs::absolute(found.library).lexically_normal().string();
     info["name"] = found.profile ? found.profile->name : found.library.stem().string();

@@ -79,7 +79,7 @@ class ExportedPorts {
             auto dirs = options_.plugin_dirs;
             dirs.insert(dirs.begin(), composite_.place.file.parent_path());
             const auto library = engine::find_component_library(profile, dirs);
-            plugin::require_kind(library, plugin::read_contents(library), plugin::Kind::opros_component);
+            engine::require_component(library);
             known->second = described(library, entry.file, options_)["ports"];
         }
         return known->second;

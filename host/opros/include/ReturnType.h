@@ -2,6 +2,8 @@
 #ifndef RETURNTYPE_H_
 #define RETURNTYPE_H_
 
+#include <TandemAbi.h>
+
 /// Result of a component's callbacks and of the operations on ports.
 typedef unsigned int ReturnType;
 

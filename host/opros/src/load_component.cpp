@@ -2,6 +2,7 @@
 #include "host/opros/src/load_component.hpp"
 
 #include "host/opros/src/probe_component.hpp"
+#include "host/plugin/abi.hpp"
 #include "host/plugin/find_library.hpp"
 #include "host/plugin/library.hpp"
 
@@ -10,6 +11,7 @@
 
 #define MAKE_STATIC_COMPONENT // the host is no component
 #include <ServiceUtils.h>
+#include <TandemAbi.h>
 #include <spdlog/spdlog.h>
 
 namespace tandem::engine {
@@ -67,8 +69,12 @@ std::string find_device_library(const ComponentProfile& profile, const std::stri
         return value;
     }
     try { // all that the component could say is that it has no device
-        plugin::require_kind(found, plugin::read_contents(found), plugin::Kind::device_api);
+        const auto contents = plugin::read_contents(found);
+        plugin::require_kind(found, contents, plugin::Kind::device_api);
+        plugin::require_abi(found, contents, plugin::Model::opros, TANDEM_OPROS_ABI);
     } catch (const plugin::Error& error) {
+        if (error.reason() == plugin::Reason::another_abi) // the component could not tell, and call it
+            throw SetupError(profile.place, property + " " + value + ": " + error.what());
         spdlog::warn("{} {}: {}", property, value, error.what());
     }
     return found;
@@ -86,8 +92,15 @@ void give_device_library_all_names(std::map<std::string, std::string>& propertie
 
 } // namespace
 
+void require_component(const std::filesystem::path& library) {
+    const auto contents = plugin::read_contents(library);
+    plugin::require_kind(library, contents, plugin::Kind::opros_component);
+    plugin::require_abi(library, contents, plugin::Model::opros, TANDEM_OPROS_ABI);
+}
+
 LoadedComponent open_component(const std::filesystem::path& file) {
     const auto library = plugin::Library::load(file);
+    plugin::require_abi_of_process(plugin::Model::opros, TANDEM_OPROS_ABI, library->path());
     check_version(*library);
     void (*release)(Component*) = [](Component* dying) { delete dying; };
     if (library->has("releaseComponent")) release = library->symbol<void(Component*)>("releaseComponent");
@@ -119,7 +132,7 @@ LoadedComponent load_component(const ComponentProfile& profile,
                                const std::optional<plugin::Probe>& probe) {
     const auto file = find_component_library(profile, dirs);
     try {
-        plugin::require_kind(file, plugin::read_contents(file), plugin::Kind::opros_component);
+        require_component(file);
         if (probe) plugin::probe(*probe, probe_load, file);
         return open_component(file);
     } catch (const std::runtime_error& error) {

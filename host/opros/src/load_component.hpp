@@ -17,6 +17,10 @@ struct LoadedComponent {
     std::shared_ptr<Component> component; ///< keeps the library loaded, too
 };
 
+/// Throws plugin::Error unless the library is an OPRoS component built against our headers. Its code does not
+/// run.
+void require_component(const std::filesystem::path& library);
+
 /// Loads the library and makes a component. Throws plugin::Error, or SetupError if getComponent() fails.
 LoadedComponent open_component(const std::filesystem::path& library);
 

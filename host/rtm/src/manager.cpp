@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's life: start, activation, run loop, orderly end.
 #include "conf_keys.hpp"
+#include "host/plugin/abi.hpp"
 #include "manager_impl.hpp"
 #include "shared_composite.hpp"
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <rtm/ExtTrigExecutionContext.h>
 #include <rtm/PeriodicExecutionContext.h>
 #include <rtm/SimulatorExecutionContext.h>
+#include <rtm/TandemAbi.h>
 #include <sys/eventfd.h>
 #include <unistd.h>
 
@@ -63,6 +65,8 @@ Manager::~Manager() = default;
 Manager& Manager::start(int argc, char** argv, const Options& options) {
     std::lock_guard<std::mutex> lock(the_mutex);
     if (the_manager != nullptr) return *the_manager;
+    // A component's own program is linked to this library, whatever headers it was built against.
+    tandem::plugin::require_abi_of_process(tandem::plugin::Model::rtm, TANDEM_RTM_ABI);
     std::unique_ptr<Manager> manager(new Manager(options));
     read_configuration(*manager->m_impl, argc, argv);
     start_orb(*manager->m_impl);
@@ -91,7 +95,7 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
 Manager* Manager::init(int argc, char** argv) {
     try {
         return &start(argc, argv, Options());
-    } catch (const ManagerError& e) {
+    } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "%s\n", e.what());
         std::exit(1);
     }

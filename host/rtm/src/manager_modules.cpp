@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loading libraries of components, and the types they register.
+#include "host/plugin/abi.hpp"
 #include "host/plugin/find_library.hpp"
 #include "manager_impl.hpp"
 #include "probe_module.hpp"
 #include <rtm/RTObject.h>
+#include <rtm/TandemAbi.h>
 
 namespace RTC {
 
@@ -66,9 +68,11 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
                                ": absolute paths are not allowed (manager.modules.abs_path_allowed: NO)");
         const auto file = plugin::find_library(name, m_impl->module_dirs());
         const auto contents = plugin::read_contents(file);
+        plugin::require_abi(file, contents, plugin::Model::rtm, TANDEM_RTM_ABI);
         const std::string symbol = function.empty() ? init_symbol(file, contents, base_name(name)) : function;
         if (m_impl->options.probe) probe_module(*m_impl->options.probe, file, symbol, m_impl->log);
         const auto library = plugin::Library::load(file);
+        plugin::require_abi_of_process(plugin::Model::rtm, TANDEM_RTM_ABI, library->path());
         const auto init = library->symbol<void(Manager*)>(symbol);
         {
             // Kept for ever: objects and code of a component may be in use to the end of the process.

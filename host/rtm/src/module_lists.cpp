@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which libraries of components there are, and letting go of them.
-#include "host/plugin/contents.hpp"
+#include "host/plugin/abi.hpp"
 #include "host/plugin/error.hpp"
 #include "manager_impl.hpp"
 #include <algorithm>
 #include <dlfcn.h>
 #include <rtm/RTObject.h>
+#include <rtm/TandemAbi.h>
 
 namespace RTC {
 namespace {
@@ -20,9 +21,11 @@ coil::Properties profile_of(const std::string& name, const std::filesystem::path
 
 bool is_module(const std::filesystem::path& file) {
     try {
-        return tandem::plugin::read_contents(file).kind == tandem::plugin::Kind::rtc_module;
+        const auto contents = tandem::plugin::read_contents(file);
+        tandem::plugin::require_abi(file, contents, tandem::plugin::Model::rtm, TANDEM_RTM_ABI);
+        return contents.kind == tandem::plugin::Kind::rtc_module;
     } catch (const tandem::plugin::Error&) {
-        return false; // no library, or none for this processor
+        return false; // no library, or none for this processor or host
     }
 }
 

@@ -2,9 +2,11 @@
 #include "probe_module.hpp"
 
 #include "bounded_call.hpp"
+#include "host/plugin/abi.hpp"
 #include "host/plugin/library.hpp"
 #include "manager_impl.hpp"
 #include <rtm/RTObject.h>
+#include <rtm/TandemAbi.h>
 
 namespace RTC {
 namespace {
@@ -53,6 +55,7 @@ void try_module(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeRepo
     const std::chrono::milliseconds patience(std::stol(task.arguments.at(1)));
     report.stage("its static constructors");
     const auto library = tandem::plugin::Library::load(task.library);
+    tandem::plugin::require_abi_of_process(tandem::plugin::Model::rtm, TANDEM_RTM_ABI, library->path());
     library->symbol<void(Manager*)>(init); // says so if there is none
     Manager& manager = private_manager();
     report.stage(init + "()");

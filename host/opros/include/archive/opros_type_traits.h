@@ -3,6 +3,8 @@
 #ifndef OPROS_ARCHIVE_TYPE_TRAITS_H
 #define OPROS_ARCHIVE_TYPE_TRAITS_H
 
+#include <TandemAbi.h>
+
 #include <type_traits>
 
 namespace opros {

@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <limits>
 #include <map>
+#include <rtm/TandemAbi.h>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 #ifndef COIL_TASK_H
 #define COIL_TASK_H
 #include <atomic>
+#include <rtm/TandemAbi.h>
 #include <thread>
 
 namespace coil {

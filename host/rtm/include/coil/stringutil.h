@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <rtm/TandemAbi.h>
 #include <sstream>
 #include <string>
 #include <vector>

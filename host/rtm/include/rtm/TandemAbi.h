@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The number of this API as compiled code sees it: tests/architecture/abi_number.py sets and checks it.
+#ifndef RTM_TANDEMABI_H
+#define RTM_TANDEMABI_H
+
+#define TANDEM_RTM_ABI 1 // headers: 25aa06c4db0d75db
+
+// Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
+// or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.
+#define TANDEM_ABI_LONG_OF(number) ".long " #number "\n"
+#define TANDEM_ABI_LONG(number) TANDEM_ABI_LONG_OF(number)
+__asm__(".pushsection .note.tandem,\"a\",%note\n"
+        ".balign 4\n"
+        ".long 10, 4, 1\n" // bytes of the owner, bytes of the number, type
+        ".asciz \"TandemRTM\"\n"
+        ".balign 4\n" // the number itself
+        TANDEM_ABI_LONG(TANDEM_RTM_ABI) ".popsection\n");
+#undef TANDEM_ABI_LONG
+#undef TANDEM_ABI_LONG_OF
+
+#endif
