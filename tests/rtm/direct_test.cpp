@@ -18,7 +18,7 @@ struct Pair {
         owner.addInPort("b", in);
         stage.connect("Recorder0.a?port=Recorder0.b&" + properties);
     }
-    ~Pair() {
+    ~Pair() { // before cleanupComponents(), which deletes the owner
         owner.removePort(out);
         owner.removePort(in);
     }
@@ -51,6 +51,7 @@ TEST_CASE("Within the process values of fixed size are written and read without 
     {
         Pair<RTC::TimedDoubleSeq> pair(stage, "interface_type=" + interface);
         pair.sent.data.length(3);
+        pair.sent.data[2] = 0;
         CHECK(allocations_of([&] {
                   pair.sent.data[2] += 0.5;
                   if (!pair.out.write() || !pair.in.isNew() || !pair.in.read())
@@ -67,17 +68,19 @@ TEST_CASE("A direct connection keeps the buffer's policies") {
                               std::pair("do_nothing", std::vector<long>{1, 2}),
                               std::pair("block&buffer.write.timeout=0.001", std::vector<long>{1, 2}));
     static Stage stage;
-    Pair<RTC::TimedLong> pair(stage,
-                              std::string("interface_type=direct&buffer.length=2&buffer.read.empty_policy="
-                                          "do_nothing&buffer.write.full_policy=") +
-                                  row.first);
-    for (pair.sent.data = 1; pair.sent.data <= 2; ++pair.sent.data) CHECK(pair.out.write());
-    CHECK(pair.out.write() == (std::string(row.first) == "overwrite"));
-    std::vector<long> got;
-    while (pair.in.isNew() && pair.in.read()) got.push_back(pair.received.data);
-    CHECK(got == row.second);
-    CHECK_FALSE(pair.in.read());
-    pair.owner.exit();
+    {
+        Pair<RTC::TimedLong> pair(stage,
+                                  std::string("interface_type=direct&buffer.length=2&buffer.read.empty_"
+                                              "policy=do_nothing&buffer.write.full_policy=") +
+                                      row.first);
+        for (pair.sent.data = 1; pair.sent.data <= 2; ++pair.sent.data) CHECK(pair.out.write());
+        CHECK(pair.out.write() == (std::string(row.first) == "overwrite"));
+        std::vector<long> got;
+        while (pair.in.isNew() && pair.in.read()) got.push_back(pair.received.data);
+        CHECK(got == row.second);
+        CHECK_FALSE(pair.in.read());
+        pair.owner.exit();
+    }
     stage.manager().cleanupComponents();
 }
 
@@ -133,11 +136,13 @@ TEST_CASE("An OutPort may have direct connections beside others") {
 TEST_CASE("A time-stamp policy works on a direct connection as on any other") {
     const std::string policy = GENERATE("on_write", "on_send", "on_received", "on_read");
     static Stage stage;
-    Pair<RTC::TimedLong> pair(stage, "interface_type=direct&timestamp_policy=" + policy);
-    REQUIRE(pair.out.write());
-    REQUIRE(pair.in.read());
-    CHECK(pair.received.tm.sec > 1000000000u);
-    CHECK(pair.sent.tm.sec == 0);
-    pair.owner.exit();
+    {
+        Pair<RTC::TimedLong> pair(stage, "interface_type=direct&timestamp_policy=" + policy);
+        REQUIRE(pair.out.write());
+        REQUIRE(pair.in.read());
+        CHECK(pair.received.tm.sec > 1000000000u);
+        CHECK(pair.sent.tm.sec == 0);
+        pair.owner.exit();
+    }
     stage.manager().cleanupComponents();
 }

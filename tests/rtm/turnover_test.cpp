@@ -15,6 +15,12 @@ int lives() {
     return 100 * (factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
 }
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr long quarantine = 16384; // kB of freed memory that the sanitizer keeps: its preset's ASAN_OPTIONS
+#else
+constexpr long quarantine = 0;
+#endif
+
 long kilobytes(const char* pid) {
     std::ifstream status("/proc/" + std::string(pid) + "/status");
     for (std::string line; std::getline(status, line);)
@@ -62,8 +68,8 @@ TEST_CASE("Nothing stays of components that come and are connected and go") {
     const int n = lives();
     for (int i = 0; i < n; ++i) life(i);
     INFO("kB before " << memory << ", after " << kilobytes("self"));
-    CHECK(descriptors() == open);
-    CHECK(kilobytes("self") < memory + 1000 + 2 * n);
+    CHECK(soon([&] { return descriptors() == open; })); // a tool that looks for managers here comes and goes
+    CHECK(kilobytes("self") < memory + 1000 + 2 * n + quarantine);
 }
 
 TEST_CASE("Nothing stays of components that a tool makes and deletes") {
@@ -100,7 +106,7 @@ TEST_CASE("Nothing stays of components that a tool makes and deletes") {
     CHECK(left->length() == 1);
     INFO("kB before " << memory << ", after " << kilobytes(pid.c_str()));
     CHECK(soon([&] { return other.host.descriptors() <= open + 1; }));
-    CHECK(kilobytes(pid.c_str()) < memory + 2000 + 2 * n);
+    CHECK(kilobytes(pid.c_str()) < memory + 2000 + 2 * n + quarantine);
 }
 
 TEST_CASE("Components are made and ended by many threads at once") {
