@@ -183,7 +183,7 @@ TEST_CASE("A component that stops its context within a cycle can be started agai
             return RTC::RTC_OK;
         }
         std::atomic<long> cycles{0};
-        RTC::ReturnCode_t stopped = RTC::RTC_ERROR, started = RTC::RTC_ERROR;
+        std::atomic<RTC::ReturnCode_t> stopped{RTC::RTC_ERROR}, started{RTC::RTC_ERROR};
     };
     Stage stage(false);
     register_as<Stopper>(stage.manager(), "Stopper");

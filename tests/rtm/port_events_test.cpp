@@ -8,10 +8,13 @@ namespace {
 
 using Words = std::vector<std::string>;
 
+std::mutex story_mutex; // publishers have threads of their own
+
 struct DataEvent : RTC::ConnectorDataListener {
     USE_CONNLISTENER_STATUS;
     DataEvent(std::string& s, const char* n) : story(s), name(n) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::ByteData&, const std::string&) override {
+        std::lock_guard<std::mutex> lock(story_mutex);
         story += name + " ";
         return NO_CHANGE;
     }
@@ -22,6 +25,7 @@ struct InfoEvent : RTC::ConnectorListener {
     USE_CONNLISTENER_STATUS;
     InfoEvent(std::string& s, const char* n) : story(s), name(n) {}
     ReturnCode operator()(RTC::ConnectorInfo&) override {
+        std::lock_guard<std::mutex> lock(story_mutex);
         story += name + " ";
         return NO_CHANGE;
     }
@@ -56,7 +60,10 @@ struct Ends {
         summer.exit();
         RTC::Manager::instance().cleanupComponents();
     }
-    Words take() { return {std::exchange(out, ""), std::exchange(in, "")}; }
+    Words take() {
+        std::lock_guard<std::mutex> lock(story_mutex);
+        return {std::exchange(out, ""), std::exchange(in, "")};
+    }
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "manager_impl.hpp"
 #include "shared_composite.hpp"
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -27,7 +28,7 @@ HostOptions the_options;
 
 // Rung by terminate() (also in signal handlers) and invoke().
 const int wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-volatile std::sig_atomic_t end_wanted = 0;
+std::atomic<int> end_wanted{0}; // lock-free, so signal handlers may write it
 
 void ring() {
     const std::uint64_t one = 1;

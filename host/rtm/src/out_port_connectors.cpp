@@ -41,14 +41,14 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
     m_direct = local_->lane() != nullptr;
     if (!m_direct) // who wants values as they are wants them at once
         publisher_ =
-            Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); });
+            Publisher::make(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); });
     if (local_->inPlace() != nullptr && !publisher_) m_longFrom = local_->inPlace()->longFrom();
 }
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::unique_ptr<RemoteReceiver> remote)
     : OutPortConnector(info, port.getListeners()), receiver_(std::move(remote)),
-      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return deliver(bytes); })) {
+      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
     if (!publisher_)
         remote_ = std::make_unique<RemotePush>(std::move(receiver_), RemotePush::bounds(info.properties));
 }
@@ -74,9 +74,14 @@ DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
     return status;
 }
 
+// In the publisher's thread, which runs before publisher_ is set and ends after it is reset.
+DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
+    m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);
+    return deliver(bytes);
+}
+
 DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
-    if (publisher_) m_listeners->notify(Type::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
     const DataPortStatus status = local_    ? local_->receive(bytes)
                                   : remote_ ? remote_->write(bytes, alone_)

@@ -28,6 +28,7 @@ class OutPortPushConnector : public OutPortConnector {
     void setAlone(bool alone) { alone_ = alone; }
 
   private:
+    DataPortStatus publish(ByteData& bytes);
     DataPortStatus deliver(ByteData& bytes);
 
     std::shared_ptr<DataInlet> local_;

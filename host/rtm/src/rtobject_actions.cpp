@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an execution context calls: the component's callbacks, and what comes before and after each.
 #include "host/rt/periodic_tick.hpp"
+#include <atomic>
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -21,8 +22,7 @@ ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
 // Nothing a component throws may end its host: the reason is logged, and the state machine sees an error.
 template <class Callback>
 ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
-                                    PostComponentActionListenerType post, Callback callback,
-                                    bool rehearsal) {
+                                    PostComponentActionListenerType post, Callback callback, bool rehearsal) {
     ReturnCode_t result = RTC_ERROR;
     std::string trouble;
     auto attempt = [&](auto call) {
@@ -37,22 +37,24 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
         }
     };
     attempt([&] {
-        m_actionListeners.preaction_[m_actionListeners.at(pre)].forEach(
-            [&](auto& listener) {
-                if (!rehearsal) listener(ec_id);
-            });
+        m_actionListeners.preaction_[m_actionListeners.at(pre)].forEach([&](auto& listener) {
+            if (!rehearsal) listener(ec_id);
+        });
         result = callback();
         if (result != RTC_OK) trouble = "returned " + std::to_string(static_cast<int>(result));
     });
-    const bool repeats = pre == PreComponentActionListenerType::PRE_ON_ERROR;
-    if (!trouble.empty() && !(repeats && m_errorReported)) RTC_ERROR(("%s %s", what, trouble.c_str()));
-    m_errorReported = repeats && !trouble.empty();
+    // onError may fail in each cycle, in several contexts at once: it is said once for each time in
+    // error.
+    std::atomic_ref<bool> reported(m_errorReported);
+    bool said = false;
+    if (pre == PreComponentActionListenerType::PRE_ON_ABORTING) reported = false;
+    if (pre == PreComponentActionListenerType::PRE_ON_ERROR) said = reported.exchange(!trouble.empty());
+    if (!trouble.empty() && !said) RTC_ERROR(("%s %s", what, trouble.c_str()));
     trouble.clear();
     attempt([&] {
-        m_actionListeners.postaction_[m_actionListeners.at(post)].forEach(
-            [&](auto& listener) {
-                if (!rehearsal) listener(ec_id, result);
-            });
+        m_actionListeners.postaction_[m_actionListeners.at(post)].forEach([&](auto& listener) {
+            if (!rehearsal) listener(ec_id, result);
+        });
     });
     if (trouble.empty()) return result;
     RTC_ERROR(("a listener after %s %s", what, trouble.c_str()));
