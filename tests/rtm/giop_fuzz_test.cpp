@@ -266,7 +266,13 @@ TEST_CASE("A host outlives broken GIOP messages to all its servants and serves i
     // sent (giopStrand::releaseServer): 130 to 200 B for each of these messages, nearly all that
     // LeakSanitizer finds. The rest is the allocator's, after messages that took 1 GB while they were
     // decoded.
-    CHECK(other.host.memory() < memory + 200 + messages / 4000);
+    // The address sanitizer's allocator gives even less back: 660 MB more after 10^6.
+    const long kept = 200 + messages / 4000;
+#ifdef __SANITIZE_ADDRESS__
+    CHECK(other.host.memory() < memory + 2 * kept);
+#else
+    CHECK(other.host.memory() < memory + kept);
+#endif
     other.host.send(SIGTERM);
     CHECK(other.host.wait() == 0);
 }
