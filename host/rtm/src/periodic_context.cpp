@@ -71,8 +71,9 @@ void PeriodicExecutionContext::describe(coil::Properties& properties) {
 RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     auto started = std::make_shared<Worker>();
     makeTick(*started);
-    started->thread = std::thread([this, started] { run(*started); });
+    // Known before its first cycle goes far: a stop within that must find it.
     std::lock_guard<std::mutex> lock(m_workerMutex);
+    started->thread = std::thread([this, started] { run(*started); });
     m_worker = started;
     return RTC::RTC_OK;
 }
