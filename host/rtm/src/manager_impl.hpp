@@ -53,7 +53,7 @@ struct Manager::Impl {
     std::set<std::string> coming;      // names of those that are being created
     std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks;
     std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
-    bool ever_had_components = false;
+    std::atomic<bool> ever_had_components{false};
     bool shut_down = false;
     std::atomic<bool> ended_in_order{true};
     std::atomic<bool> restart_wanted{false};
