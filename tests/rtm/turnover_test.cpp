@@ -15,8 +15,8 @@ int lives() {
     return 100 * (factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
 }
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr long quarantine = 16384; // kB of freed memory that the sanitizer keeps: its preset's ASAN_OPTIONS
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+constexpr long quarantine = 16384; // kB that the sanitizer keeps: freed memory (ASAN_OPTIONS of its preset) or shadows
 #else
 constexpr long quarantine = 0;
 #endif
