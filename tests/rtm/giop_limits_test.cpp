@@ -123,7 +123,7 @@ TEST_CASE("What no component can do is refused and its host lives on") {
     }
     INFO("MB before " << before << ", peak " << other.host.memory(true));
 #ifdef __SANITIZE_THREAD__
-    constexpr long more = 300; // a 4 MB name and its many nodes are shadowed fourfold
+    constexpr long more = 300; // a key of 2 MB, and the million nodes it makes, are shadowed
 #else
     constexpr long more = 100;
 #endif

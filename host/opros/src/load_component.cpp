@@ -17,6 +17,13 @@
 namespace tandem::engine {
 namespace {
 
+/// Throws plugin::Error unless the library is of that kind and built against our headers.
+void require_ours(const std::filesystem::path& library, plugin::Kind kind) {
+    const auto contents = plugin::read_contents(library);
+    plugin::require_kind(library, contents, kind);
+    plugin::require_abi(library, contents, plugin::Model::opros, TANDEM_OPROS_ABI);
+}
+
 // The last field of a version is of no consequence.
 std::string significant(const std::string& version) { return version.substr(0, version.rfind('-')); }
 
@@ -69,9 +76,7 @@ std::string find_device_library(const ComponentProfile& profile, const std::stri
         return value;
     }
     try { // all that the component could say is that it has no device
-        const auto contents = plugin::read_contents(found);
-        plugin::require_kind(found, contents, plugin::Kind::device_api);
-        plugin::require_abi(found, contents, plugin::Model::opros, TANDEM_OPROS_ABI);
+        require_ours(found, plugin::Kind::device_api);
     } catch (const plugin::Error& error) {
         if (error.reason() == plugin::Reason::another_abi) // the component could not tell, and call it
             throw SetupError(profile.place, property + " " + value + ": " + error.what());
@@ -93,9 +98,7 @@ void give_device_library_all_names(std::map<std::string, std::string>& propertie
 } // namespace
 
 void require_component(const std::filesystem::path& library) {
-    const auto contents = plugin::read_contents(library);
-    plugin::require_kind(library, contents, plugin::Kind::opros_component);
-    plugin::require_abi(library, contents, plugin::Model::opros, TANDEM_OPROS_ABI);
+    require_ours(library, plugin::Kind::opros_component);
 }
 
 LoadedComponent open_component(const std::filesystem::path& file) {
