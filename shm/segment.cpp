@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/segment.hpp"
 
-#include "shm/clock.hpp"
-#include "shm/liveness.hpp"
-#include "shm/shared_copy.hpp"
+#include "shm/os/clock.hpp"
+#include "shm/segment/liveness.hpp"
+#include "shm/os/shared_copy.hpp"
 
 namespace tandem::shm {
 

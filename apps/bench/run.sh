@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, the peers of apps/bench/peers.txt too if it can, builds, measures, writes the report.
+# Installs what is missing, the peers of apps/bench/peers/peers.txt too if it can, builds, measures, writes the report.
 #   apps/bench/run.sh [--out FOLDER] [options of build/release/bin/tandem-bench]
 # FOLDER (build/bench) gets report.json and report.html. With --bar the exit code says whether every line held.
 set -euo pipefail
@@ -31,7 +31,7 @@ install_peers() {
         else
             say "going without the peer $package: it could not be installed"
         fi
-    done < "$root/apps/bench/peers.txt"
+    done < "$root/apps/bench/peers/peers.txt"
 }
 
 install_missing_packages

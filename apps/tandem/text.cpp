@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/text.hpp"
 
-#include "shm/clock.hpp"
+#include "shm/os/clock.hpp"
 
 #include <fmt/format.h>
 

@@ -7,10 +7,10 @@
 #include <exception>
 #include <filesystem>
 
-#include "apps/wheelchair/figure.hpp"
+#include "apps/wheelchair/report/figure.hpp"
 #include "apps/wheelchair/options.hpp"
-#include "apps/wheelchair/report.hpp"
-#include "apps/wheelchair/supervisor.hpp"
+#include "apps/wheelchair/report/report.hpp"
+#include "apps/wheelchair/run/supervisor.hpp"
 
 namespace {
 

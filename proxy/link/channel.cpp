@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/channel.hpp"
 
-#include "shm/segment_file.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -3,7 +3,7 @@
 
 #include "proxy/link/port_table.hpp"
 #include "proxy/link/request.hpp"
-#include "shm/call_queue.hpp"
+#include "shm/call/call_queue.hpp"
 
 #include <cstddef>
 #include <string>

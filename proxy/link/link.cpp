@@ -2,7 +2,7 @@
 #include "proxy/link/link.hpp"
 
 #include "proxy/link/session.hpp"
-#include "shm/truncation_guard.hpp"
+#include "shm/segment/truncation_guard.hpp"
 
 #include <spdlog/spdlog.h>
 

@@ -8,8 +8,8 @@
 #include "proxy/link/port_table.hpp"
 #include "proxy/link/request.hpp"
 
-#include "shm/call_server.hpp"
-#include "shm/watcher.hpp"
+#include "shm/call/call_server.hpp"
+#include "shm/segment/watcher.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -2,8 +2,8 @@
 #include "proxy/link/port_rings.hpp"
 
 #include "proxy/wire/type.hpp"
-#include "shm/error.hpp"
-#include "shm/segment_file.hpp"
+#include "shm/os/error.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <fmt/format.h>
 

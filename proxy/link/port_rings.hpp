@@ -2,7 +2,7 @@
 #pragma once
 
 #include "proxy/link/port_table.hpp"
-#include "shm/ring.hpp"
+#include "shm/ring/ring.hpp"
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
 #include "shm/segment.hpp"
 
 #include <memory>

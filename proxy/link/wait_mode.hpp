@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shm/futex.hpp"
+#include "shm/os/futex.hpp"
 
 namespace tandem::link {
 

@@ -2,10 +2,10 @@
 // Caller and worker of a call queue killed behind every one of their stores.
 #include "death.hpp"
 
-#include "shm/call_caller.hpp"
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
-#include "shm/call_worker.hpp"
+#include "shm/call/call_caller.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
+#include "shm/call/call_worker.hpp"
 #include "tests/shm/view_as.hpp"
 
 using namespace tandem::shm;

@@ -2,10 +2,10 @@
 // A segment's file that is cut short, before it is joined and while it is in use.
 #include "../shm/fixture.hpp"
 
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
-#include "shm/observer.hpp"
-#include "shm/truncation_guard.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
+#include "shm/inspect/observer.hpp"
+#include "shm/segment/truncation_guard.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

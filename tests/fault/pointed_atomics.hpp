@@ -4,8 +4,8 @@
 // memory is laid out like that of RealAtomics, so one side may be this and the other what ships.
 #pragma once
 #include "shared.hpp"
-#include "shm/futex.hpp"
-#include "shm/layout.hpp"
+#include "shm/os/futex.hpp"
+#include "shm/segment/layout.hpp"
 
 #include <csignal>
 #include <cstdio>

@@ -5,8 +5,8 @@
 #include "../shm/fixture.hpp"
 #include "shared.hpp"
 
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
 
 namespace tandem::shm::test {
 

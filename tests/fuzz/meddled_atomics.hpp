@@ -3,9 +3,9 @@
 // the victim and, through the atomics of this header, before any of the victim's looks at shared words. All
 // in one thread, so every finding can be repeated.
 #pragma once
-#include "shm/futex.hpp"
-#include "shm/layout.hpp"
-#include "shm/ring_view.hpp"
+#include "shm/os/futex.hpp"
+#include "shm/segment/layout.hpp"
+#include "shm/ring/ring_view.hpp"
 
 #include <span>
 

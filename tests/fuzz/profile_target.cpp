@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as each kind of OPRoS profile: a profile, or one line that says what is wrong.
-#include "host/opros/src/start_order.hpp"
-#include "host/opros/src/type_profile.hpp"
-#include "host/opros/src/xml_file.hpp"
+#include "host/opros/engine/profile/start_order.hpp"
+#include "host/opros/engine/profile/type_profile.hpp"
+#include "host/opros/engine/profile/xml_file.hpp"
 
 #include <cstdint>
 #include <cstdio>

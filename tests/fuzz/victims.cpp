@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "victims.hpp"
 
-#include "shm/call_caller.hpp"
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
-#include "shm/call_worker.hpp"
-#include "shm/observer.hpp"
-#include "tests/shm/all_policies.hpp"
+#include "shm/call/call_caller.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
+#include "shm/call/call_worker.hpp"
+#include "shm/inspect/observer.hpp"
+#include "tests/shm/ring/all_policies.hpp"
 #include "tests/shm/view_as.hpp"
 
 #include <cstdio>

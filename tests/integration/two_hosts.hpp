@@ -2,7 +2,7 @@
 // A folder with an OPRoS application and an rtc.conf, and hosts started on them.
 #pragma once
 
-#include "apps/wheelchair/child_process.hpp"
+#include "apps/wheelchair/run/child_process.hpp"
 
 #include <chrono>
 #include <csignal>

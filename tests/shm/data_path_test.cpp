@@ -3,8 +3,8 @@
 // new to count, and lets the kernel kill a child for any system call.
 #include "fixture.hpp"
 
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
 
 #include <linux/filter.h>
 #include <linux/seccomp.h>

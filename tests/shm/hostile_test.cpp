@@ -4,8 +4,8 @@
 // bounded time.
 #include "fixture.hpp"
 
-#include "shm/call_client.hpp"
-#include "shm/call_server.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
 
 #include <numeric>
 

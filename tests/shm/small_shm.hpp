@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A /dev/shm of a few MiB, for a child process.
 #pragma once
-#include "shm/segment_file.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <fstream>
 #include <sched.h>

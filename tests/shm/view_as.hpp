@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same ring or call queue, seen through other atomics. Theirs must be laid out like those that ship.
 #pragma once
-#include "shm/call_view.hpp"
-#include "shm/ring_view.hpp"
+#include "shm/call/call_view.hpp"
+#include "shm/ring/ring_view.hpp"
 
 namespace tandem::shm::test {
 

@@ -4,9 +4,9 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/type_faults.hpp"
 #include "apps/tandem/text.hpp"
-#include "host/opros/src/composite.hpp"
-#include "host/opros/src/load_component.hpp"
-#include "host/opros/src/start_order.hpp"
+#include "host/opros/engine/profile/composite.hpp"
+#include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/profile/start_order.hpp"
 
 #include <fmt/format.h>
 #include <functional>

@@ -5,7 +5,7 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/profile_info.hpp"
 #include "apps/tandem/text.hpp"
-#include "host/opros/src/load_component.hpp"
+#include "host/opros/engine/load/load_component.hpp"
 #include "host/plugin/find_library.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/type_faults.hpp"
 
-#include "host/opros/src/type_profile.hpp"
+#include "host/opros/engine/profile/type_profile.hpp"
 
 #include <functional>
 #include <set>

@@ -2,7 +2,7 @@
 // The command line of `tandem rtm`.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/rtm/commands.hpp"
-#include "apps/tandem/rtm/running.hpp"
+#include "apps/tandem/rtm/running/running.hpp"
 
 #include <memory>
 

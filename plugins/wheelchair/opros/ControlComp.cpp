@@ -5,8 +5,8 @@
 
 #include "JoystickRequired.h"
 #include "component.hpp"
-#include "plugins/wheelchair/core/control_body.hpp"
-#include "plugins/wheelchair/core/limits.hpp"
+#include "plugins/wheelchair/core/body/control_body.hpp"
+#include "plugins/wheelchair/core/law/limits.hpp"
 
 using namespace tandem::wheelchair;
 

@@ -8,8 +8,8 @@
 
 #include "ChairProvided.h"
 #include "component.hpp"
-#include "plugins/wheelchair/core/hw_body.hpp"
-#include "plugins/wheelchair/core/limits.hpp"
+#include "plugins/wheelchair/core/body/hw_body.hpp"
+#include "plugins/wheelchair/core/law/limits.hpp"
 
 using namespace tandem::wheelchair;
 

@@ -6,7 +6,7 @@
 #include "ChairRequired.h"
 #include "JoystickProvided.h"
 #include "component.hpp"
-#include "plugins/wheelchair/core/joystick_body.hpp"
+#include "plugins/wheelchair/core/body/joystick_body.hpp"
 
 using namespace tandem::wheelchair;
 

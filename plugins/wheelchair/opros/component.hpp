@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "plugins/wheelchair/core/ports.hpp"
-#include "plugins/wheelchair/core/settings.hpp"
+#include "plugins/wheelchair/core/body/ports.hpp"
+#include "plugins/wheelchair/core/body/settings.hpp"
 
 namespace tandem::wheelchair::component {
 

@@ -2,8 +2,8 @@
 // The controller as an RTC: turns reference and wheel speeds into motor voltages.
 #include "WheelchairSkel.h"
 #include "component.hpp"
-#include "plugins/wheelchair/core/control_body.hpp"
-#include "plugins/wheelchair/core/limits.hpp"
+#include "plugins/wheelchair/core/body/control_body.hpp"
+#include "plugins/wheelchair/core/law/limits.hpp"
 
 using namespace tandem::wheelchair;
 

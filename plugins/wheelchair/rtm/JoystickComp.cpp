@@ -4,7 +4,7 @@
 
 #include "WheelchairSkel.h"
 #include "component.hpp"
-#include "plugins/wheelchair/core/joystick_body.hpp"
+#include "plugins/wheelchair/core/body/joystick_body.hpp"
 
 using namespace tandem::wheelchair;
 

@@ -16,8 +16,8 @@
 #include <span>
 #include <string>
 
-#include "plugins/wheelchair/core/ports.hpp"
-#include "plugins/wheelchair/core/settings.hpp"
+#include "plugins/wheelchair/core/body/ports.hpp"
+#include "plugins/wheelchair/core/body/settings.hpp"
 
 namespace tandem::wheelchair::component {
 

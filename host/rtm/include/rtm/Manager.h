@@ -42,7 +42,7 @@ class ManagerError : public std::runtime_error {
 /// init() [main-thread], then activateManager(), then runManager(). All other functions [any-thread].
 class Manager {
   public:
-    struct Options; // host/rtm/src/manager_options.hpp: what only rtm_host sets
+    struct Options; // host/rtm/runtime/manager/manager_options.hpp: what only rtm_host sets
 
     /// Reads the command line (-f FILE, -o key:value, -d, -i, -p PORT) and rtc.conf, starts the ORB. When
     /// called again the running manager is returned. Bad input ends the process with one line on standard

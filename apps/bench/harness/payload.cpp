@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/harness/payload.hpp"
+
+#include <fmt/format.h>
+
+// The widest vectors that the machine has, chosen when the program starts: the limit is to be the memory.
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define TANDEM_BENCH_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define TANDEM_BENCH_WIDE
+#endif
+
+namespace tandem::bench::detail {
+
+TANDEM_BENCH_WIDE void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value) {
+    fill_words(words, count, value);
+}
+
+TANDEM_BENCH_WIDE std::uint64_t sum_large(const std::uint64_t* words, std::size_t count) {
+    return sum_words(words, count);
+}
+
+void out_of_order(std::uint64_t got, std::uint64_t wanted) {
+    throw std::runtime_error(fmt::format("message {} came where {} was due", got, wanted));
+}
+
+void damaged(std::uint64_t first, std::uint64_t sum, std::size_t count) {
+    throw std::runtime_error(
+        fmt::format("a message of {} words is damaged: first word {}, sum {} instead of {}", count, first,
+                    sum, first * count));
+}
+
+} // namespace tandem::bench::detail

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one of the two sides of a case sees: who it is, when both are ready, when it has enough, where its
+// samples go. Lives in memory that the driver shares with the two.
+#pragma once
+#include "apps/bench/harness/case.hpp"
+#include "apps/bench/harness/clock.hpp"
+#include "apps/bench/harness/tick_record.hpp"
+
+#include <atomic>
+#include <span>
+
+namespace tandem::bench {
+
+/// How long a case may take and how many samples it may bring.
+struct Limits {
+    std::size_t warm_up = 10'000, samples = 50'000;
+    double warm_up_seconds = 0.3, seconds = 1.5; ///< whichever of count and time is reached first
+    double window_seconds = 0.15;                ///< streams
+    int windows = 5;
+    double bound_seconds = 20; ///< then both sides are killed
+    int attempts = 4;          ///< a case is repeated if other processes disturbed it
+};
+
+/// Shared by the driver and both sides; zero at first.
+struct Control {
+    static constexpr std::size_t text_bytes = 400;
+    std::atomic<std::uint32_t> arrived, finished;
+    std::atomic<std::uint64_t> sample_count;
+    char failure[2][text_bytes];
+    bool has_tick_counts;
+    TickCounts tick_counts;
+    double* samples() { return reinterpret_cast<double*>(this + 1); } // as many as the limits say
+};
+
+class Session {
+  public:
+    enum class Role { a, b };
+
+    Session(const Case& measured, const Limits& limits, Role role, std::string name, Control& control,
+            std::span<std::byte> memory)
+        : measured_(measured), limits_(limits), role_(role), name_(std::move(name)), control_(control),
+          memory_(memory) {}
+
+    const Case& measured() const { return measured_; }
+    const Limits& limits() const { return limits_; }
+    bool is_a() const { return role_ == Role::a; }
+    std::size_t bytes() const { return measured_.bytes; }
+    const std::string& name() const { return name_; }       ///< no other process uses it
+    std::span<std::byte> memory() const { return memory_; } ///< zero at first, 64 MiB, one for both sides
+
+    /// Waits until both sides have called it the same number of times.
+    void meet();
+
+    /// The warm-up loop and the measured loop: while (more()) { ...; sample(ticks it took, now); }
+    /// Of several such loops, `parts`, each gets its share; the samples add up.
+    void begin_warm_up(std::size_t parts = 1) {
+        begin(limits_.warm_up / parts, limits_.warm_up_seconds / static_cast<double>(parts), false);
+    }
+    void begin(std::size_t parts = 1) {
+        begin(limits_.samples / parts, limits_.seconds / static_cast<double>(parts), true);
+    }
+    bool more() const { return taken_ < wanted_ && last_ < end_; }
+    void sample(std::uint64_t took, std::uint64_t now) {
+        if (keep_) control_.samples()[kept_++] = to_ns(took) / measured_.divisor;
+        ++taken_;
+        last_ = now;
+    }
+    void end() { control_.sample_count.store(kept_, std::memory_order_release); }
+    void result(double value); ///< One figure of a stream or a count.
+
+    /// How many of a case's ticks came a period late or more.
+    void counted(const TickCounts& counts) {
+        control_.tick_counts = counts;
+        control_.has_tick_counts = true;
+    }
+
+    /// One side tells the other that it has enough.
+    void finish() { control_.finished.store(1, std::memory_order_release); }
+    bool finished() const { return control_.finished.load(std::memory_order_relaxed) != 0; }
+
+  private:
+    void begin(std::size_t count, double seconds, bool keep);
+
+    const Case& measured_;
+    const Limits& limits_;
+    Role role_;
+    std::string name_;
+    Control& control_;
+    std::span<std::byte> memory_;
+    std::uint32_t met_ = 0;
+    std::size_t taken_ = 0, wanted_ = 0, kept_ = 0;
+    std::uint64_t last_ = 0, end_ = 0;
+    bool keep_ = false;
+};
+
+} // namespace tandem::bench

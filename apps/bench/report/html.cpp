@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/report/html.hpp"
+
+#include "apps/bench/report/plot.hpp"
+#include "apps/bench/report/table.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::bench {
+
+namespace {
+
+constexpr const char* style =
+    "body{font:15px/1.5 Helvetica,Arial,sans-serif;color:#222;max-width:1100px;margin:2em auto;padding:0 1em}"
+    "h1{font-size:1.5em}h2{font-size:1.15em;margin:2em 0 .4em}p{max-width:48em}"
+    "table{border-collapse:collapse;font-size:13px}th,td{padding:2px 9px;border-bottom:1px solid "
+    "#e4e4e4;text-align:right;"
+    "white-space:nowrap}th:first-child,td:first-child{text-align:left}thead th{border-bottom:2px solid #999}"
+    "tr.ours td:first-child{color:#0072b2;font-weight:bold}tr.floor td:first-child{color:#666}"
+    ".pass{color:#00704a}.FAIL{color:#b00020;font-weight:bold}.disturbed{color:#b26a00}"
+    ".wide{overflow-x:auto}svg{width:100%;height:auto}";
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+std::string cells(std::initializer_list<std::string> texts, const char* tag = "td") {
+    std::string out;
+    for (const std::string& text : texts) out += fmt::format("<{0}>{1}</{0}>", tag, escaped(text));
+    return out;
+}
+
+std::string bar_section(const std::vector<BarResult>& bar) {
+    if (bar.empty()) return {};
+    std::string out =
+        "<h2>The bar</h2>\n<table><thead><tr>" +
+        cells({"ratio within one run, median of the runs", "measured", "least", "most", "bound", ""}, "th") +
+        "</tr></thead><tbody>\n";
+    for (const BarResult& result : bar) {
+        const std::string bound =
+            fmt::format("{} {:g}", result.line.sense == BarLine::Sense::at_most ? "at most" : "at least",
+                        result.line.bound);
+        if (!result.missing.empty())
+            out += "<tr>" + cells({result.line.text(), "-", "-", "-", bound, "skipped: " + result.missing}) +
+                   "</tr>\n";
+        else
+            out += "<tr>" +
+                   cells({result.line.text(), fmt::format("{:.3f}", result.value),
+                          fmt::format("{:.3f}", result.least), fmt::format("{:.3f}", result.most), bound}) +
+                   fmt::format("<td class=\"{0}\">{0}</td></tr>\n", result.pass() ? "pass" : "FAIL");
+    }
+    return out + "</tbody></table>\n";
+}
+
+std::string row_html(const Row& row) {
+    const Summary& s = row.summary;
+    const auto tail = [&](double value) { return row.latency() ? figure_text(value) : std::string("-"); };
+    const std::string note = row.disturbed() ? fmt::format("disturbed, {:.0f} %", row.foreign * 100) : "";
+    return fmt::format("<tr class=\"{}\">", row.group) +
+           cells({row.id, row.unit, row.wake, row.regime, row.cores, std::to_string(s.samples),
+                  figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
+                  row.timed_from()}) +
+           fmt::format("<td class=\"disturbed\">{}</td></tr>\n", note);
+}
+
+std::string rows_section(const Report& report) {
+    std::string out =
+        "<h2>Every row</h2>\n<p>Streams: median and best of their windows stand in p50 and max.</p>\n"
+        "<div class=\"wide\"><table><thead><tr>" +
+        cells({"case", "unit", "wake", "regime", "cores", "samples", "p50", "p90", "p99", "p99.9", "max",
+               "from", ""},
+              "th") +
+        "</tr></thead><tbody>\n";
+    std::string skipped;
+    for (const Row& row : report.rows) {
+        if (row.skipped.empty())
+            out += row_html(row);
+        else
+            skipped += "<li>" + escaped(row.id + ": " + row.skipped) + "</li>\n";
+    }
+    out += "</tbody></table></div>\n";
+    if (!skipped.empty()) out += "<h2>Skipped</h2>\n<ul>\n" + skipped + "</ul>\n";
+    return out;
+}
+
+} // namespace
+
+std::string html_page(const Report& report, const std::vector<BarResult>& bar) {
+    const Machine& m = report.machine;
+    std::size_t runs = 0;
+    for (const Row& row : report.rows) runs = std::max(runs, row.runs.size());
+    std::string out = fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n<title>tandem-bench "
+        "{0}</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>tandem-bench, {0}</h1>\n",
+        escaped(m.date), style);
+    out += fmt::format(
+        "<p>{}, {} cores, {}. Clock: {}. Runs: {}. Two processes, one pinned to each of the row's cores; "
+        "latency is "
+        "by round trip, halved where the row says one-way; every message's number and content are checked. "
+        "Absolute figures belong to this machine and hour: compare ratios.</p>\n",
+        escaped(m.processor), m.cores, escaped(m.kernel), escaped(m.clock), runs);
+    out += bar_section(bar);
+    for (const Plot& plot : draw_plots(report))
+        out += "<h2>" + escaped(plot.title) + "</h2>\n" + plot.svg + "\n";
+    return out + rows_section(report) + "</body>\n</html>\n";
+}
+
+} // namespace tandem::bench

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/bench/report/bar.hpp"
+
+namespace tandem::bench {
+
+/// The whole report as one page that needs nothing else: conditions, bar (if judged), plots, every row.
+std::string html_page(const Report& report, const std::vector<BarResult>& bar);
+
+} // namespace tandem::bench

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/report/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tandem::bench {
+
+std::string figure_text(double value) {
+    if (value == 0) return "0";
+    const int digits = std::max(0, 3 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
+    return fmt::format("{:.{}f}", value, std::min(digits, 3));
+}
+
+namespace {
+
+std::string line_of(const Row& row, std::size_t width) {
+    const Summary& s = row.summary;
+    const auto tail = [&](double value) { return row.latency() ? figure_text(value) : std::string("-"); };
+    return fmt::format(
+        "{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width, row.unit, row.cores,
+        s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
+        row.regime +
+            (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped", row.tick_counts->overruns,
+                                           row.tick_counts->skipped)
+                             : "") +
+            (row.disturbed() ? fmt::format(" DISTURBED by others ({:.0f} %)", row.foreign * 100) : ""));
+}
+
+} // namespace
+
+std::string table_text(const Report& report) {
+    const Machine& m = report.machine;
+    std::size_t width = 4;
+    for (const Row& row : report.rows)
+        if (row.skipped.empty()) width = std::max(width, row.id.size());
+    std::string out =
+        fmt::format("{}, {} cores, {}\nclock {}, {}\n\n", m.processor, m.cores, m.kernel, m.clock, m.date);
+    out += fmt::format("{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", "case", width, "unit",
+                       "cores", "samples", "p50", "p90", "p99", "p99.9", "max", "regime");
+    for (const Row& row : report.rows)
+        if (row.skipped.empty()) out += line_of(row, width);
+    const auto disturbed =
+        std::count_if(report.rows.begin(), report.rows.end(), [](const Row& row) { return row.disturbed(); });
+    if (disturbed > 0)
+        out += fmt::format(
+            "{} of {} rows were disturbed: other processes got more than 2 % of the machine meanwhile\n",
+            disturbed, report.rows.size());
+    for (const Row& row : report.rows)
+        if (!row.skipped.empty()) out += fmt::format("skipped {}: {}\n", row.id, row.skipped);
+    return out;
+}
+
+} // namespace tandem::bench

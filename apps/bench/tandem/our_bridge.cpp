@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Component to component: two hosts, the real AdaptorComp and InterceptorComp between them, eight doubles. A
+// runs opros_host, B rtm_host; both components poll.
+#include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/session.hpp"
+
+#include "apps/wheelchair/run/child_process.hpp"
+
+#include <fcntl.h>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <thread>
+
+namespace tandem::bench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+
+std::string connection(const char* from, const char* to, const char* port) {
+    return fmt::format(
+        "<port_connection port_type=\"data\"><source component_name=\"{0}\" port_name=\"{2}\"/>"
+        "<target component_name=\"{1}\" port_name=\"{2}\"/></port_connection>\n",
+        from, to, port);
+}
+
+void write_opros(const Session& session, const fs::path& folder) {
+    const auto property = [](const char* name, const std::string& value) {
+        return fmt::format("<property name=\"{}\">{}</property>", name, value);
+    };
+    std::ofstream(folder / "app.xml")
+        << "<?xml version=\"1.0\"?>\n<package_profile><name>bench</name>\n<subcomponents>\n"
+        << "<subcomponent><name>Ping</name><reference>BenchPing.xml</reference><properties>"
+        << property("file", (folder / "samples").string()) << property("direction", session.measured().detail)
+        << property("samples", std::to_string(session.limits().samples))
+        << property("seconds", fmt::format("{:g}", session.limits().seconds))
+        << "</properties></subcomponent>\n<subcomponent><name>Adaptor</name><reference>AdaptorComp.xml</"
+           "reference>"
+        << "<properties>" << property("link", session.name()) << property("wait", "30")
+        << "</properties></subcomponent>\n</subcomponents>\n<port_connections>\n"
+        << connection("Ping", "Adaptor", "ask") << connection("Adaptor", "Ping", "answer")
+        << "</port_connections></package_profile>\n";
+}
+
+void write_rtm(const Session& session, const fs::path& folder) {
+    std::ofstream(folder / "rtc.conf")
+        << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: 1000\n"
+        << "manager.modules.preload: BenchPong.so, InterceptorComp.so\n"
+        << "manager.components.precreate: BenchPong, InterceptorComp?link=" << session.name()
+        << "&rtc=BenchPong0\n";
+}
+
+std::vector<std::string> command(const Session& session, const fs::path& folder) {
+    const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
+    if (session.is_a())
+        return {(programs / "opros_host").string(), (folder / "app.xml").string(), "--strict", "--parent-death"};
+    return {(programs / "rtm_host").string(), "-f", (folder / "rtc.conf").string(), "--parent-death"};
+}
+
+void record(Session& session, const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    double value = 0;
+    while (in.read(reinterpret_cast<char*>(&value), sizeof value)) session.result(value);
+}
+
+void bridge(Session& session) {
+    const fs::path folder = fs::temp_directory_path() / session.name(); // removed with the case's left-overs
+    if (session.is_a()) {
+        fs::create_directory(folder);
+        write_opros(session, folder);
+        write_rtm(session, folder);
+    }
+    session.meet();
+    const fs::path log = folder / (session.is_a() ? "opros.log" : "rtm.log");
+    const wheelchair::Fd out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    wheelchair::ChildProcess host(command(session, folder), {-1, out.get(), out.get(), ""});
+    while (!session.finished()) {
+        if (host.poll()) {
+            std::string line;
+            std::getline(std::ifstream(log), line);
+            throw std::runtime_error(fmt::format("{} {}: {}", session.is_a() ? "opros_host" : "rtm_host",
+                                                 host.poll()->text(), line));
+        }
+        if (session.is_a() && fs::exists(folder / "samples")) {
+            record(session, folder / "samples");
+            session.finish();
+        }
+        std::this_thread::sleep_for(20ms);
+    }
+    host.stop(5s);
+}
+
+} // namespace
+
+void add_our_bridge_cases(Registry& registry) {
+    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"}) {
+        Case one;
+        one.who = "bridge";
+        one.what = "one-way";
+        one.detail = direction;
+        one.run = bridge;
+        registry.cases.push_back(one);
+    }
+}
+
+} // namespace tandem::bench

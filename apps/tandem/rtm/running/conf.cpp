@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running/running.hpp"
+#include "apps/tandem/text.hpp"
+#include "host/rtm/runtime/naming/remote_names.hpp"
+
+#include <fmt/format.h>
+#include <rtm/CORBA_RTCUtil.h>
+#include <rtm/NVUtil.h>
+
+namespace tandem::command {
+namespace {
+
+std::string listed(const SDOPackage::NVList& values) {
+    std::string names;
+    for (CORBA::ULong i = 0; i < values.length(); ++i)
+        names += (names.empty() ? "" : ", ") + std::string(values[i].name);
+    return names.empty() ? "none" : names;
+}
+
+void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& what, const std::string& id) {
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(id.c_str());
+    for (const auto& assignment : what.values) {
+        const std::size_t equals = assignment.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw std::runtime_error("`" + assignment + "`: expected NAME=VALUE");
+        const std::string name = assignment.substr(0, equals);
+        const CORBA::Long index = NVUtil::find_index(set->configuration_data, name.c_str());
+        if (index < 0)
+            throw std::runtime_error(fmt::format("configuration set {} has no parameter {} (it has: {})", id,
+                                                 name, listed(set->configuration_data)));
+        set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
+            assignment.substr(equals + 1).c_str();
+    }
+    if (!configuration->set_configuration_set_values(set.in()))
+        throw std::runtime_error("the component refuses the values");
+}
+
+nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
+    const std::string active = active_set(configuration);
+    SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
+    nlohmann::json json = nlohmann::json::array();
+    for (CORBA::ULong i = 0; i < sets->length(); ++i) {
+        nlohmann::json values = nlohmann::json::object();
+        for (const auto& key : NVUtil::toProperties(sets[i].configuration_data).propertyNames())
+            values[key] = NVUtil::toString(sets[i].configuration_data, key.c_str());
+        const std::string id(sets[i].id);
+        if (id.compare(0, 2, "__") == 0) continue; // widgets and constraints, for editors
+        json.push_back({{"set", id}, {"active", id == active}, {"values", values}});
+    }
+    return json;
+}
+
+} // namespace
+
+int rtm_conf(const PeerOptions& options, const ConfOptions& what) {
+    const Peers peers(options);
+    const Component component = peers.find(what.component);
+    try {
+        SDOPackage::Configuration_var configuration = component.object->get_configuration();
+        std::string id = what.set;
+        if (id.empty()) id = active_set(configuration.in());
+        if (id.empty()) id = "default";
+        if (!what.values.empty()) set_values(configuration.in(), what, id);
+        if (!what.activate.empty()) configuration->activate_configuration_set(what.activate.c_str());
+        const nlohmann::json sets = sets_json(configuration.in());
+        if (options.json) {
+            print_json(sets);
+            return 0;
+        }
+        for (const auto& set : sets) {
+            if (!what.set.empty() && set["set"] != what.set) continue;
+            print_text(fmt::format("{}{}\n", set["set"].get<std::string>(),
+                                   set["active"].get<bool>() ? " (active)" : ""));
+            for (const auto& [name, value] : set["values"].items())
+                print_text(fmt::format("  {}={}\n", name, value.get<std::string>()));
+        }
+        return 0;
+    } catch (const SDOPackage::InvalidParameter& e) {
+        throw std::runtime_error(component.instance + ": " + e.description.in());
+    } catch (const SDOPackage::InternalError& e) {
+        throw std::runtime_error(component.instance + ": " + e.description.in());
+    } catch (const CORBA::Exception& e) {
+        give_up(component.address, e);
+    }
+}
+
+} // namespace tandem::command

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running/running.hpp"
+#include "apps/tandem/text.hpp"
+
+namespace tandem::command {
+namespace {
+
+bool joins(const RTC::ConnectorProfile& connection, RTC::PortService_ptr port) {
+    for (CORBA::ULong i = 0; i < connection.ports.length(); ++i)
+        if (connection.ports[i]->_is_equivalent(port)) return true;
+    return false;
+}
+
+} // namespace
+
+int rtm_disconnect(const PeerOptions& options, const DisconnectOptions& what) {
+    const Peers peers(options);
+    const Port first = find_port(peers, what.ports.front());
+    Port second;
+    if (what.ports.size() > 1) second = find_port(peers, what.ports[1]);
+    nlohmann::json ended = nlohmann::json::array();
+    calling(first.name, [&] {
+        RTC::ConnectorProfileList_var all = first.object->get_connector_profiles();
+        for (CORBA::ULong i = 0; i < all->length(); ++i) {
+            const std::string id(all[i].connector_id);
+            if (!what.id.empty() && id != what.id) continue;
+            if (!CORBA::is_nil(second.object.in()) && !joins(all[i], second.object.in())) continue;
+            const RTC::ReturnCode_t code = first.object->disconnect(id.c_str());
+            if (code != RTC::RTC_OK)
+                throw std::runtime_error("connection " + id + " is not ended: " + text_of(code));
+            ended.push_back({{"id", id}, {"name", static_cast<const char*>(all[i].name)}});
+        }
+    });
+    if (ended.empty())
+        throw std::runtime_error(first.name + " has no such connection" +
+                                 (second.name.empty() ? "" : " with " + second.name));
+    if (options.json)
+        print_json(ended);
+    else
+        for (const auto& one : ended) print_text("ended " + one["name"].get<std::string>() + "\n");
+    return 0;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running/running.hpp"
+#include "apps/tandem/text.hpp"
+
+#include <fmt/format.h>
+#include <rtm/NVUtil.h>
+
+namespace tandem::command {
+namespace {
+
+using nlohmann::json;
+
+json properties_json(const SDOPackage::NVList& list) {
+    json out = json::object();
+    for (CORBA::ULong i = 0; i < list.length(); ++i) {
+        const char* value = nullptr;
+        if (list[i].value >>= value) out[static_cast<const char*>(list[i].name)] = value;
+    }
+    return out;
+}
+
+json ports_json(const RTC::PortProfileList& ports) {
+    json list = json::array();
+    for (CORBA::ULong i = 0; i < ports.length(); ++i) {
+        const auto& port = ports[i];
+        json interfaces = json::array(), connections = json::array();
+        for (CORBA::ULong k = 0; k < port.interfaces.length(); ++k)
+            interfaces.push_back({{"instance", port.interfaces[k].instance_name.in()},
+                                  {"type", port.interfaces[k].type_name.in()},
+                                  {"provided", port.interfaces[k].polarity == RTC::PROVIDED}});
+        for (CORBA::ULong c = 0; c < port.connector_profiles.length(); ++c)
+            connections.push_back({{"name", port.connector_profiles[c].name.in()},
+                                   {"id", port.connector_profiles[c].connector_id.in()},
+                                   {"ports", port.connector_profiles[c].ports.length()},
+                                   {"properties", properties_json(port.connector_profiles[c].properties)}});
+        list.push_back({{"name", port.name.in()},
+                        {"interfaces", interfaces},
+                        {"connections", connections},
+                        {"properties", properties_json(port.properties)}});
+    }
+    return list;
+}
+
+json contexts_json(RTC::RTObject_ptr component) {
+    static const char* const kinds[] = {"periodic", "event driven", "other"};
+    static const char* const states[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
+    json list = json::array();
+    for (auto& context : contexts_of(component))
+        list.push_back({{"handle", component->get_context_handle(context.in())},
+                        {"kind", kinds[context->get_kind()]},
+                        {"rate", context->get_rate()},
+                        {"running", static_cast<bool>(context->is_running())},
+                        {"state", states[context->get_component_state(component)]}});
+    return list;
+}
+
+json info_json(const Component& component) {
+    RTC::ComponentProfile_var profile = component.object->get_component_profile();
+    SDOPackage::Configuration_var configuration = component.object->get_configuration();
+    return {{"instance", profile->instance_name.in()},
+            {"address", component.address},
+            {"type", profile->type_name.in()},
+            {"description", profile->description.in()},
+            {"version", profile->version.in()},
+            {"vendor", profile->vendor.in()},
+            {"category", profile->category.in()},
+            {"state", state_of(component.object.in())},
+            {"contexts", contexts_json(component.object.in())},
+            {"configuration", active_set(configuration.in())},
+            {"ports", ports_json(profile->port_profiles)},
+            {"properties", properties_json(profile->properties)}};
+}
+
+std::string word(const json& properties, const char* key) { return properties.value(key, std::string()); }
+
+std::string text_of_info(const json& info) {
+    std::string text =
+        fmt::format("{}  {}\n", info["instance"].get<std::string>(), info["address"].get<std::string>());
+    for (const char* key : {"type", "description", "version", "vendor", "category", "state", "configuration"})
+        text += fmt::format("  {:<14} {}\n", key, info[key].get<std::string>());
+    for (const auto& context : info["contexts"])
+        text += fmt::format("  context {:<6} {}, {} Hz, {}, {}\n", context["handle"].get<int>(),
+                            context["kind"].get<std::string>(), context["rate"].get<double>(),
+                            context["running"].get<bool>() ? "running" : "stopped",
+                            context["state"].get<std::string>());
+    for (const auto& port : info["ports"]) {
+        text += fmt::format("  port {}  {} {}\n", port["name"].get<std::string>(),
+                            word(port["properties"], "port.port_type"),
+                            word(port["properties"], "dataport.data_type"));
+        for (const auto& one : port["interfaces"])
+            text += fmt::format("    {} {} as {}\n", one["provided"].get<bool>() ? "provides" : "requires",
+                                one["type"].get<std::string>(), one["instance"].get<std::string>());
+        for (const auto& one : port["connections"])
+            text +=
+                fmt::format("    connection {}  {} {} {}\n", one["id"].get<std::string>(),
+                            one["name"].get<std::string>(), word(one["properties"], "dataport.dataflow_type"),
+                            word(one["properties"], "dataport.interface_type"));
+    }
+    return text;
+}
+
+} // namespace
+
+int rtm_info(const PeerOptions& options, const std::string& name) {
+    const Peers peers(options);
+    const Component component = peers.find(name);
+    const json info = calling(component.address, [&] { return info_json(component); });
+    if (options.json)
+        print_json(info);
+    else
+        print_text(text_of_info(info));
+    return 0;
+}
+
+} // namespace tandem::command

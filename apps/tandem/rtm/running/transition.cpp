@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running/running.hpp"
+#include "apps/tandem/text.hpp"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <thread>
+
+namespace tandem::command {
+namespace {
+
+const char* wanted_state(Transition transition) {
+    return transition == Transition::activate ? "ACTIVE" : "INACTIVE";
+}
+
+RTC::ReturnCode_t ask(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component, Transition transition) {
+    switch (transition) {
+    case Transition::activate:
+        return context->activate_component(component);
+    case Transition::deactivate:
+        return context->deactivate_component(component);
+    default:
+        return context->reset_component(component);
+    }
+}
+
+// The context carries a transition out in its next cycle, which may be after its answer.
+std::string state_after(const Component& component, const std::string& wanted, double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (;;) {
+        const std::string state = state_of(component.object.in());
+        if (state == wanted || state == "ERROR" || std::chrono::steady_clock::now() > end) return state;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+}
+
+std::string change(const Component& component, Transition transition, double seconds) {
+    if (transition == Transition::exit) {
+        const RTC::ReturnCode_t code = component.object->exit();
+        if (code != RTC::RTC_OK)
+            throw std::runtime_error(component.instance + " does not exit: " + text_of(code));
+        return "exited";
+    }
+    const std::string wanted = wanted_state(transition);
+    if (state_of(component.object.in()) == wanted && transition != Transition::reset) return wanted;
+    const auto contexts = contexts_of(component.object.in());
+    const RTC::ReturnCode_t code = ask(contexts.front().in(), component.object.in(), transition);
+    const std::string state = state_after(component, wanted, code == RTC::RTC_OK ? seconds : 0);
+    if (state == wanted) return state;
+    const char* hint = state == "ERROR" ? "; see its log, then tandem rtm reset" : "";
+    throw std::runtime_error(fmt::format("{} is {}, expected {}{}{}", component.instance, state, wanted,
+                                         code == RTC::RTC_OK ? "" : ": " + text_of(code), hint));
+}
+
+} // namespace
+
+int rtm_transition(const PeerOptions& options, const std::vector<std::string>& names, Transition transition) {
+    const Peers peers(options);
+    nlohmann::json json = nlohmann::json::array();
+    for (const auto& name : names) {
+        const Component component = peers.find(name);
+        const std::string state =
+            calling(component.address, [&] { return change(component, transition, options.seconds); });
+        json.push_back({{"instance", component.instance}, {"address", component.address}, {"state", state}});
+        if (!options.json) print_text(component.instance + " " + state + "\n");
+    }
+    if (options.json) print_json(json);
+    return 0;
+}
+
+} // namespace tandem::command

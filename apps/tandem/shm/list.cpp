@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/shm/shm_commands.hpp"
+#include "apps/tandem/shm/shm_words.hpp"
+#include "apps/tandem/text.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::command {
+namespace {
+
+std::string note_on(const shm::ObservedSegment& segment) {
+    if (segment.readability == shm::Readability::foreign) return segment.reason;
+    if (segment.readability != shm::Readability::readable)
+        return fmt::format("{}: {}", word_of(segment.readability), segment.reason);
+    if (segment.superseded_by != 0) return fmt::format("superseded by generation {}", segment.superseded_by);
+    return "";
+}
+
+} // namespace
+
+int shm_list(bool json) {
+    const auto segments = shm::observe_segments();
+    if (json) {
+        auto list = nlohmann::json::array();
+        for (const auto& segment : segments) list.push_back(to_json(segment));
+        print_json({{"segments", list}});
+        return 0;
+    }
+    Table table({"link", ">gen", ">memory", "owner", "first", "second", ">age", "note"});
+    for (const auto& segment : segments)
+        table.add({printable(segment.link), std::to_string(segment.generation),
+                   bytes_text(segment.memory_bytes), user_text(segment.owner),
+                   side_text(segment, shm::Side::first), side_text(segment, shm::Side::second),
+                   segment.readability == shm::Readability::readable ? age_text(segment.created_ns) : "-",
+                   note_on(segment)});
+    print_text(table.empty() ? "no segments in /dev/shm\n" : table.text());
+    return 0;
+}
+
+} // namespace tandem::command

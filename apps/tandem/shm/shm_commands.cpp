@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/shm/shm_commands.hpp"
+
+#include "apps/tandem/commands.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+namespace {
+
+struct Manual {
+    const char *brief, *details;
+};
+
+constexpr Manual shm_manual{
+    "Segments of shared memory: look at them while their hosts run, clean up, check the machine",
+    "A segment is the file in /dev/shm through which the two hosts of a link talk. Looking changes, wakes "
+    "and\n"
+    "locks nothing: it may be done at any time, on a running robot too."};
+constexpr Manual list_manual{
+    "All segments: link, generation, size, owner, both sides, age",
+    "The two sides of a segment are\n"
+    "  absent   has not joined this generation yet\n"
+    "  alive    is there, and its heartbeat is fresh\n"
+    "  late     is there, but its heartbeat is older than 100 ms: stopped, or starved of processor time\n"
+    "  dead     has left or died; the pid says who it was\n"
+    "  held     (of a segment that cannot be read) somebody alive has it\n"
+    "Segments of other users are named and not opened, damaged ones are named with the reason. Exit code 0."};
+constexpr Manual info_manual{"One segment: header, sides, and every ring, call queue and blob in it",
+                             "States of a side: see tandem shm list --help. Exit code 1 if there is no such "
+                             "segment or it cannot be read."};
+constexpr Manual stats_manual{
+    "Counters of every ring and call queue, or with --watch what happens per second",
+    "For a ring, since the segment was made,\n"
+    "  sent = received + refused + overwritten + skipped + waiting\n"
+    "  refused      the writer found no room, or the record was too long\n"
+    "  overwritten  the writer dropped it to make room for a newer one\n"
+    "  skipped      the reader passed over it for a newer one\n"
+    "  waiting      written and not read yet\n"
+    "and for a call queue\n"
+    "  calls        made; taken by a worker; answered\n"
+    "  expired      of these, not run, because the deadline was over\n"
+    "  overload     refused, because no slot was free\n"
+    "  time-out     given up by the caller at the deadline\n"
+    "  cancelled    given up by the caller before it\n"
+    "  in use       slots of calls that are in progress now\n"
+    "The times are of samples: age from a record's writing to its reading, round trip what a caller sees,\n"
+    "service what the server does. They are counted in buckets; a percentile is shown as the upper end of "
+    "its\n"
+    "bucket, at most a quarter too long.\n"
+    "The counters are read one after the other while the system runs: the sum is exact at rest only.\n"
+    "Exit code 1 if there is no such segment or it cannot be read."};
+constexpr Manual clean_manual{"Removes segments that nobody alive holds",
+                              "Says what it removed, what it left, and why. Damaged segments are removed, "
+                              "too; never one that a living\n"
+                              "process holds, nor one of another user. Exit code 0."};
+
+constexpr Manual doctor_manual{
+    "Checks this machine's limits, permissions and timing, and says what to do about each shortcoming",
+    "  ok     as it should be\n"
+    "  warn   works, but slower, less predictable, or not under every circumstance\n"
+    "  bad    Tandem will not run, or not for long\n"
+    "Run it as the user who runs the hosts: permissions are tried out in a child process; nothing is "
+    "changed.\n"
+    "Exit code 1 if anything is bad, otherwise 0."};
+
+struct Common {
+    std::string link;
+    std::uint64_t generation = 0;
+    bool json = false;
+};
+
+CLI::App* add(CLI::App& parent, const char* name, const Manual& manual) {
+    CLI::App* command = parent.add_subcommand(name, manual.brief);
+    command->footer(manual.details);
+    return command;
+}
+
+void add_json(CLI::App* command, bool& json) {
+    command->add_flag("--json", json, "print JSON instead of text");
+}
+
+void add_segment(CLI::App* command, std::string& link, std::uint64_t& generation) {
+    command->add_option("LINK", link, "name of the link")->required();
+    command->add_option("--generation", generation, "look at this generation instead of the newest")
+        ->check(CLI::PositiveNumber);
+}
+
+void add_stats(CLI::App* shm, Run& chosen) {
+    auto options = std::make_shared<StatsOptions>();
+    CLI::App* stats = add(*shm, "stats", stats_manual);
+    add_segment(stats, options->link, options->generation);
+    add_json(stats, options->json);
+    stats
+        ->add_option("--watch", options->watch,
+                     "look every so many seconds and show rates; follows the link through its "
+                     "generations; with --json one line per look")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.01, 86400.0));
+    stats->add_option("--count", options->count, "end --watch after so many looks")->needs("--watch");
+    stats->callback([=, &chosen] { chosen = [options] { return shm_stats(*options); }; });
+}
+
+} // namespace
+
+void add_shm(CLI::App& tandem, Run& chosen) {
+    CLI::App* shm = add(tandem, "shm", shm_manual);
+    shm->require_subcommand(1);
+    auto common = std::make_shared<Common>();
+
+    CLI::App* list = add(*shm, "list", list_manual);
+    add_json(list, common->json);
+    list->callback([=, &chosen] { chosen = [common] { return shm_list(common->json); }; });
+
+    CLI::App* info = add(*shm, "info", info_manual);
+    add_segment(info, common->link, common->generation);
+    add_json(info, common->json);
+    info->callback([=, &chosen] {
+        chosen = [common] { return shm_info(common->link, common->generation, common->json); };
+    });
+
+    add_stats(shm, chosen);
+
+    CLI::App* clean = add(*shm, "clean", clean_manual);
+    clean->add_option("LINK", common->link, "only segments of this link");
+    add_json(clean, common->json);
+    clean->callback([=, &chosen] { chosen = [common] { return shm_clean(common->link, common->json); }; });
+
+    CLI::App* doctor = add(*shm, "doctor", doctor_manual);
+    add_json(doctor, common->json);
+    doctor->callback([=, &chosen] { chosen = [common] { return shm_doctor(common->json); }; });
+}
+
+} // namespace tandem::command

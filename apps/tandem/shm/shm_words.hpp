@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the sub-commands of `tandem shm` call what they show, in text and in JSON.
+#pragma once
+#include "shm/inspect/observer.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace tandem::command {
+
+const char* word_of(shm::Readability readability);
+const char* word_of(shm::PeerState state);
+const char* word_of(shm::RingPolicy policy);
+
+std::string side_text(const shm::ObservedSegment& segment, shm::Side side); ///< "alive, pid 123"
+nlohmann::json to_json(const shm::ObservedSegment& segment);
+
+/// The observation, or Error: there is no such link or generation.
+shm::Observation observe_or_throw(const std::string& link, std::uint64_t generation);
+
+/// For a segment that cannot be read: says so on stderr. Returns the exit code that follows.
+int report_readability(const shm::ObservedSegment& segment);
+
+} // namespace tandem::command

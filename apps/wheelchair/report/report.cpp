@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/report/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "plugins/wheelchair/core/plant/parameters.hpp"
+
+namespace tandem::wheelchair {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json json_of(const std::vector<Judgement>& judgements) {
+    ordered_json list = ordered_json::array();
+    for (const Judgement& j : judgements) {
+        // JSON has no infinity: an open bound and a figure that could not be measured are null.
+        list.push_back({{"name", j.name},
+                        {"unit", j.unit},
+                        {"value", j.value},
+                        {"least", j.least},
+                        {"most", j.most},
+                        {"pass", j.pass()}});
+    }
+    return list;
+}
+
+ordered_json json_of(const Statistics& s) {
+    return {{"samples", s.samples},
+            {"average_us", s.average},
+            {"deviation_us", s.deviation},
+            {"min_us", s.least},
+            {"max_us", s.most}};
+}
+
+ordered_json json_of(const Incident& i) {
+    ordered_json j{{"host", i.host}, {"pid", i.pid}, {"how", i.how}, {"scenario_time_s", i.run_time}};
+    j["motors_off_after_ms"] = i.stopped_after_ms ? ordered_json(*i.stopped_after_ms) : ordered_json();
+    j["data_back_after_ms"] = i.back_after_ms ? ordered_json(*i.back_after_ms) : ordered_json();
+    return j;
+}
+
+ordered_json json_of(const RunResult& r, const std::vector<Judgement>& acceptance) {
+    ordered_json j{{"configuration", name_of(r.configuration)},
+                   {"scenario", r.scenario},
+                   {"seconds", r.seconds},
+                   {"ticks", r.rows.size()},
+                   {"complete", r.complete()}};
+    j["samples"] = {{"sent", r.samples.sent}, {"received", r.samples.received}, {"lost", r.samples.lost}};
+    if (!r.latencies.empty()) {
+        j["table1"] = json_of(statistics(table_samples(r.latencies)));
+        j["latency_us"] = {{"samples", r.latencies.size()},
+                           {"p50", percentile(r.latencies, 0.5)},
+                           {"p99", percentile(r.latencies, 0.99)},
+                           {"p99.9", percentile(r.latencies, 0.999)},
+                           {"max", percentile(r.latencies, 1.0)}};
+    }
+    if (!r.rows.empty()) {
+        const Row& last = r.rows.back();
+        j["final"] = {
+            {"x_m", last.x}, {"y_m", last.y}, {"heading_deg", last.heading * degrees}, {"state", last.state}};
+    }
+    j["acceptance"] = json_of(acceptance);
+    j["incidents"] = ordered_json::array();
+    for (const Incident& i : r.incidents) j["incidents"].push_back(json_of(i));
+    j["failures"] = r.failures;
+    return j;
+}
+
+std::string final_pose(const RunResult& r) {
+    if (r.rows.empty()) return "";
+    const Row& last = r.rows.back();
+    return fmt::format("{} {}: {} ticks, ends at x {:.3f} m, y {:.3f} m, heading {:.2f} deg\n",
+                       name_of(r.configuration), r.scenario, r.rows.size(), last.x, last.y,
+                       last.heading * degrees);
+}
+
+} // namespace
+
+bool Report::good() const {
+    for (const RunResult& r : runs)
+        if (!r.failures.empty() || !r.incidents.empty() || !r.complete()) return false;
+    return all_pass(pairs) &&
+           std::all_of(acceptance.begin(), acceptance.end(), [](const auto& list) { return all_pass(list); });
+}
+
+Report make_report(std::vector<RunResult> runs, const Options& options) {
+    Report report;
+    report.lockstep = options.lockstep;
+    for (const RunResult& r : runs) {
+        const bool step = r.scenario == "step20" && options.joystick_file.empty() && r.incidents.empty();
+        report.acceptance.push_back(step ? judge_step20(r.rows) : std::vector<Judgement>{});
+    }
+    for (std::size_t i = 0; runs.size() > 1 && i + 1 < runs.size(); ++i) {
+        const auto name =
+            fmt::format("{} - {}", name_of(runs.back().configuration), name_of(runs[i].configuration));
+        std::vector<Judgement> pair;
+        if (options.lockstep)
+            pair = judge_identical(name, runs.back().rows, runs[i].rows);
+        else if (runs[i].scenario == "step20")
+            pair = judge_alike(name, runs.back().rows, runs[i].rows);
+        report.pairs.insert(report.pairs.end(), pair.begin(), pair.end());
+    }
+    report.runs = std::move(runs);
+    return report;
+}
+
+std::string text_of(const Report& report) {
+    std::string out;
+    for (const RunResult& r : report.runs) out += final_pose(r);
+    std::vector<LatencyRow> latencies;
+    for (const RunResult& r : report.runs)
+        if (!r.latencies.empty()) latencies.push_back({name_of(r.configuration), r.latencies, r.samples});
+    if (!latencies.empty()) out += latency_tables(latencies);
+    for (std::size_t i = 0; i < report.runs.size(); ++i)
+        if (!report.acceptance[i].empty())
+            out += judgement_table("Step of 20 deg, " + name_of(report.runs[i].configuration),
+                                   report.acceptance[i]);
+    if (!report.pairs.empty())
+        out += judgement_table(report.lockstep ? "Lock-step logs" : "Difference of steering angles, 5..10 s",
+                               report.pairs);
+    return out;
+}
+
+void write_json(const std::string& path, const Report& report) {
+    ordered_json j{{"lockstep", report.lockstep}, {"good", report.good()}};
+    j["runs"] = ordered_json::array();
+    for (std::size_t i = 0; i < report.runs.size(); ++i)
+        j["runs"].push_back(json_of(report.runs[i], report.acceptance[i]));
+    j["pairs"] = json_of(report.pairs);
+    std::ofstream file(path, std::ios::binary);
+    file << j.dump(2) << '\n' << std::flush;
+    if (!file) throw InputError(path + ": cannot be written; give a file in a folder that exists");
+}
+
+} // namespace tandem::wheelchair

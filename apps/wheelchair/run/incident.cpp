@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/run/incident.hpp"
+
+namespace tandem::wheelchair {
+
+namespace {
+
+// A reference may still be under way when its sender's death is noticed; nobody restarts a host that fast.
+constexpr double in_flight = 0.020;
+
+const ControlRecord* last_reference(double until, const std::vector<ControlRecord>& control) {
+    for (auto r = control.rbegin(); r != control.rend(); ++r)
+        if (r->references_received > 0 && r->reference_read_at <= until) return &*r;
+    return nullptr;
+}
+
+const ControlRecord* next_reference(double after, const std::vector<ControlRecord>& control) {
+    const ControlRecord* found = nullptr;
+    for (auto r = control.rbegin(); r != control.rend() && r->reference_read_at > after; ++r)
+        if (r->references_received > 0) found = &*r;
+    return found;
+}
+
+} // namespace
+
+std::optional<double> stopped_after_ms(double died_at, const std::vector<HWRecord>& hw,
+                                       const std::vector<ControlRecord>& control) {
+    const ControlRecord* last = last_reference(died_at + in_flight, control);
+    if (!last) return {};
+    for (const HWRecord& r : hw)
+        if (r.applied_at > last->reference_read_at && r.volts_left == 0.0 && r.volts_right == 0.0)
+            return (r.applied_at - last->reference_read_at) * 1e3;
+    return {};
+}
+
+bool Incident::update(const std::vector<HWRecord>& hw, const std::vector<ControlRecord>& control) {
+    bool news = false;
+    if (!stopped_after_ms && !had_hw) {
+        stopped_after_ms = wheelchair::stopped_after_ms(at, hw, control);
+        news = stopped_after_ms.has_value();
+    }
+    if (!back_after_ms) {
+        if (const ControlRecord* back = next_reference(at + in_flight, control)) {
+            back_after_ms = (back->reference_read_at - (ready_again_at > 0.0 ? ready_again_at : at)) * 1e3;
+            news = true;
+        }
+    }
+    return news;
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/run/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "plugins/wheelchair/core/body/clock.hpp"
+
+namespace tandem::wheelchair {
+
+Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)) {
+    next_ = monotonic_seconds() + (terminal_ ? 0.5 : 10.0);
+}
+
+Progress::~Progress() { wipe(); }
+
+void Progress::wipe() {
+    if (visible_) fmt::print(stderr, "\r\033[K");
+    visible_ = false;
+    std::fflush(stderr);
+}
+
+void Progress::show(double seconds, double of) {
+    if (monotonic_seconds() < next_) return;
+    fmt::print(stderr, "{}wheelchair: {}, {:.1f} of {:.1f} s{}", terminal_ ? "\r\033[K" : "", what_, seconds,
+               of, terminal_ ? "" : "\n");
+    std::fflush(stderr);
+    visible_ = terminal_;
+    next_ = monotonic_seconds() + (terminal_ ? 0.2 : 10.0);
+}
+
+void Progress::say(const std::string& line) {
+    wipe();
+    fmt::print(stderr, "wheelchair: {}\n", line);
+    std::fflush(stderr);
+}
+
+} // namespace tandem::wheelchair

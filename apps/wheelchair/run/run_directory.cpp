@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/run/run_directory.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "apps/wheelchair/run/wiring.hpp"
+#include "plugins/wheelchair/core/record/scenario.hpp"
+
+namespace tandem::wheelchair {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path temporary_folder(const char* name) {
+    std::string pattern = (fs::temp_directory_path() / name).string() + "-XXXXXX";
+    if (!mkdtemp(pattern.data()))
+        throw InputError(pattern + ": cannot be made: " + std::strerror(errno) +
+                         "; set TMPDIR to a writable folder");
+    return pattern;
+}
+
+void write_file(const fs::path& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text << std::flush;
+    if (!file) throw InputError(path.string() + ": cannot be written");
+}
+
+constexpr const char* mark = "wheelchair-run"; // an empty file that says: this folder is ours
+
+/// A kept folder may hold an earlier run, which goes: its traces would be continued. Nothing else is ever
+/// removed.
+fs::path kept_folder(const fs::path& path) {
+    std::error_code error;
+    const bool ours = fs::exists(path / mark);
+    if (!ours && fs::exists(path) && !fs::is_empty(path, error))
+        throw InputError(path.string() +
+                         ": holds something else than an earlier run; give an empty or a new folder");
+    for (const char* part : {"opros", "rtm", "trace", "log"}) fs::remove_all(path / part, error);
+    fs::create_directories(path, error);
+    if (error) throw InputError(path.string() + ": cannot be made: " + error.message());
+    write_file(path / mark, "");
+    return path;
+}
+
+fs::path run_folder(const Options& options, Configuration configuration) {
+    if (options.keep.empty()) return temporary_folder("tandem-wheelchair");
+    return kept_folder(options.compare ? fs::path(options.keep) / name_of(configuration)
+                                       : fs::path(options.keep));
+}
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+using Parameters = std::vector<std::pair<std::string, std::string>>;
+
+Parameters adaptor_parameters(const std::string& link, const Options& o) {
+    return {{"link", link}, {"wait", fmt::format("{:g}", o.host_wait)}};
+}
+
+Parameters parameters_of(const std::string& member, const Options& o, const fs::path& run) {
+    Parameters p{{"scenario", load_scenario(o.scenario, o.joystick_file).name},
+                 {"joystick_file", o.joystick_file},
+                 {"clock", o.lockstep ? "simulated" : "monotonic"},
+                 {"trace", (run / "trace" / (member + ".trace")).string()}};
+    if (member == "ControlComp") p.emplace_back("poll_us", o.lockstep ? "0" : fmt::format("{:g}", o.poll_us));
+    return p;
+}
+
+std::string component_profile(const std::string& member) {
+    return member.ends_with("Adaptor") ? "AdaptorComp.xml" : member + ".xml";
+}
+
+std::string subcomponent(const Member& member, const Parameters& parameters) {
+    std::string xml = fmt::format(
+        "    <subcomponent type=\"atomic\">\n      <name>{}</name>\n      <reference>{}</reference>\n"
+        "      <properties>\n",
+        member.name, component_profile(member.name));
+    for (const auto& [name, value] : parameters)
+        xml += fmt::format("        <property name=\"{}\">{}</property>\n", name, escaped(value));
+    return xml + "      </properties>\n    </subcomponent>\n";
+}
+
+std::string port_connection(const Wire& w) {
+    return fmt::format("    <port_connection port_type=\"{}\">\n"
+                       "      <source component_name=\"{}\" port_name=\"{}\"/>\n"
+                       "      <target component_name=\"{}\" port_name=\"{}\"/>\n    </port_connection>\n",
+                       w.kind == Wire::data ? "data" : "service", w.from, w.from_port, w.to, w.to_port);
+}
+
+std::string list_setting(const char* key, const std::vector<std::string>& values) {
+    return values.empty() ? "" : fmt::format("{}: {}\n", key, fmt::join(values, ", "));
+}
+
+constexpr const char* rtc_conf_head =
+    "# Settings of rtm_host for one wheelchair run. No name service: the RTCs find each other in this "
+    "process.\n"
+    "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nmanager.shutdown_on_nortcs: NO\n"
+    "exec_cxt.periodic.rate: 100\n";
+
+} // namespace
+
+fs::path program_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+
+Folder::~Folder() {
+    std::error_code ignored; // a folder that cannot be removed must not hide the run's own outcome
+    if (!keep_) fs::remove_all(path_, ignored);
+}
+
+RunDirectory::RunDirectory(const Options& options, Configuration configuration, const fs::path& programs)
+    : folder_(run_folder(options, configuration), !options.keep.empty()),
+      sockets_(temporary_folder("tandem-step"), false) {
+    for (const Bridge& bridge : bridges(configuration))
+        links_[bridge.adaptor] = fmt::format("wheelchair-{}{}", getpid(), bridge.link_suffix);
+    for (const char* part : {"trace", "log"}) fs::create_directories(path() / part);
+    if (!opros_members(configuration).empty()) {
+        write_opros(options, configuration);
+        add_host(options, "opros_host", programs, {(path() / "opros" / "wheelchair.xml").string(), "--strict"});
+    }
+    if (!rtm_members(configuration).empty()) {
+        write_rtm(options, configuration);
+        add_host(options, "rtm_host", programs, {"-f", (path() / "rtm" / "rtc.conf").string()});
+    }
+}
+
+std::string RunDirectory::step_socket(const std::string& host) const {
+    return (sockets_.path() / host).string();
+}
+
+void RunDirectory::add_host(const Options& options, const std::string& name, const fs::path& programs,
+                            const std::vector<std::string>& profile) {
+    HostCommand host{name, {(programs / name).string()}, (path() / "log" / (name + ".log")).string()};
+    auto& c = host.command;
+    c.insert(c.end(), profile.begin(), profile.end());
+    c.push_back("--parent-death");
+    if (options.lockstep) c.insert(c.end(), {"--lockstep", step_socket(name)});
+    const int cpu = name == "opros_host" ? options.opros_cpu : options.rtm_cpu;
+    if (cpu >= 0) c.insert(c.end(), {"--cpu", std::to_string(cpu)});
+    c.insert(c.end(), options.host_arguments.begin(), options.host_arguments.end());
+    hosts_.push_back(std::move(host));
+}
+
+void RunDirectory::write_opros(const Options& options, Configuration configuration) {
+    fs::create_directories(path() / "opros");
+    std::string xml =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<package_profile>\n  <name>wheelchair</name>\n"
+        "  <!-- The component listed last starts first. -->\n  <subcomponents>\n";
+    const auto members = opros_members(configuration);
+    for (auto m = members.rbegin(); m != members.rend(); ++m)
+        xml += subcomponent(*m, links_.count(m->name) ? adaptor_parameters(links_.at(m->name), options)
+                                                      : parameters_of(m->name, options, path()));
+    xml += "  </subcomponents>\n  <port_connections>\n";
+    for (const auto& wire : opros_wires(configuration)) xml += port_connection(wire);
+    write_file(path() / "opros" / "wheelchair.xml", xml + "  </port_connections>\n</package_profile>\n");
+}
+
+void RunDirectory::write_rtm(const Options& options, Configuration configuration) {
+    fs::create_directories(path() / "rtm");
+    std::vector<std::string> modules, create, activate, connect;
+    std::string files;
+    for (const auto& member : rtm_members(configuration)) {
+        std::string conf;
+        for (const auto& [name, value] : parameters_of(member.name, options, path()))
+            conf += fmt::format("conf.default.{}: {}\n", name, value);
+        const auto file = path() / "rtm" / (member.name + "0.conf");
+        conf += fmt::format("exec_cxt.periodic.rate: 100\nexec_cxt.periodic.phase: {:g}\n"
+                            "exec_cxt.periodic.priority: {}\n",
+                            member.phase_ms, member.priority);
+        write_file(file, conf);
+        files += fmt::format("wheelchair.{}0.config_file: {}\n", member.name, file.string());
+        modules.push_back(member.name + ".so");
+        create.push_back(member.name);
+        activate.push_back(member.name + "0");
+    }
+    for (const auto& w : rtm_wires(configuration))
+        connect.push_back(fmt::format("{}0.{}?port={}0.{}", w.from, w.from_port, w.to, w.to_port));
+    if (!links_.empty()) {
+        modules.push_back("InterceptorComp.so");
+        activate.clear(); // each InterceptorComp activates its RTC, and itself, when its AdaptorComp starts
+    }
+    for (const Bridge& bridge : bridges(configuration))
+        create.push_back(
+            fmt::format("InterceptorComp?link={}&rtc={}", links_.at(bridge.adaptor), bridge.rtc));
+    std::string conf = rtc_conf_head + files;
+    conf += list_setting("manager.modules.preload", modules) +
+            list_setting("manager.components.precreate", create) +
+            list_setting("manager.components.preconnect", connect) +
+            list_setting("manager.components.preactivation", activate);
+    write_file(path() / "rtm" / "rtc.conf", conf);
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/wheelchair/run/supervisor.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <poll.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+
+#include "plugins/wheelchair/core/body/clock.hpp"
+#include "plugins/wheelchair/core/record/scenario.hpp"
+
+namespace tandem::wheelchair {
+
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto stop_grace = 5s;
+
+sigset_t ending_signals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (int s : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, s);
+    return set;
+}
+
+struct Started {
+    ChildProcess process;
+    Fd output;
+};
+
+std::streamoff size_of(const std::string& path) {
+    std::ifstream file(path, std::ios::ate);
+    return file ? static_cast<std::streamoff>(file.tellg()) : 0;
+}
+
+Started start_process(const std::vector<std::string>& command, const std::string& log) {
+    const Fd errors(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
+    if (errors.get() < 0) throw InputError(log + ": cannot be written: " + std::strerror(errno));
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw InputError(std::string("no pipe to a host: ") + std::strerror(errno));
+    Fd ours(ends[0]), theirs(ends[1]);
+    fcntl(ours.get(), F_SETFL, O_NONBLOCK);
+    return {ChildProcess(command, {-1, theirs.get(), errors.get(), ""}), std::move(ours)};
+}
+
+std::string quoted(const std::string& word) {
+    const bool plain = word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                              "_-./:=,+@%") == word.npos;
+    if (plain && !word.empty()) return word;
+    std::string out;
+    for (char c : word) {
+        if (c == '\'') out += "'\\'";
+        out += c;
+    }
+    return fmt::format("'{}'", out);
+}
+
+} // namespace
+
+std::string Host::command_line() const {
+    std::vector<std::string> words;
+    for (const auto& word : command)
+        if (word != "--parent-death") words.push_back(quoted(word));
+    return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::string Host::complaint() const {
+    std::ifstream file(log);
+    file.seekg(log_start);
+    std::string last;
+    for (std::string line; std::getline(file, line);) {
+        if (line.find("error") != line.npos) return line;
+        if (!line.empty()) last = line;
+    }
+    return last;
+}
+
+Supervisor::Supervisor() {
+    const auto set = ending_signals();
+    sigprocmask(SIG_BLOCK, &set, nullptr);
+    signals_ = Fd(signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+Supervisor::~Supervisor() {
+    for (auto host = hosts_.rbegin(); host != hosts_.rend(); ++host) stop(*host);
+    const auto set = ending_signals();
+    sigprocmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+Host& Supervisor::start(const std::string& name, const std::vector<std::string>& command,
+                        const std::string& log) {
+    const auto log_start = size_of(log);
+    auto started = start_process(command, log);
+    hosts_.push_back({name, command, log, log_start, std::move(started.process), std::move(started.output)});
+    return hosts_.back();
+}
+
+void Supervisor::restart(Host& host) {
+    host.log_start = size_of(host.log);
+    auto started = start_process(host.command, host.log);
+    host.process = std::move(started.process);
+    host.output = std::move(started.output);
+    host.unread.clear();
+    host.ready_at = 0.0;
+    host.ended = false;
+}
+
+void Supervisor::read_output(Host& host, News& news) {
+    char buffer[4096];
+    for (ssize_t n; (n = read(host.output.get(), buffer, sizeof buffer)) > 0;) {
+        host.unread.append(buffer, static_cast<std::size_t>(n));
+        for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
+            if (host.unread.substr(0, end) == "ready" && !host.ready()) {
+                host.ready_at = monotonic_seconds();
+                news.became_ready.push_back(&host);
+            }
+            host.unread.erase(0, end + 1);
+        }
+        if (host.unread.size() > sizeof buffer) host.unread.clear(); // no line of ours is that long
+    }
+}
+
+Supervisor::News Supervisor::watch(std::chrono::milliseconds bound) {
+    std::vector<pollfd> events{{signals_.get(), POLLIN, 0}};
+    for (Host& host : hosts_) {
+        if (!host.running()) continue;
+        events.push_back({host.process.pidfd(), POLLIN, 0});
+        if (!host.ready()) events.push_back({host.output.get(), POLLIN, 0});
+    }
+    poll(events.data(), events.size(), static_cast<int>(bound.count()));
+    News news;
+    signalfd_siginfo info{};
+    while (read(signals_.get(), &info, sizeof info) == sizeof info) news.interrupted = true;
+    for (Host& host : hosts_) {
+        if (!host.running()) continue;
+        read_output(host, news);
+        if (!host.process.poll()) continue;
+        host.ended = true;
+        news.ended.push_back(&host);
+    }
+    return news;
+}
+
+void Supervisor::wait_until_ready(double seconds) {
+    const double end = monotonic_seconds() + seconds;
+    for (;;) {
+        const Host* missing = nullptr;
+        for (const Host& host : hosts_)
+            if (!host.ready()) missing = &host;
+        if (!missing) return;
+        if (monotonic_seconds() > end)
+            throw InputError(
+                fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more with --host-wait",
+                            missing->name, missing->process.pid(), seconds,
+                            missing->complaint().empty() ? "" : ", it said: ", missing->complaint()));
+        const auto news = watch(50ms);
+        if (news.interrupted) throw Interrupted();
+        for (Host* host : news.ended)
+            throw InputError(fmt::format("{} (pid {}) {} before it was ready: {}", host->name,
+                                         host->process.pid(), host->process.poll()->text(),
+                                         host->complaint()));
+    }
+}
+
+bool Supervisor::stop(Host& host) {
+    if (!host.running()) return false;
+    const auto& ended = host.process.stop(stop_grace);
+    host.ended = true;
+    return ended && !ended->signalled && ended->code == 0;
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/opros/engine/connect/link.hpp"
+
+#include <InputDataPortInterface.h>
+#include <OutputDataPortInterface.h>
+
+namespace tandem::engine {
+
+/// From one output data port to one input data port: a push is a push at the destination, in the same thread.
+class DataLink : public Link, public IDataPortLink {
+  public:
+    /// The caller has checked the types.
+    DataLink(OutputDataPortInterface& source, InputDataPortInterface& destination)
+        : source_(source), destination_(&destination) {
+        source_.addConnection(this);
+    }
+    ~DataLink() override { source_.removeConnection(this); }
+
+    ReturnType push(opros_any& data) override {
+        return destination_ ? destination_->push(data) : OPROS_SUCCESS;
+    }
+    ReturnType setSource(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType addDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType addDestination(RemoteDataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType removeDestination(DataPort* dest) override {
+        if (dest == destination_) destination_ = nullptr;
+        return OPROS_SUCCESS;
+    }
+    ReturnType removeDestination(RemoteDataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType clearDestination() override { return removeDestination(destination_); }
+    ReturnType clearSource() override { return OPROS_UNSUPPORTED_METHOD; }
+
+  private:
+    OutputDataPortInterface& source_;
+    DataPort* destination_;
+};
+
+} // namespace tandem::engine

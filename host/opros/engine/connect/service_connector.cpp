@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/connect/service_connector.hpp"
+
+#include <MethodInvokeException.h>
+
+namespace tandem::engine {
+namespace {
+
+class Connector : public ServicePortConnector {
+  public:
+    Connector(ProvidedServicePort& provided, ComponentHost& provider)
+        : provided_(provided), provider_(provider) {}
+    ReturnType responseService(std::string&, std::string&, std::string&) override {
+        return OPROS_UNSUPPORTED_METHOD;
+    }
+
+  protected:
+    ProvidedServicePort& provided_;
+    ComponentHost& provider_;
+};
+
+class DirectConnector : public Connector {
+  public:
+    using Connector::Connector;
+    ReturnType requestService(const std::string& name, std::vector<opros_params>& params,
+                              opros_params& result, int) override {
+        std::string method = name;
+        const ReturnType code = provided_.callService(method, params, result);
+        if (code == OPROS_SUCCESS) return code;
+        throw MethodInvokeException("call of " + provider_.name() + "'s " + name + " failed with code " +
+                                    std::to_string(code));
+    }
+};
+
+class WorkerConnector : public Connector {
+  public:
+    WorkerConnector(ProvidedServicePort& provided, ComponentHost& provider, Worker& worker)
+        : Connector(provided, provider), worker_(worker) {}
+
+    ReturnType requestService(const std::string& name, std::vector<opros_params>& params, opros_params&,
+                              int) override {
+        const bool taken = worker_.submit([this, method = name, params]() mutable {
+            if (!provider_.active()) return;
+            provider_.guarded(method.c_str(), [&] {
+                opros_params none;
+                provided_.callService(method, params, none);
+            });
+        });
+        if (taken) return OPROS_SUCCESS;
+        throw MethodInvokeException("call of " + provider_.name() + "'s " + name +
+                                    ": too many calls are waiting");
+    }
+
+  private:
+    Worker& worker_;
+};
+
+} // namespace
+
+std::unique_ptr<ServicePortConnector> direct_connector(ProvidedServicePort& provided,
+                                                       ComponentHost& provider) {
+    return std::make_unique<DirectConnector>(provided, provider);
+}
+
+std::unique_ptr<ServicePortConnector> worker_connector(ProvidedServicePort& provided, ComponentHost& provider,
+                                                       Worker& worker) {
+    return std::make_unique<WorkerConnector>(provided, provider, worker);
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/execute/component_host.hpp"
+
+#include "host/opros/engine/load/load_component.hpp"
+#include "host/rt/periodic_tick.hpp"
+
+#include <MethodInvokeException.h>
+#include <algorithm>
+#include <dlfcn.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+namespace tandem::engine {
+namespace {
+
+// The common ones are decimal, those of device components hexadecimal in their definitions.
+std::string code_text(ReturnType code) {
+    return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
+}
+
+// What repeats in every cycle is told ever more rarely: 1, 2, 4, 8, ...
+bool is_worth_telling(std::uint64_t count) { return (count & (count - 1)) == 0; }
+
+/// Says for the time of its life what the component is busy with.
+class Busy {
+  public:
+    Busy(std::atomic<const char*>& place, const char* what) : place_(place), before_(place.exchange(what)) {}
+    ~Busy() { place_ = before_; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+  private:
+    std::atomic<const char*>& place_;
+    const char* before_;
+};
+
+} // namespace
+
+ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
+                             const std::vector<std::filesystem::path>& dirs,
+                             const std::optional<plugin::Probe>& probe)
+    : name_(entry.name), profile_(std::move(profile)) {
+    auto loaded = load_component(profile_, dirs, probe);
+    library_ = std::move(loaded.library);
+    component_ = std::move(loaded.component);
+    component_->setId(name_);
+    give_properties(*component_, profile_, entry.properties, dirs);
+}
+
+std::string ComponentHost::fail(const char* what, const std::string& why) {
+    const std::string text = "component " + name_ + ": " + what + " threw an exception: " + why;
+    spdlog::error("{}; it goes to ERROR, the others go on", text);
+    error_reported_ = true;
+    try {
+        component_->stopOnError();
+    } catch (const std::exception& error) {
+        spdlog::error("component {}: onError threw an exception, too: {}", name_, error.what());
+    } catch (...) {
+        spdlog::error("component {}: onError threw an exception of unknown type, too", name_);
+    }
+    return text;
+}
+
+std::string ComponentHost::guarded(const char* what, const std::function<void()>& code) {
+    const Busy busy(busy_with_, what);
+    try {
+        code();
+        return "";
+    } catch (const MethodInvokeException& error) {
+        // A service that fails now may work in the next cycle: the real engine, too, leaves the component
+        // ACTIVE.
+        if (is_worth_telling(++failed_calls_))
+            spdlog::warn("component {}: {}: {} ({} so far)", name_, what, error.what(), failed_calls_.load());
+        return "";
+    } catch (const std::exception& error) {
+        return fail(what, error.what());
+    } catch (...) {
+        return fail(what, "of unknown type");
+    }
+}
+
+bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::*step)()) {
+    ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
+    dlerror(); // device components ask it after their dlsym(), and would take what others have left there for
+               // theirs
+    std::string why;
+    const std::string thrown = guarded(what, [&] {
+        try {
+            result = (component_.get()->*step)();
+            why = "its callback returned code " + code_text(component_->getErrorInfo());
+        } catch (const MethodInvokeException& error) {
+            why = std::string("its callback made a call that failed: ") + error.what();
+        }
+    });
+    if (thrown.empty() && result == OPROS_SUCCESS) return true;
+    if (thrown.empty()) spdlog::error("component {}: {} failed, {}", name_, what, why);
+    return false;
+}
+
+void ComponentHost::initialize() {
+    initialized_ = lifecycle("initialize", &LifecycleInterface::initialize);
+    if (initialized_)
+        set_up_inputs();
+    else
+        take_out();
+}
+
+void ComponentHost::start() {
+    if (!failed_ && !lifecycle("start", &LifecycleInterface::start)) take_out();
+}
+
+void ComponentHost::take_out() {
+    failed_ = error_reported_ = true;
+    lifecycle("fail", &LifecycleInterface::fail);
+}
+
+// What the code has chosen counts, and a profile often lists ports that the code does not have.
+void ComponentHost::set_up_inputs() {
+    for (const std::string& name : component_->getPortNames(OPROS_DATA)) {
+        auto* input = dynamic_cast<InputDataPortInterface*>(component_->getPort(name));
+        if (!input) continue;
+        for (const DataPortProfile& port : profile_.data_ports)
+            if (port.name == name && port.queue) input->setQueue(port.queue->policy, port.queue->size);
+        input->setListener(&arrival_);
+        inputs_.push_back(input);
+    }
+}
+
+std::size_t ComponentHost::values_waiting() const {
+    std::size_t sum = 0;
+    for (InputDataPortInterface* input : inputs_) sum += static_cast<std::size_t>(input->getSize());
+    return sum;
+}
+
+bool ComponentHost::has_sources() const {
+    return std::any_of(inputs_.begin(), inputs_.end(), [](const auto* input) { return input->hasSources(); });
+}
+
+void ComponentHost::stop() {
+    if (active()) lifecycle("stop", &LifecycleInterface::stop);
+}
+
+void ComponentHost::destroy() {
+    if (initialized_ && component_->getStatus() != OPROS_CS_DESTROYED)
+        lifecycle("destroy", &LifecycleInterface::destroy);
+}
+
+void ComponentHost::release() {
+    const Busy busy(busy_with_, "its destructor");
+    component_.reset();
+}
+
+void ComponentHost::unload() {
+    const Busy busy(busy_with_, "its static destructors");
+    library_.reset();
+}
+
+// Real components return errors for passing conditions such as no input, and the real engine takes no notice:
+// so it is said once, and the component stays ACTIVE.
+void ComponentHost::report_code(const char* what, ReturnType code, ReturnType& last) {
+    if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
+        code != OPROS_UNSUPPORTED_METHOD)
+        spdlog::warn("component {}: {} returns code {}", name_, what, code_text(code));
+    last = code;
+}
+
+void ComponentHost::report_broken() {
+    const bool broken = component_->getStatus() == OPROS_CS_ERROR;
+    if (broken && !error_reported_) spdlog::error("component {} has gone to ERROR by itself", name_);
+    error_reported_ = broken;
+}
+
+std::string ComponentHost::execute(bool rehearsal) {
+    if (!active()) {
+        if (!rehearsal) report_broken();
+        return "";
+    }
+    return guarded("onExecute", [this, rehearsal] {
+        if (rehearsal) return rt::bring_into_caches(*component_);
+        report_code("onExecute", component_->onExecute(), last_execute_);
+    });
+}
+
+std::string ComponentHost::update() {
+    if (!active()) return "";
+    return guarded("onUpdated", [this] { report_code("onUpdated", component_->onUpdated(), last_update_); });
+}
+
+void ComponentHost::depends_on(ComponentHost& target) {
+    const std::uint64_t bit = needed_triggers_ + 1; // the lowest bit not yet in use
+    if (bit == 0)
+        throw SetupError(profile_.place, "component '" + name_ + "' depends on more than 64 others");
+    needed_triggers_ |= bit;
+    target.followers_.emplace_back(this, bit);
+}
+
+void ComponentHost::fired() {
+    for (auto& [follower, bit] : followers_) {
+        follower->triggers_.fetch_or(bit, std::memory_order_acq_rel);
+        follower->arrival_.arrived();
+    }
+}
+
+bool ComponentHost::take_triggers() {
+    if (needed_triggers_ == 0) return true;
+    std::uint64_t all = needed_triggers_;
+    return triggers_.compare_exchange_strong(all, 0, std::memory_order_acq_rel);
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// One component of the application: its library, its instance and its profile. Whatever the component throws
+// ends here.
+#pragma once
+
+#include "host/opros/engine/execute/arrival.hpp"
+#include "host/opros/engine/profile/profile.hpp"
+#include "host/plugin/library.hpp"
+#include "host/plugin/probe.hpp"
+
+#include <Component.h>
+#include <InputDataPortInterface.h>
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tandem::engine {
+
+class ComponentHost {
+  public:
+    /// Loads the library and makes the instance. Throws SetupError.
+    ComponentHost(const Subcomponent& entry, ComponentProfile profile,
+                  const std::vector<std::filesystem::path>& dirs,
+                  const std::optional<plugin::Probe>& probe = std::nullopt);
+
+    const std::string& name() const { return name_; }
+    const ComponentProfile& profile() const { return profile_; }
+    Component& component() { return *component_; }
+    const std::shared_ptr<plugin::Library>& library() const { return library_; }
+    bool active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
+    /// Initialisation or start has failed: the component takes no part.
+    bool failed() const { return failed_; }
+
+    /// Life-cycle steps. A failure is logged in one line and the component goes to ERROR; the others go on.
+    void initialize();
+    void start();
+    void stop();
+    void destroy();
+    /// Ends the instance; then lets go of the library. Nothing of the component may be used any more.
+    void release();
+    void unload();
+
+    /// [executor] The two passes of a cycle; nothing happens unless the component is ACTIVE. An exception
+    /// puts it in ERROR and comes back as text, empty otherwise.
+    /// A rehearsal (rt::TickOptions) goes the same way, but calls nothing of the component.
+    std::string execute(bool rehearsal = false);
+    std::string update();
+
+    /// Runs the component's own code from any thread of the engine, under the same rule.
+    std::string guarded(const char* what, const std::function<void()>& code);
+
+    /// The call-back that the component is in, of a thread that has come in last; NULL when it is in none.
+    const char* busy_with() const { return busy_with_; }
+
+    /// [executor] What has come for the component. Ports count from the time of initialize().
+    Arrival& arrival() { return arrival_; }
+    std::size_t values_waiting() const;
+    bool has_sources() const;
+
+    /// Cycles of these components must come before each of ours: fired() is theirs, take_triggers() ours.
+    /// Throws SetupError when there are more than 64.
+    void depends_on(ComponentHost& target);
+    void fired();
+    bool take_triggers();
+
+  private:
+    bool lifecycle(const char* what, ReturnType (LifecycleInterface::*step)());
+    std::string fail(const char* what, const std::string& why);
+    void report_code(const char* what, ReturnType code, ReturnType& last);
+    void report_broken();
+    void set_up_inputs();
+    void take_out();
+
+    std::string name_;
+    ComponentProfile profile_;
+    std::shared_ptr<plugin::Library> library_;
+    std::shared_ptr<Component> component_;
+    Arrival arrival_;
+    std::vector<InputDataPortInterface*> inputs_;
+    std::atomic<const char*> busy_with_{nullptr};
+    std::atomic<bool> failed_{false};
+    bool initialized_ = false;
+    bool error_reported_ = false;
+    std::atomic<std::uint64_t> failed_calls_{0};
+    ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
+    std::uint64_t needed_triggers_ = 0;
+    std::atomic<std::uint64_t> triggers_{0};
+    std::vector<std::pair<ComponentHost*, std::uint64_t>> followers_;
+};
+
+} // namespace tandem::engine

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/execute/executor.hpp"
+
+#include "host/rt/thread.hpp"
+
+#include <algorithm>
+#include <map>
+#include <spdlog/spdlog.h>
+#include <tuple>
+
+namespace tandem::engine {
+
+std::string run_cycle(const std::vector<ComponentHost*>& components) {
+    std::string first;
+    for (ComponentHost* component : components) {
+        const bool active = component->active();
+        if (active && !component->take_triggers()) continue;
+        if (std::string text = component->execute(); !text.empty() && first.empty()) first = std::move(text);
+        if (active) component->fired();
+    }
+    for (ComponentHost* component : components)
+        if (std::string text = component->update(); !text.empty() && first.empty()) first = std::move(text);
+    return first;
+}
+
+Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options)
+    : components_(std::move(components)), options_(options),
+      pace_(make_pace(*components_.front(), options.spin, [this] {
+          for (ComponentHost* component : components_) component->execute(true);
+      })) {}
+
+Executor::~Executor() {
+    pace_->interrupt();
+    if (thread_.joinable()) thread_.join();
+}
+
+void Executor::start() {
+    if (thread_.joinable()) return;
+    std::packaged_task<void()> task([this] { run(); });
+    end_ = task.get_future();
+    thread_ = std::thread(std::move(task));
+}
+
+bool Executor::ends_within(std::chrono::nanoseconds grace) {
+    pace_->interrupt();
+    return !end_.valid() || end_.wait_for(grace) == std::future_status::ready;
+}
+
+bool Executor::runs(const ComponentHost& component) const {
+    return std::find(components_.begin(), components_.end(), &component) != components_.end();
+}
+
+std::string Executor::stats() const {
+    std::string names;
+    for (const ComponentHost* component : components_)
+        names += (names.empty() ? "" : ", ") + component->name();
+    return "executor of " + names + ": " + pace_->stats();
+}
+
+void Executor::run() {
+    const ComponentProfile& profile = components_.front()->profile();
+    rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
+    // A loop without pauses at a real-time priority would take a processor from everybody else.
+    if (profile.scheduling != Scheduling::other && profile.execution != Execution::aperiodic_loop) {
+        options.fifo_priority = profile.priority;
+        options.round_robin = profile.scheduling == Scheduling::round_robin;
+    }
+    for (const std::string& notice : rt::set_up_this_thread(options)) spdlog::info("{}", notice);
+    while (pace_->wait()) run_cycle(components_);
+}
+
+std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,
+                                                      const ExecutorOptions& options) {
+    std::vector<std::vector<ComponentHost*>> groups;
+    std::map<std::tuple<std::int64_t, std::int64_t, Scheduling, int>, std::size_t> shared;
+    for (ComponentHost* component : components) {
+        const ComponentProfile& profile = component->profile();
+        if (component->failed() || profile.execution == Execution::passive) continue;
+        if (profile.execution == Execution::periodic_shared) {
+            const auto [entry, added] = shared.try_emplace(
+                {profile.period.count(), profile.phase.count(), profile.scheduling, profile.priority},
+                groups.size());
+            if (!added) {
+                groups[entry->second].push_back(component);
+                continue;
+            }
+        }
+        groups.push_back({component});
+    }
+    std::vector<std::unique_ptr<Executor>> executors;
+    for (auto& group : groups) executors.push_back(std::make_unique<Executor>(std::move(group), options));
+    return executors;
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/profile/xml_file.hpp"
+
+#include "host/opros/engine/profile/encoding.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+namespace tandem::engine {
+namespace {
+
+std::string tag(const char* name) { return std::string("<").append(name).append(">"); }
+
+std::string read_all(const std::filesystem::path& file) {
+    const auto fail = [&](const std::string& why) {
+        throw SetupError("profile " + file.string() + " cannot be read: " + why);
+    };
+    std::error_code error;
+    const auto status = std::filesystem::status(file, error);
+    if (status.type() == std::filesystem::file_type::not_found) fail("no such file");
+    if (error) fail(error.message());
+    if (!std::filesystem::is_regular_file(status)) fail("it is not a file");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) fail("permission denied");
+    std::string bytes(max_profile_bytes + 1, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    if (bytes.size() > max_profile_bytes)
+        fail("it has more than " + std::to_string(max_profile_bytes) + " bytes, which no profile needs");
+    return bytes;
+}
+
+} // namespace
+
+XmlFile::XmlFile(const std::filesystem::path& file) : XmlFile(file, read_all(file)) {}
+
+XmlFile::XmlFile(const std::filesystem::path& file, std::string_view bytes)
+    : file_(file), text_(to_utf8(bytes)) {
+    for (std::size_t i = 0; i < text_.size(); ++i)
+        if (text_[i] == '\n') line_ends_.push_back(i);
+    if (const auto zero = text_.find('\0'); zero != std::string::npos)
+        throw SetupError({file_, line_at(static_cast<std::ptrdiff_t>(zero))},
+                         "not well-formed XML: there is a zero byte");
+    const auto result = document_.load_buffer(text_.data(), text_.size(),
+                                              pugi::parse_default | pugi::parse_doctype, pugi::encoding_utf8);
+    if (!result)
+        throw SetupError({file_, line_at(result.offset)},
+                         std::string("not well-formed XML: ") + result.description());
+    refuse_entities();
+}
+
+// Nobody expands them here. A file that declares some does not say what its author thinks it does, or is
+// meant to fill the memory of its reader.
+void XmlFile::refuse_entities() const {
+    for (const pugi::xml_node& node : document_.children())
+        if (node.type() == pugi::node_doctype &&
+            std::string_view(node.value()).find("<!ENTITY") != std::string_view::npos)
+            fail(node,
+                 "the document type declares entities, expected plain XML; write their text in their place");
+}
+
+int XmlFile::line_at(std::ptrdiff_t offset) const {
+    const auto position = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
+    const auto before = std::lower_bound(line_ends_.begin(), line_ends_.end(), position);
+    return 1 + static_cast<int>(before - line_ends_.begin());
+}
+
+Place XmlFile::place(const pugi::xml_node& node) const { return {file_, line_at(node.offset_debug())}; }
+
+void XmlFile::fail(const pugi::xml_node& node, const std::string& what) const {
+    throw SetupError(place(node), what);
+}
+
+pugi::xml_node XmlFile::root(std::initializer_list<const char*> names) const {
+    const pugi::xml_node root = document_.document_element();
+    std::string expected;
+    for (const char* name : names) {
+        if (std::string(root.name()) == name) return root;
+        expected.append(expected.empty() ? "" : " or ").append(tag(name));
+    }
+    fail(root, "root element is " + tag(root.name()) + ", expected " + expected);
+}
+
+std::string XmlFile::file_name(std::string text) {
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+}
+
+std::string XmlFile::trimmed(std::string_view text) {
+    const char* blank = " \t\r\n";
+    const auto first = text.find_first_not_of(blank);
+    if (first == std::string_view::npos) return "";
+    return std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
+}
+
+std::string XmlFile::word(std::string_view text) {
+    std::string word = trimmed(text);
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return word;
+}
+
+std::string XmlFile::text(const pugi::xml_node& node, const char* child) {
+    return trimmed(node.child(child).child_value());
+}
+
+std::string XmlFile::required_text(const pugi::xml_node& node, const char* child) const {
+    std::string value = text(node, child);
+    if (value.empty())
+        fail(node.child(child) ? node.child(child) : node, tag(node.name()) + " lacks its " + tag(child));
+    return value;
+}
+
+std::string XmlFile::required_attribute(const pugi::xml_node& node, const char* name) const {
+    std::string value = trimmed(node.attribute(name).value());
+    if (value.empty()) fail(node, tag(node.name()) + " lacks its attribute " + name);
+    return value;
+}
+
+double XmlFile::number(const pugi::xml_node& element, double otherwise) const {
+    const std::string value = trimmed(element.child_value());
+    if (value.empty()) return otherwise;
+    double number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    if (error != std::errc() || end != value.data() + value.size() || !std::isfinite(number))
+        fail(element, tag(element.name()) + " is '" + value + "', expected a number");
+    return number;
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/opros/engine/profile/profile.hpp"
+
+#include <initializer_list>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tandem::engine {
+
+/// No profile is larger: those of real components have 1 to 10 KB.
+constexpr std::size_t max_profile_bytes = 1 << 20;
+
+/// An XML file with its line numbers, in any encoding that it declares. Every complaint is a SetupError with
+/// the place.
+class XmlFile {
+  public:
+    explicit XmlFile(const std::filesystem::path& file);
+    /// The bytes of a file, as they lie in it.
+    XmlFile(const std::filesystem::path& file, std::string_view bytes);
+
+    /// The root element, which must have one of these names.
+    pugi::xml_node root(std::initializer_list<const char*> names) const;
+    pugi::xml_node root() const { return document_.document_element(); }
+    Place place(const pugi::xml_node& node) const;
+    [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const;
+
+    /// Profiles come from Windows: its backslashes separate folders.
+    static std::string file_name(std::string text);
+    static std::string trimmed(std::string_view text);
+    /// A word that a profile chooses from a few: trimmed, in lower case.
+    static std::string word(std::string_view text);
+    /// Text of the child element, trimmed; empty when there is none.
+    static std::string text(const pugi::xml_node& node, const char* child);
+    std::string required_text(const pugi::xml_node& node, const char* child) const;
+    std::string required_attribute(const pugi::xml_node& node, const char* name) const;
+    /// The element's number, or the default when it is absent or empty. Finite.
+    double number(const pugi::xml_node& element, double otherwise) const;
+    double number(const pugi::xml_node& node, const char* child, double otherwise) const {
+        return number(node.child(child), otherwise);
+    }
+
+  private:
+    int line_at(std::ptrdiff_t offset) const;
+    void refuse_entities() const;
+
+    std::filesystem::path file_;
+    std::string text_;
+    std::vector<std::size_t> line_ends_;
+    pugi::xml_document document_;
+};
+
+} // namespace tandem::engine

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// opros_host: runs an OPRoS application until it is told to stop.
+#include "host/opros/engine/application.hpp"
+#include "host/opros/engine/execute/bounded.hpp"
+#include "host/opros/program/ending.hpp"
+#include "host/opros/engine/load/plugin_path.hpp"
+#include "host/opros/engine/load/probe_component.hpp"
+#include "host/plugin/probe_switches.hpp"
+#include "host/rt/leave.hpp"
+#include "host/rt/switches.hpp"
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace {
+
+using tandem::engine::ApplicationOptions;
+
+struct Options {
+    std::filesystem::path application;
+    ApplicationOptions host;
+    tandem::rt::Switches switches;
+    tandem::plugin::ProbeSwitches probe;
+    double grace_s = 10;
+    bool stats = false;
+};
+
+void declare(CLI::App& cli, Options& options) {
+    cli.add_option("application", options.application, "Application profile (XML)")->required();
+    cli.add_option("--plugin-path", options.host.plugin_dirs, "Folder with component libraries (repeatable)")
+        ->allow_extra_args(false);
+    cli.add_option("--lockstep", options.host.lockstep_socket,
+                   "Step components through this socket, no executors");
+    cli.add_flag("--strict", options.host.strict,
+                 "Do not run without a component that fails to load, initialize or start, or a connection");
+    cli.add_option("--grace", options.grace_s,
+                   "Seconds that the end waits for a component that does not come back")
+        ->check(CLI::Range(0.01, 3600.));
+    cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
+    tandem::plugin::declare(cli, options.probe);
+    tandem::rt::declare(cli, options.switches);
+}
+
+sigset_t ending_signals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+    return signals;
+}
+
+int run(Options options) {
+    const sigset_t signals = ending_signals();
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
+    for (const auto& notice : tandem::rt::apply(options.switches)) spdlog::warn("{}", notice);
+    tandem::engine::Ending ending(signals, options.host.grace);
+    options.host.busy_with = [&ending](const std::string& component, const char* step) {
+        ending.busy_with(component, step);
+    };
+    const tandem::rt::SuddenExit sudden_exit;
+    tandem::engine::Application application(options.application, options.host);
+    application.start();
+    std::cout << "ready" << std::endl;
+    ending.wait();
+    application.end();
+    if (options.stats)
+        for (const std::string& line : application.stats()) std::cout << line << "\n";
+    application.unload();
+    if (!application.stuck().empty()) tandem::rt::leave(1);
+    if (const auto loaded = application.still_loaded(); !loaded.empty())
+        tandem::rt::bound_exit(options.host.grace,
+                               fmt::format("opros_host: component {} does not come back from its static "
+                                           "destructors within {} s; the host ends without it",
+                                           fmt::join(loaded, " or "), options.grace_s));
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    tandem::plugin::serve_probe(argc, argv, {{tandem::engine::probe_load, tandem::engine::try_component}});
+    spdlog::set_default_logger(spdlog::stderr_logger_mt("opros_host"));
+    spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
+    Options options;
+    CLI::App cli("Runs an OPRoS application: its components, from their libraries and profiles.");
+    declare(cli, options);
+    CLI11_PARSE(cli, argc, argv);
+    options.host.probe = options.probe.probe();
+    options.host.grace = std::chrono::nanoseconds(static_cast<std::int64_t>(options.grace_s * 1e9));
+    options.host.executors.cpu = options.switches.cpu;
+    options.host.executors.spin = options.switches.tick_spin();
+    try {
+        const auto dirs = tandem::engine::default_plugin_dirs();
+        options.host.plugin_dirs.insert(options.host.plugin_dirs.end(), dirs.begin(), dirs.end());
+        return run(options);
+    } catch (const std::exception& error) {
+        std::cerr << "opros_host: " << error.what() << std::endl;
+        if (tandem::engine::work_goes_on()) tandem::rt::leave(1);
+        return 1;
+    }
+}

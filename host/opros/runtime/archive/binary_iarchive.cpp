@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/archive/bytes_left.hpp"
+
+#include <archive/opros_binary_iarchive.h>
+
+#include <cstdint>
+
+namespace opros::archive {
+
+template <typename T>
+T binary_iarchive::get_bytes() {
+    T value;
+    m_is->read(reinterpret_cast<char*>(&value), sizeof value);
+    if (m_is->gcount() != static_cast<std::streamsize>(sizeof value)) throw archive_format_exception();
+    return value;
+}
+
+void binary_iarchive::expect(char code) {
+    if (get_bytes<char>() != code) throw archive_type_exception();
+}
+
+template <typename T>
+iarchive& binary_iarchive::get(char code, T& value) {
+    if (!m_bare) {
+        expect(code);
+        if (get_bytes<char>() != static_cast<char>(sizeof value)) throw archive_type_exception();
+    }
+    value = get_bytes<T>();
+    return *this;
+}
+
+iarchive& binary_iarchive::load(bool& value) {
+    char digit = '0';
+    get(BOOL_CODE, digit);
+    value = digit != '0';
+    return *this;
+}
+
+#define OPROS_LOAD_NUMBER(type)                                                                              \
+    iarchive& binary_iarchive::load(type& value) { return get(type_code(&value), value); }
+OPROS_LOAD_NUMBER(char)
+OPROS_LOAD_NUMBER(signed char)
+OPROS_LOAD_NUMBER(unsigned char)
+OPROS_LOAD_NUMBER(wchar_t)
+OPROS_LOAD_NUMBER(short)
+OPROS_LOAD_NUMBER(unsigned short)
+OPROS_LOAD_NUMBER(int)
+OPROS_LOAD_NUMBER(unsigned int)
+OPROS_LOAD_NUMBER(long)
+OPROS_LOAD_NUMBER(unsigned long)
+OPROS_LOAD_NUMBER(long long)
+OPROS_LOAD_NUMBER(unsigned long long)
+OPROS_LOAD_NUMBER(float)
+OPROS_LOAD_NUMBER(double)
+OPROS_LOAD_NUMBER(long double)
+
+void binary_iarchive::get_blob(std::string& bytes) {
+    expect(BINARY_CODE);
+    expect(static_cast<char>(sizeof(long)));
+    bytes.resize(checked(*m_is, get_bytes<unsigned long>()));
+    m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
+}
+
+iarchive& binary_iarchive::load_binary(char** p, long& size) {
+    std::string bytes;
+    get_blob(bytes);
+    give_bytes(bytes, p, size);
+    return *this;
+}
+
+iarchive& binary_iarchive::load(std::string& value) {
+    read_class_head("std::string");
+    unsigned long length = 0;
+    load(length);
+    get_blob(value);
+    if (value.size() != length) throw archive_format_exception();
+    return *this;
+}
+
+iarchive& binary_iarchive::load(std::wstring& value) {
+    read_class_head("std::wstring");
+    unsigned long length = 0;
+    load(length);
+    std::string bytes;
+    get_blob(bytes);
+    value = to_wide(bytes, length);
+    return *this;
+}
+
+iarchive& binary_iarchive::read_class_head(const std::string& name) {
+    // The entries of a map are its keys and values, one after the other.
+    return name.rfind("std::pair<", 0) == 0 ? *this : read_container_name(name);
+}
+
+iarchive& binary_iarchive::read_container_name(const std::string& name) {
+    expect(CLASS_CODE);
+    std::string given(checked(*m_is, get_bytes<std::uint16_t>()), '\0');
+    m_is->read(given.data(), static_cast<std::streamsize>(given.size()));
+    if (given != name) throw archive_type_exception();
+    return *this;
+}
+
+std::size_t binary_iarchive::read_sequence_head() {
+    int count = 0;
+    load(count);
+    return checked(*m_is, static_cast<unsigned long>(count));
+}
+
+long binary_iarchive::read_array_head(long size, char code, char bytes) {
+    expect(ARRAY_CODE);
+    expect(static_cast<char>(sizeof size));
+    if (get_bytes<long>() != size) throw archive_array_size_exception();
+    expect(code);
+    expect(bytes);
+    m_bare = code != CLASS_CODE;
+    return size;
+}
+
+iarchive& binary_iarchive::read_array_end(long, char, char) {
+    m_bare = false;
+    return *this;
+}
+
+} // namespace opros::archive

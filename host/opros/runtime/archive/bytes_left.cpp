@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/archive/bytes_left.hpp"
+
+#include <archive/opros_archive_common.h>
+
+#include <cstring>
+
+namespace opros::archive {
+
+std::size_t bytes_left(std::istream& in) {
+    const auto here = in.tellg();
+    in.seekg(0, std::ios::end);
+    const auto end = in.tellg();
+    in.clear();
+    in.seekg(here);
+    return here < 0 || end < here ? 0 : static_cast<std::size_t>(end - here);
+}
+
+std::size_t checked(std::istream& in, unsigned long count) {
+    if (count > bytes_left(in)) throw archive_array_size_exception();
+    return count;
+}
+
+void give_bytes(const std::string& bytes, char** p, long& size) {
+    if (*p == nullptr)
+        *p = new char[bytes.size()];
+    else if (static_cast<long>(bytes.size()) > size)
+        throw archive_array_size_exception();
+    std::memcpy(*p, bytes.data(), bytes.size());
+    size = static_cast<long>(bytes.size());
+}
+
+std::wstring to_wide(const std::string& bytes, unsigned long length) {
+    if (bytes.size() / sizeof(wchar_t) != length || bytes.size() % sizeof(wchar_t) != 0)
+        throw archive_format_exception();
+    std::wstring text(length, L'\0');
+    std::memcpy(text.data(), bytes.data(), bytes.size());
+    return text;
+}
+
+} // namespace opros::archive

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/archive/bytes_left.hpp"
+#include "host/opros/runtime/archive/utf8.hpp"
+
+#include <archive/opros_raw_iarchive.h>
+
+#include <cstring>
+
+namespace opros::archive {
+
+template <typename T>
+iarchive& raw_iarchive::get(T& value) {
+    m_is->read(reinterpret_cast<char*>(&value), sizeof value);
+    if (m_is->gcount() != static_cast<std::streamsize>(sizeof value)) throw archive_format_exception();
+    return *this;
+}
+
+iarchive& raw_iarchive::load(bool& value) {
+    char byte = 0;
+    get(byte);
+    value = byte != 0;
+    return *this;
+}
+iarchive& raw_iarchive::load(char& value) { return get(value); }
+
+iarchive& raw_iarchive::load(wchar_t& value) {
+    char count = 0;
+    get(count);
+    if (count < 1 || count > 4) throw archive_format_exception();
+    std::string bytes(static_cast<std::size_t>(count), '\0');
+    for (char& byte : bytes) get(byte);
+    value = from_utf8(bytes);
+    return *this;
+}
+
+#define OPROS_LOAD_NUMBER(type)                                                                              \
+    iarchive& raw_iarchive::load(type& value) { return get(value); }
+OPROS_LOAD_NUMBER(signed char)
+OPROS_LOAD_NUMBER(unsigned char)
+OPROS_LOAD_NUMBER(short)
+OPROS_LOAD_NUMBER(unsigned short)
+OPROS_LOAD_NUMBER(int)
+OPROS_LOAD_NUMBER(unsigned int)
+OPROS_LOAD_NUMBER(long)
+OPROS_LOAD_NUMBER(unsigned long)
+OPROS_LOAD_NUMBER(long long)
+OPROS_LOAD_NUMBER(unsigned long long)
+OPROS_LOAD_NUMBER(float)
+OPROS_LOAD_NUMBER(double)
+OPROS_LOAD_NUMBER(long double)
+
+void raw_iarchive::get_blob(std::string& bytes) {
+    unsigned long count = 0;
+    get(count);
+    bytes.resize(checked(*m_is, count));
+    m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
+}
+
+iarchive& raw_iarchive::load_binary(char** p, long& size) {
+    std::string bytes;
+    get_blob(bytes);
+    give_bytes(bytes, p, size);
+    return *this;
+}
+
+iarchive& raw_iarchive::load(std::string& value) {
+    unsigned long length = 0;
+    get(length);
+    get_blob(value);
+    if (value.size() != length) throw archive_format_exception();
+    return *this;
+}
+
+iarchive& raw_iarchive::load(std::wstring& value) {
+    unsigned long length = 0;
+    get(length);
+    std::string bytes;
+    get_blob(bytes);
+    value = to_wide(bytes, length);
+    return *this;
+}
+
+std::size_t raw_iarchive::read_sequence_head() {
+    int count = 0;
+    get(count);
+    return checked(*m_is, static_cast<unsigned long>(count));
+}
+
+} // namespace opros::archive

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/archive/utf8.hpp"
+
+#include <archive/opros_raw_oarchive.h>
+
+namespace opros::archive {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+
+template <typename T>
+oarchive& raw_oarchive::put(T value) {
+    m_os->write(reinterpret_cast<const char*>(&value), sizeof value);
+    return *this;
+}
+
+oarchive& raw_oarchive::save(bool value) { return put(static_cast<char>(value)); }
+oarchive& raw_oarchive::save(char value) { return put(value); }
+
+oarchive& raw_oarchive::save(wchar_t value) {
+    const std::string bytes = to_utf8(value);
+    put(static_cast<char>(bytes.size()));
+    m_os->write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return *this;
+}
+
+#define OPROS_SAVE_NUMBER(type)                                                                              \
+    oarchive& raw_oarchive::save(type value) { return put(value); }
+OPROS_SAVE_NUMBER(signed char)
+OPROS_SAVE_NUMBER(unsigned char)
+OPROS_SAVE_NUMBER(short)
+OPROS_SAVE_NUMBER(unsigned short)
+OPROS_SAVE_NUMBER(int)
+OPROS_SAVE_NUMBER(unsigned int)
+OPROS_SAVE_NUMBER(long)
+OPROS_SAVE_NUMBER(unsigned long)
+OPROS_SAVE_NUMBER(long long)
+OPROS_SAVE_NUMBER(unsigned long long)
+OPROS_SAVE_NUMBER(float)
+OPROS_SAVE_NUMBER(double)
+OPROS_SAVE_NUMBER(long double)
+
+oarchive& raw_oarchive::save_binary(const char* p, long size) {
+    put(size);
+    m_os->write(p, size);
+    return *this;
+}
+
+oarchive& raw_oarchive::save(const std::string& value) {
+    put(static_cast<unsigned long>(value.size()));
+    return save_binary(value.data(), static_cast<long>(value.size()));
+}
+
+oarchive& raw_oarchive::save(const std::wstring& value) {
+    put(static_cast<unsigned long>(value.size()));
+    return save_binary(reinterpret_cast<const char*>(value.data()),
+                       static_cast<long>(value.size() * sizeof(wchar_t)));
+}
+
+oarchive& raw_oarchive::write_sequence_head(std::size_t count) { return put(static_cast<int>(count)); }
+
+} // namespace opros::archive

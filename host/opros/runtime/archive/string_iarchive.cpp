@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/archive/bytes_left.hpp"
+#include "host/opros/runtime/archive/utf8.hpp"
+
+#include <archive/opros_string_iarchive.h>
+
+#include <charconv>
+#include <cstring>
+#include <sstream>
+
+namespace opros::archive {
+namespace {
+
+constexpr std::size_t longest_word = 4096; // the name of a type; numbers are much shorter
+
+bool is_pair(const std::string& name) { return name.rfind("std::pair<", 0) == 0; }
+
+template <typename T>
+T from_decimal(const std::string& text) {
+    std::istringstream in(text);
+    in.imbue(std::locale::classic());
+    T value{};
+    in >> value;
+    if (!in || in.peek() != std::char_traits<char>::eof()) throw archive_format_exception();
+    return value;
+}
+
+/// Upstream writes the decimal value behind the bytes: it is not looked at.
+template <typename T>
+T from_hexadecimal(const std::string& text) {
+    if (text.size() < 1 + 2 * sizeof(T)) throw archive_format_exception();
+    unsigned char bytes[sizeof(T)];
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+        const char* digits = text.data() + 1 + 2 * i;
+        const auto read = std::from_chars(digits, digits + 2, bytes[i], 16);
+        if (read.ec != std::errc() || read.ptr != digits + 2) throw archive_format_exception();
+    }
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+}
+
+} // namespace
+
+void string_iarchive::expect(char code) {
+    char given = 0;
+    if (!m_is->get(given)) throw archive_format_exception();
+    if (given != code) throw archive_type_exception();
+}
+
+std::string string_iarchive::up_to(char end) {
+    std::string text;
+    for (char c = 0; text.size() <= longest_word && m_is->get(c);) {
+        if (c == end) return text;
+        text += c;
+    }
+    throw archive_format_exception();
+}
+
+template <typename T>
+iarchive& string_iarchive::get(char code, T& value) {
+    expect(code);
+    const std::string text = up_to(';');
+    value = text[0] == 'X' ? from_hexadecimal<T>(text) : from_decimal<T>(text);
+    return *this;
+}
+
+iarchive& string_iarchive::load(bool& value) {
+    expect(BOOL_CODE);
+    const std::string text = up_to(';');
+    if (text != "T" && text != "F") throw archive_format_exception();
+    value = text == "T";
+    return *this;
+}
+
+#define OPROS_LOAD_CHARACTER(type)                                                                           \
+    iarchive& string_iarchive::load(type& value) {                                                           \
+        expect(CHAR_CODE);                                                                                   \
+        char given = 0, next = 0;                                                                            \
+        if (!m_is->get(given) || !m_is->get(next)) throw archive_format_exception();                         \
+        if (next != ';') given = from_hexadecimal<char>(std::string(1, given) + next + up_to(';'));          \
+        value = static_cast<type>(given);                                                                    \
+        return *this;                                                                                        \
+    }
+OPROS_LOAD_CHARACTER(char)
+OPROS_LOAD_CHARACTER(signed char)
+OPROS_LOAD_CHARACTER(unsigned char)
+
+iarchive& string_iarchive::load(wchar_t& value) {
+    expect(WCHAR_T_CODE);
+    std::string bytes = up_to(';');
+    value = bytes.empty() ? (expect(';'), L';') : from_utf8(bytes);
+    return *this;
+}
+
+#define OPROS_LOAD_NUMBER(type)                                                                              \
+    iarchive& string_iarchive::load(type& value) { return get(type_code(&value), value); }
+OPROS_LOAD_NUMBER(short)
+OPROS_LOAD_NUMBER(unsigned short)
+OPROS_LOAD_NUMBER(int)
+OPROS_LOAD_NUMBER(unsigned int)
+OPROS_LOAD_NUMBER(long)
+OPROS_LOAD_NUMBER(unsigned long)
+OPROS_LOAD_NUMBER(long long)
+OPROS_LOAD_NUMBER(unsigned long long)
+OPROS_LOAD_NUMBER(float)
+OPROS_LOAD_NUMBER(double)
+OPROS_LOAD_NUMBER(long double)
+
+void string_iarchive::get_blob(std::string& bytes) {
+    expect(BINARY_CODE);
+    expect('[');
+    bytes.resize(checked(*m_is, from_decimal<unsigned long>(up_to(']'))));
+    m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
+    expect(';');
+}
+
+iarchive& string_iarchive::load_binary(char** p, long& size) {
+    std::string bytes;
+    get_blob(bytes);
+    give_bytes(bytes, p, size);
+    return *this;
+}
+
+iarchive& string_iarchive::load(std::string& value) {
+    read_class_head("std::string");
+    unsigned long length = 0;
+    load(length);
+    get_blob(value);
+    if (value.size() != length) throw archive_format_exception();
+    return read_class_end("std::string");
+}
+
+iarchive& string_iarchive::load(std::wstring& value) {
+    read_class_head("std::wstring");
+    unsigned long length = 0;
+    load(length);
+    std::string bytes;
+    get_blob(bytes);
+    value = to_wide(bytes, length);
+    return read_class_end("std::wstring");
+}
+
+iarchive& string_iarchive::read_class_head(const std::string& name) {
+    if (is_pair(name)) return *this;
+    expect(CLASS_CODE);
+    expect('[');
+    // Names of types have no brackets but those of arrays, which are none that can be archived.
+    if (up_to(']') != name) throw archive_type_exception();
+    return *this;
+}
+
+iarchive& string_iarchive::read_class_end(const std::string& name) {
+    if (!is_pair(name)) expect(';');
+    return *this;
+}
+
+iarchive& string_iarchive::read_container_name(const std::string& name) {
+    m_named = true;
+    return read_class_head(name);
+}
+
+std::size_t string_iarchive::read_sequence_head() {
+    m_inside.push_back(m_named);
+    m_named = false;
+    int count = 0;
+    load(count);
+    return checked(*m_is, static_cast<unsigned long>(count));
+}
+
+iarchive& string_iarchive::read_sequence_end() {
+    if (m_inside.back()) expect(';');
+    m_inside.pop_back();
+    return *this;
+}
+
+long string_iarchive::read_array_head(long size, char, char) {
+    expect(ARRAY_CODE);
+    expect('[');
+    if (from_decimal<long>(up_to(']')) != size) throw archive_array_size_exception();
+    return size;
+}
+
+iarchive& string_iarchive::read_array_end(long, char, char) {
+    expect(';');
+    return *this;
+}
+
+} // namespace opros::archive

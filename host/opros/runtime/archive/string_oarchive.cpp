@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/archive/utf8.hpp"
+
+#include <archive/opros_string_oarchive.h>
+
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace opros::archive {
+namespace {
+
+// The entries of a map are its keys and values, one after the other.
+bool is_pair(const std::string& name) { return name.rfind("std::pair<", 0) == 0; }
+
+template <typename T>
+std::string in_decimal(T value) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << std::setprecision(std::numeric_limits<T>::max_digits10)
+         << value; // so that it comes back as it was
+    return text.str();
+}
+
+template <typename T>
+std::string in_hexadecimal(const T& value) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
+    std::ostringstream text;
+    text << 'X' << std::hex << std::setfill('0');
+    for (std::size_t i = 0; i < sizeof value; ++i) text << std::setw(2) << static_cast<int>(bytes[i]);
+    return text.str();
+}
+
+} // namespace
+
+template <typename T>
+oarchive& string_oarchive::put(char code, T value) {
+    *m_os << code << (m_hexadecimal ? in_hexadecimal(value) : in_decimal(value)) << ';';
+    return *this;
+}
+
+oarchive& string_oarchive::save(bool value) {
+    *m_os << BOOL_CODE << (value ? 'T' : 'F') << ';';
+    return *this;
+}
+
+#define OPROS_SAVE_CHARACTER(type)                                                                           \
+    oarchive& string_oarchive::save(type value) {                                                            \
+        if (m_hexadecimal) return put(CHAR_CODE, value);                                                     \
+        *m_os << CHAR_CODE << static_cast<char>(value) << ';';                                               \
+        return *this;                                                                                        \
+    }
+OPROS_SAVE_CHARACTER(char)
+OPROS_SAVE_CHARACTER(signed char)
+OPROS_SAVE_CHARACTER(unsigned char)
+
+oarchive& string_oarchive::save(wchar_t value) {
+    *m_os << WCHAR_T_CODE << to_utf8(value) << ';';
+    return *this;
+}
+
+#define OPROS_SAVE_NUMBER(type)                                                                              \
+    oarchive& string_oarchive::save(type value) { return put(type_code(&value), value); }
+OPROS_SAVE_NUMBER(short)
+OPROS_SAVE_NUMBER(unsigned short)
+OPROS_SAVE_NUMBER(int)
+OPROS_SAVE_NUMBER(unsigned int)
+OPROS_SAVE_NUMBER(long)
+OPROS_SAVE_NUMBER(unsigned long)
+OPROS_SAVE_NUMBER(long long)
+OPROS_SAVE_NUMBER(unsigned long long)
+OPROS_SAVE_NUMBER(float)
+OPROS_SAVE_NUMBER(double)
+OPROS_SAVE_NUMBER(long double)
+
+oarchive& string_oarchive::save_binary(const char* p, long size) {
+    *m_os << BINARY_CODE << '[' << in_decimal(size) << ']';
+    m_os->write(p, size);
+    *m_os << ';';
+    return *this;
+}
+
+oarchive& string_oarchive::save(const std::string& value) {
+    write_class_head("std::string");
+    save(static_cast<unsigned long>(value.size()));
+    save_binary(value.data(), static_cast<long>(value.size()));
+    return write_class_end("std::string");
+}
+
+oarchive& string_oarchive::save(const std::wstring& value) {
+    write_class_head("std::wstring");
+    save(static_cast<unsigned long>(value.size()));
+    save_binary(reinterpret_cast<const char*>(value.data()),
+                static_cast<long>(value.size() * sizeof(wchar_t)));
+    return write_class_end("std::wstring");
+}
+
+oarchive& string_oarchive::write_class_head(const std::string& name) {
+    if (!is_pair(name)) *m_os << CLASS_CODE << '[' << name << ']';
+    return *this;
+}
+
+oarchive& string_oarchive::write_class_end(const std::string& name) {
+    if (!is_pair(name)) *m_os << ';';
+    return *this;
+}
+
+oarchive& string_oarchive::write_container_name(const std::string& name) {
+    m_named = true;
+    return write_class_head(name);
+}
+
+oarchive& string_oarchive::write_sequence_head(std::size_t count) {
+    m_inside.push_back(m_named);
+    m_named = false;
+    return save(static_cast<int>(count));
+}
+
+oarchive& string_oarchive::write_sequence_end() {
+    if (m_inside.back()) *m_os << ';';
+    m_inside.pop_back();
+    return *this;
+}
+
+oarchive& string_oarchive::write_array_head(long size, char, char) {
+    *m_os << ARRAY_CODE << '[' << in_decimal(size) << ']';
+    return *this;
+}
+
+oarchive& string_oarchive::write_array_end(long, char, char) {
+    *m_os << ';';
+    return *this;
+}
+
+} // namespace opros::archive

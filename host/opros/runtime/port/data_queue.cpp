@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/port/data_queue.hpp"
+
+#include <algorithm>
+
+namespace opros {
+
+DataQueue::DataQueue(DataPortPolicy policy, std::size_t limit)
+    : policy_(policy), slots_(policy == OPROS_LAST ? 1 : std::max<std::size_t>(limit, 1)) {}
+
+void DataQueue::grow() {
+    std::vector<opros_any> wider(slots_.size() * 2);
+    for (std::size_t i = 0; i < count_; ++i) wider[i].swap(slots_[index(i)]);
+    slots_.swap(wider);
+    first_ = 0;
+}
+
+opros_any& DataQueue::push() {
+    if (count_ == slots_.size()) {
+        if (policy_ == OPROS_FIFO || policy_ == OPROS_LAST)
+            pop();
+        else
+            grow();
+    }
+    return slots_[index(count_++)];
+}
+
+void DataQueue::pop() {
+    if (policy_ != OPROS_LIFO) first_ = index(1);
+    --count_;
+}
+
+} // namespace opros

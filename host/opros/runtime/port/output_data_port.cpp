@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/port/link_list.hpp"
+
+#include <OutputDataPortInterface.h>
+
+class OutputDataPortImpl : public opros::LinkList<IDataPortLink> {};
+
+OutputDataPortInterface::OutputDataPortInterface() : OutputDataPortInterface("") {}
+OutputDataPortInterface::OutputDataPortInterface(const std::string& name)
+    : DataPort(name), m_impl(new OutputDataPortImpl), m_arc(nullptr) {}
+OutputDataPortInterface::~OutputDataPortInterface() { delete m_impl; }
+
+opros_any* OutputDataPortInterface::pop() { return nullptr; }
+opros_any* OutputDataPortInterface::peek() { return nullptr; }
+DataPortRole OutputDataPortInterface::getRole() { return OPROS_DATA_PORT_OUTPUT; }
+void OutputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = darc; }
+void OutputDataPortInterface::addConnection(IDataPortLink* connection) { m_impl->add(connection); }
+void OutputDataPortInterface::removeConnection(IDataPortLink* connection) { m_impl->remove(connection); }
+void OutputDataPortInterface::clearConnection() { m_impl->clear(); }
+
+ReturnType OutputDataPortInterface::push_data(opros_any& data) {
+    if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
+    m_impl->for_each([&](IDataPortLink& link) { link.push(data); });
+    return OPROS_SUCCESS;
+}

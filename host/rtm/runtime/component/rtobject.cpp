@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+// A component as an object: construction, life, contexts.
+#include "host/rtm/runtime/execution/contexts_wanted.hpp"
+#include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/sdo/organization.hpp"
+#include "host/rtm/runtime/sdo/sdo_configuration.hpp"
+#include <rtm/DataFlowComponentBase.h>
+#include <rtm/ExecutionContextBase.h>
+#include <rtm/RTObject.h>
+
+namespace RTC {
+
+RTObject_impl::RTObject_impl(Manager* manager)
+    : m_pManager(manager), m_pORB(manager->getORB()), m_pPOA(manager->getPOA()),
+      m_ownedOrganizations(std::make_shared<SDOPackage::Organizations>()),
+      m_organizations(std::make_shared<SDOPackage::Organizations>()) {
+    becomeServant();
+}
+
+RTObject_impl::RTObject_impl(CORBA::ORB_ptr orb, PortableServer::POA_ptr poa)
+    : m_pManager(&Manager::instance()), m_pORB(CORBA::ORB::_duplicate(orb)),
+      m_pPOA(PortableServer::POA::_duplicate(poa)),
+      m_ownedOrganizations(std::make_shared<SDOPackage::Organizations>()),
+      m_organizations(std::make_shared<SDOPackage::Organizations>()) {
+    becomeServant();
+}
+
+void RTObject_impl::becomeServant() {
+    m_objref = this->_this();
+    m_oid = m_pPOA->servant_to_id(this);
+    m_profile.parent = RTC::RTObject::_nil();
+}
+
+RTObject_impl::~RTObject_impl() {
+    if (m_sdoConfiguration != nullptr) m_sdoConfiguration->_remove_ref();
+}
+
+DataFlowComponentBase::DataFlowComponentBase(Manager* manager) : RTObject_impl(manager) {}
+DataFlowComponentBase::~DataFlowComponentBase() = default;
+void DataFlowComponentBase::init() {}
+
+void deleteRTObject(RTObject_impl* rtc) {
+    rtc->retire();
+    rtc->_remove_ref();
+}
+
+void RTObject_impl::retire() {
+    try {
+        m_pPOA->deactivate_object(m_oid.in());
+    } catch (const CORBA::Exception&) {
+        // deactivated before, or the ORB is gone
+    }
+}
+
+ReturnCode_t RTObject_impl::initialize() {
+    if (m_initialized.exchange(true)) return PRECONDITION_NOT_MET; // anybody may ask for it, by CORBA
+    createContexts();
+    const ReturnCode_t result = on_initialize();
+    if (result != RTC_OK) return result;
+    m_created = false;
+    if (!SdoServiceProviderFactory::instance().getIdentifiers().empty()) {
+        SDOPackage::Configuration_var made = get_configuration();
+        m_sdoConfiguration->services().start_providers();
+    }
+    for (auto* context : m_eclist) context->start();
+    return RTC_OK;
+}
+
+void RTObject_impl::createContexts() {
+    for (auto& options : contexts_wanted(m_properties)) {
+        ExecutionContextBase* context = m_pManager->createContext(options.getProperty("type").c_str());
+        if (context == nullptr)
+            throw ManagerError("there is no execution context type " + options.getProperty("type"));
+        context->init(options);
+        m_eclist.push_back(context);
+        context->bindComponent(this);
+    }
+}
+
+// Anybody may ask for it, by CORBA; it is the last step of exit() and of nothing else.
+ReturnCode_t RTObject_impl::finalize() { return PRECONDITION_NOT_MET; }
+
+ReturnCode_t RTObject_impl::finish() {
+    {
+        std::lock_guard<std::mutex> lock(m_contextsMutex);
+        m_ecOther.clear();
+    }
+    const ReturnCode_t result = on_finalize();
+    finalizePorts();
+    finalizeContexts();
+    if (m_sdoConfiguration != nullptr) m_sdoConfiguration->retire();
+    retire();
+    m_pManager->notifyFinalized(this);
+    return result;
+}
+
+ReturnCode_t RTObject_impl::exit() {
+    if (m_created) return PRECONDITION_NOT_MET;
+    if (m_exiting) return RTC_OK;
+    for (auto* context : m_eclist) {
+        if (!context->insideCycle()) continue;
+        m_pManager->invoke([this] { exit(); }); // a component cannot end under its own feet
+        return RTC_OK;
+    }
+    if (m_exiting.exchange(true)) return RTC_OK;
+    m_organizations->leave(getInstanceName());
+    RTObject_var self = getObjRef();
+    ReturnCode_t stopped = RTC_OK;
+    for (auto* context : m_eclist) {
+        if (context->halt() != RTC_OK) {
+            stopped = RTC_ERROR;
+            continue;
+        }
+        if (context->getComponentState(self.in()) == ACTIVE_STATE) context->deactivateComponent(self.in());
+        context->stop();
+    }
+    std::vector<ExecutionContext_var> others;
+    {
+        std::lock_guard<std::mutex> lock(m_contextsMutex);
+        others = m_ecOther;
+    }
+    for (auto& context : others) {
+        try {
+            if (CORBA::is_nil(context.in())) continue;
+            context->deactivate_component(self.in());
+            context->remove_component(self.in());
+        } catch (const CORBA::SystemException&) {
+            continue; // that context's process is gone
+        }
+    }
+    if (stopped != RTC_OK) {
+        RTC_ERROR(("a callback does not return; the component is left as it is"));
+        return RTC_ERROR;
+    }
+    return finish();
+}
+
+void RTObject_impl::finalizePorts() {
+    m_portAdmin.finalizePorts();
+    m_inports.clear();
+    m_outports.clear();
+}
+
+void RTObject_impl::finalizeContexts() {
+    for (auto* context : m_eclist) {
+        context->retire();
+        deleteExecutionContext(context);
+    }
+    m_eclist.clear();
+    std::lock_guard<std::mutex> lock(m_contextsMutex);
+    m_ecMine.clear();
+}
+
+CORBA::Boolean RTObject_impl::is_alive(ExecutionContext_ptr exec_context) {
+    return get_context_handle(exec_context) >= 0;
+}
+
+ExecutionContext_ptr RTObject_impl::get_context(UniqueId ec_id) {
+    std::lock_guard<std::mutex> lock(m_contextsMutex);
+    const auto& list = ec_id < ECOTHER_OFFSET ? m_ecMine : m_ecOther;
+    const auto index = static_cast<std::size_t>(ec_id < ECOTHER_OFFSET ? ec_id : ec_id - ECOTHER_OFFSET);
+    return ec_id < 0 || index >= list.size() ? ExecutionContext::_nil()
+                                             : ExecutionContext::_duplicate(list[index].in());
+}
+
+namespace {
+
+ExecutionContextList* copied(const std::vector<ExecutionContext_var>& contexts) {
+    ExecutionContextList_var list = new ExecutionContextList;
+    for (auto& context : contexts)
+        if (!CORBA::is_nil(context.in())) CORBA_SeqUtil::push_back(list.inout(), context);
+    return list._retn();
+}
+
+UniqueId position(const std::vector<ExecutionContext_var>& contexts, ExecutionContext_ptr wanted) {
+    for (std::size_t i = 0; i < contexts.size(); ++i)
+        if (!CORBA::is_nil(contexts[i].in()) && contexts[i]->_is_equivalent(wanted))
+            return static_cast<UniqueId>(i);
+    return -1;
+}
+
+} // namespace
+
+ExecutionContextList* RTObject_impl::get_owned_contexts() {
+    std::lock_guard<std::mutex> lock(m_contextsMutex);
+    return copied(m_ecMine);
+}
+
+ExecutionContextList* RTObject_impl::get_participating_contexts() {
+    std::lock_guard<std::mutex> lock(m_contextsMutex);
+    return copied(m_ecOther);
+}
+
+ExecutionContextHandle_t RTObject_impl::get_context_handle(ExecutionContext_ptr context) {
+    if (CORBA::is_nil(context)) return -1;
+    std::lock_guard<std::mutex> lock(m_contextsMutex);
+    const UniqueId mine = position(m_ecMine, context);
+    if (mine >= 0) return mine;
+    const UniqueId other = position(m_ecOther, context);
+    return other >= 0 ? other + ECOTHER_OFFSET : -1;
+}
+
+UniqueId RTObject_impl::bindContext(ExecutionContext_ptr context) {
+    if (CORBA::is_nil(context)) return -1;
+    UniqueId id;
+    {
+        std::lock_guard<std::mutex> lock(m_contextsMutex);
+        m_ecMine.push_back(ExecutionContext::_duplicate(context));
+        id = static_cast<UniqueId>(m_ecMine.size()) - 1;
+    }
+    m_actionListeners.ecaction_[0].forEach([&](auto& listener) { listener(id); });
+    return id;
+}
+
+UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
+    if (CORBA::is_nil(context)) return -1;
+    UniqueId id;
+    {
+        std::lock_guard<std::mutex> lock(m_contextsMutex);
+        std::size_t free = 0; // ids of detached contexts are given again
+        while (free < m_ecOther.size() && !CORBA::is_nil(m_ecOther[free].in())) ++free;
+        if (free == m_ecOther.size()) m_ecOther.emplace_back();
+        m_ecOther[free] = ExecutionContext::_duplicate(context);
+        id = static_cast<UniqueId>(free) + ECOTHER_OFFSET;
+    }
+    m_actionListeners.ecaction_[0].forEach([&](auto& listener) { listener(id); });
+    return id;
+}
+
+ReturnCode_t RTObject_impl::detach_context(UniqueId ec_id) {
+    {
+        std::lock_guard<std::mutex> lock(m_contextsMutex);
+        const std::int64_t index = std::int64_t{ec_id} - ECOTHER_OFFSET; // any id may come by CORBA
+        if (index < 0 || index >= std::ssize(m_ecOther) ||
+            CORBA::is_nil(m_ecOther[static_cast<std::size_t>(index)].in()))
+            return BAD_PARAMETER;
+        m_ecOther[static_cast<std::size_t>(index)] = ExecutionContext::_nil();
+    }
+    m_actionListeners.ecaction_[1].forEach([&](auto& listener) { listener(ec_id); });
+    return RTC_OK;
+}
+
+double RTObject_impl::getExecutionRate(UniqueId ec_id) {
+    ExecutionContext_var context = get_context(ec_id);
+    return CORBA::is_nil(context.in()) ? 0.0 : context->get_rate();
+}
+
+ReturnCode_t RTObject_impl::setExecutionRate(UniqueId ec_id, double rate) {
+    ExecutionContext_var context = get_context(ec_id);
+    return CORBA::is_nil(context.in()) ? BAD_PARAMETER : context->set_rate(rate);
+}
+
+ReturnCode_t RTObject_impl::activate(UniqueId ec_id) {
+    ExecutionContext_var context = get_context(ec_id);
+    return CORBA::is_nil(context.in()) ? BAD_PARAMETER
+                                       : context->activate_component(RTObject_var(getObjRef()).in());
+}
+ReturnCode_t RTObject_impl::deactivate(UniqueId ec_id) {
+    ExecutionContext_var context = get_context(ec_id);
+    return CORBA::is_nil(context.in()) ? BAD_PARAMETER
+                                       : context->deactivate_component(RTObject_var(getObjRef()).in());
+}
+ReturnCode_t RTObject_impl::reset(UniqueId ec_id) {
+    ExecutionContext_var context = get_context(ec_id);
+    return CORBA::is_nil(context.in()) ? BAD_PARAMETER
+                                       : context->reset_component(RTObject_var(getObjRef()).in());
+}
+
+} // namespace RTC

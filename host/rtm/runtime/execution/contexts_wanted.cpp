@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/execution/contexts_wanted.hpp"
+#include <coil/stringutil.h>
+#include <rtm/Manager.h>
+
+namespace RTC {
+namespace {
+
+void add_node(coil::Properties& to, const coil::Properties& from, const std::string& node) {
+    if (const auto* found = from.findNode(node)) to << *found;
+}
+
+// What is said of all contexts.
+coil::Properties common(const coil::Properties& component) {
+    coil::Properties options;
+    for (const char* key :
+         {"sync_transition", "sync_activation", "sync_deactivation", "sync_reset", "transition_timeout",
+          "activation_timeout", "deactivation_timeout", "reset_timeout", "cpu_affinity", "priority"}) {
+        const std::string value = component.getProperty(std::string("exec_cxt.") + key);
+        if (!value.empty()) options.setProperty(key, value);
+    }
+    return options;
+}
+
+} // namespace
+
+std::vector<coil::Properties> contexts_wanted(const coil::Properties& component) {
+    std::vector<coil::Properties> wanted;
+    const auto listed = coil::split(component.getProperty("execution_contexts"), ",", true);
+    for (const auto& entry : listed) {
+        if (coil::normalize(entry) == "none") return {};
+        const std::size_t open = entry.find('(');
+        if (open != std::string::npos && entry.back() != ')')
+            throw ManagerError("execution_contexts: expected type or type(name), found " + entry);
+        coil::Properties options = common(component);
+        add_node(options, component, "exec_cxt.periodic");
+        const std::string type = coil::eraseBothEndsBlank(entry.substr(0, open));
+        add_node(options, component, "ec." + type);
+        if (open != std::string::npos) {
+            const std::string name =
+                coil::eraseBothEndsBlank(entry.substr(open + 1, entry.size() - open - 2));
+            add_node(options, component, "ec." + name);
+            options.setProperty("name", name);
+        }
+        options.setProperty("type", type);
+        wanted.push_back(options);
+    }
+    if (!listed.empty()) return wanted;
+    coil::Properties options = common(component);
+    add_node(options, component, "exec_cxt.periodic");
+    const std::string type = options.getProperty("type", "PeriodicExecutionContext");
+    add_node(options, component, "ec." + type);
+    options.setProperty("type", type);
+    return {options};
+}
+
+} // namespace RTC

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all execution contexts share: participants, transitions, the cycle.
+#include "host/rtm/runtime/manager/manager_options.hpp"
+#include "host/rtm/runtime/execution/participant.hpp"
+#include <cmath>
+#include <coil/stringutil.h>
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/ExecutionContextBase.h>
+#include <rtm/Manager.h>
+#include <utility>
+
+namespace RTC {
+
+ExecutionContextBase::ExecutionContextBase(const char* name) : rtclog(name) {}
+ExecutionContextBase::~ExecutionContextBase() = default;
+
+void deleteExecutionContext(ExecutionContextBase* context) {
+    if (auto* servant = dynamic_cast<PortableServer::ServantBase*>(context)) servant->_remove_ref();
+}
+
+void ExecutionContextBase::init(coil::Properties& props) {
+    m_properties << props;
+    double rate = 0, phase_ms = 0;
+    if (coil::stringTo(rate, m_properties.getProperty("rate").c_str()) && isRate(rate)) m_rate = rate;
+    if (coil::stringTo(phase_ms, m_properties.getProperty("phase").c_str()) && std::abs(phase_ms) < 9e12)
+        m_phase = std::chrono::nanoseconds(static_cast<std::int64_t>(phase_ms * 1e6));
+    auto set_wait = [this](const std::string& kind, Wait& wait) {
+        wait.sync = coil::toBool(m_properties.getProperty("sync_" + kind), "YES", "NO", wait.sync);
+        std::chrono::nanoseconds timeout{0};
+        coil::stringTo(timeout, m_properties.getProperty(kind + "_timeout").c_str());
+        if (timeout.count() > 0) wait.timeout = timeout;
+    };
+    Wait all;
+    set_wait("transition", all);
+    m_activation = m_deactivation = m_reset = all;
+    set_wait("activation", m_activation);
+    set_wait("deactivation", m_deactivation);
+    set_wait("reset", m_reset);
+}
+
+ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
+    RTObject_var ref = rtc->getObjRef();
+    const UniqueId id = rtc->bindContext(m_objref.in());
+    if (id < 0) return RTC_ERROR;
+    std::lock_guard<std::mutex> lock(m_mutex);
+    m_owner = ref;
+    addParticipant(std::make_shared<RTC_impl::RTObjectStateMachine>(id, ref.in()));
+    return RTC_OK;
+}
+
+// The caller holds m_mutex.
+void ExecutionContextBase::addParticipant(Participant participant) {
+    auto all = *m_participants;
+    all.push_back(std::move(participant));
+    m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
+}
+
+bool ExecutionContextBase::isRunning() const {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return m_running;
+}
+
+// Tools start and stop at the same time: one after the other, or a thread is left that nobody stops. Within a
+// cycle stop() only asks, since another that stops waits for that cycle; a start would have to wait for its
+// own end.
+ReturnCode_t ExecutionContextBase::start() {
+    if (insideCycle()) return PRECONDITION_NOT_MET;
+    std::unique_lock<std::recursive_timed_mutex> transition(m_transition, 2 * host_options().stop_timeout);
+    if (!transition || isRunning()) return PRECONDITION_NOT_MET;
+    if (onStopping() != RTC_OK) return PRECONDITION_NOT_MET; // what a stop within a cycle has left
+    setRunning(true);
+    forEach(&RTC_impl::RTObjectStateMachine::startup);
+    return isRunning() ? onStarted() : RTC_OK; // a callback may have stopped it
+}
+
+ReturnCode_t ExecutionContextBase::stop() {
+    std::unique_lock<std::recursive_timed_mutex> transition(m_transition, std::defer_lock);
+    if (!insideCycle() && !transition.try_lock_for(2 * host_options().stop_timeout)) return RTC_ERROR;
+    if (!setRunning(false)) return PRECONDITION_NOT_MET;
+    const ReturnCode_t result = onStopping();
+    if (result == RTC_OK) forEach(&RTC_impl::RTObjectStateMachine::shutdown);
+    return result;
+}
+
+bool ExecutionContextBase::setRunning(bool running) {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return std::exchange(m_running, running) != running;
+}
+
+double ExecutionContextBase::getRate() const {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return m_rate;
+}
+
+std::chrono::nanoseconds ExecutionContextBase::getPeriod() const {
+    return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / getRate() + 0.5));
+}
+
+ReturnCode_t ExecutionContextBase::setRate(double rate) {
+    if (!isRate(rate)) return BAD_PARAMETER;
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        m_rate = rate;
+    }
+    onSetRate(rate);
+    forEach(&RTC_impl::RTObjectStateMachine::rateChanged);
+    return RTC_OK;
+}
+
+void ExecutionContextBase::forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)()) {
+    for (auto& participant : *participants()) (participant.get()->*call)();
+}
+
+ExecutionContextBase::Participants ExecutionContextBase::participants() const {
+    std::lock_guard<std::mutex> lock(m_mutex);
+    return m_participants;
+}
+
+ExecutionContextBase::Participant ExecutionContextBase::find(LightweightRTObject_ptr comp) {
+    if (CORBA::is_nil(comp)) return nullptr;
+    for (auto& participant : *participants())
+        if (participant->is(comp)) return participant;
+    return nullptr;
+}
+
+ReturnCode_t ExecutionContextBase::addComponent(LightweightRTObject_ptr comp) {
+    if (CORBA::is_nil(comp)) return BAD_PARAMETER;
+    if (find(comp)) return PRECONDITION_NOT_MET;
+    try {
+        const UniqueId id = comp->attach_context(m_objref.in());
+        std::lock_guard<std::mutex> lock(m_mutex);
+        addParticipant(std::make_shared<RTC_impl::RTObjectStateMachine>(id, comp));
+        return RTC_OK;
+    } catch (const CORBA::SystemException&) {
+        return RTC_ERROR;
+    }
+}
+
+ReturnCode_t ExecutionContextBase::removeComponent(LightweightRTObject_ptr comp) {
+    Participant leaving = find(comp);
+    if (!leaving) return BAD_PARAMETER;
+    if (leaving->state() != INACTIVE_STATE) return PRECONDITION_NOT_MET;
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        auto all = *m_participants;
+        std::erase(all, leaving);
+        m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
+    }
+    try {
+        comp->detach_context(comp->get_context_handle(m_objref.in()));
+    } catch (const CORBA::SystemException&) {
+        RTC_WARN(("a component that was removed cannot be reached"));
+    }
+    return RTC_OK;
+}
+
+LifeCycleState ExecutionContextBase::getComponentState(LightweightRTObject_ptr comp) {
+    Participant participant = find(comp);
+    return participant ? participant->state() : CREATED_STATE;
+}
+
+const char* ExecutionContextBase::getStateString(LifeCycleState state) {
+    static const char* const names[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
+    return state <= ERROR_STATE ? names[state] : "unknown";
+}
+
+ExecutionContextProfile* ExecutionContextBase::getProfile() {
+    ExecutionContextProfile_var profile = new ExecutionContextProfile;
+    profile->kind = m_kind;
+    profile->rate = getRate();
+    profile->owner = RTObject::_duplicate(m_owner.in());
+    for (auto& participant : *participants()) {
+        RTObject_var one = RTObject::_narrow(participant->reference());
+        if (!CORBA::is_nil(one.in()) && !one->_is_equivalent(m_owner.in()))
+            CORBA_SeqUtil::push_back(profile->participants, one);
+    }
+    coil::Properties properties(m_properties);
+    describe(properties);
+    NVUtil::copyFromProperties(profile->properties, properties);
+    return profile._retn();
+}
+
+void ExecutionContextBase::retire() {
+    stop();
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        m_participants = std::make_shared<const std::vector<Participant>>();
+        m_owner = RTObject::_nil();
+    }
+    try {
+        PortableServer::POA_ptr poa = Manager::instance().thePOA();
+        PortableServer::ObjectId_var id = poa->servant_to_id(servant());
+        poa->deactivate_object(id.in());
+    } catch (const CORBA::Exception&) {
+        // deactivated before, or the ORB is gone
+    }
+}
+
+} // namespace RTC

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rt/periodic_tick.hpp"
+#include "host/rt/thread.hpp"
+#include "host/rtm/runtime/manager/manager_options.hpp"
+#include <algorithm>
+#include <atomic>
+#include <rtm/Manager.h>
+#include <rtm/PeriodicExecutionContext.h>
+
+namespace RTC_exp {
+
+using tandem::rt::PeriodicTick;
+
+/// What the thread and its context share; the context may be gone before a thread that hangs in a component.
+struct PeriodicExecutionContext::Worker {
+    std::mutex mutex;
+    std::condition_variable wake;
+    std::shared_ptr<PeriodicTick> tick; // replaced when the rate changes, and after a rest
+    Ticks before;                       // counted by its predecessors
+    bool ending = false;
+    bool ended = false;
+    bool requested = false;
+    bool hangs = false; // a stop has waited in vain
+    std::thread thread;
+
+    Ticks ticks() const; // with the mutex held
+};
+
+PeriodicExecutionContext::PeriodicExecutionContext() : ExecutionContextServant("periodic_ec") {}
+PeriodicExecutionContext::~PeriodicExecutionContext() { onStopping(); }
+
+std::shared_ptr<PeriodicExecutionContext::Worker> PeriodicExecutionContext::worker() const {
+    std::lock_guard<std::mutex> lock(m_workerMutex);
+    return m_worker;
+}
+
+bool PeriodicExecutionContext::hasThread() const { return worker() != nullptr; }
+
+PeriodicExecutionContext::Ticks PeriodicExecutionContext::Worker::ticks() const {
+    const auto now = tick->stats();
+    return {before.cycles + now.ticks, before.overruns + now.overruns, before.skipped + now.skipped,
+            std::max(before.latest, std::chrono::nanoseconds(now.lateness_ns_max))};
+}
+
+// The caller holds the worker's mutex, or is the only one to know it.
+void PeriodicExecutionContext::makeTick(Worker& worker) {
+    if (worker.tick) worker.before = worker.ticks();
+    const auto spin = RTC::host_options().tick_spin;
+    worker.tick = std::make_shared<PeriodicTick>(
+        tandem::rt::TickOptions{getPeriod(), m_phase, true, spin, [this] { rehearse(); }});
+}
+
+PeriodicExecutionContext::Ticks PeriodicExecutionContext::ticks() const {
+    const auto running = worker();
+    if (running == nullptr) {
+        std::lock_guard<std::mutex> lock(m_workerMutex);
+        return m_ended;
+    }
+    std::lock_guard<std::mutex> lock(running->mutex);
+    return running->ticks();
+}
+
+void PeriodicExecutionContext::describe(coil::Properties& properties) {
+    const Ticks counted = ticks();
+    properties.setProperty("tick.cycles", std::to_string(counted.cycles));
+    properties.setProperty("tick.overruns", std::to_string(counted.overruns));
+    properties.setProperty("tick.skipped", std::to_string(counted.skipped));
+    properties.setProperty("tick.latest_us", std::to_string(counted.latest.count() / 1000));
+}
+
+RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
+    auto started = std::make_shared<Worker>();
+    makeTick(*started);
+    // Known before its first cycle goes far: a stop within that must find it.
+    std::lock_guard<std::mutex> lock(m_workerMutex);
+    started->thread = std::thread([this, started] { run(*started); });
+    m_worker = started;
+    return RTC::RTC_OK;
+}
+
+void PeriodicExecutionContext::run(Worker& worker) {
+    int priority = 0;
+    std::vector<int> cpus;
+    coil::stringTo(priority, m_properties.getProperty("priority").c_str());
+    for (const auto& notice : tandem::rt::set_up_this_thread({"rtm-ec", priority, RTC::host_options().cpu}))
+        RTC_WARN(("%s", notice.c_str()));
+    if (coil::stringTo(cpus, m_properties.getProperty("cpu_affinity").c_str()) && !cpus.empty())
+        if (const auto notice = tandem::rt::pin_this_thread("thread rtm-ec", cpus))
+            RTC_WARN(("%s", notice->c_str()));
+
+    std::unique_lock<std::mutex> lock(worker.mutex);
+    while (!worker.ending) {
+        worker.requested = false;
+        const auto tick = worker.tick;
+        lock.unlock();
+        const bool work = busy();
+        if (work) {
+            tick->wait();
+            if (!tick->interrupted()) invokeWorker();
+        }
+        lock.lock();
+        if (work) continue;
+        worker.wake.wait(lock, [&] { return worker.ending || worker.requested; });
+        makeTick(worker); // periods slept through were not missed
+    }
+    const Ticks counted = worker.ticks();
+    if (counted.overruns > 0)
+        RTC_WARN(("%llu of %llu cycles overran their period of %g ms; %llu periods had no cycle",
+                  static_cast<unsigned long long>(counted.overruns),
+                  static_cast<unsigned long long>(counted.cycles), 1e-6 * double(getPeriod().count()),
+                  static_cast<unsigned long long>(counted.skipped)));
+    worker.ended = true;
+    worker.wake.notify_all();
+}
+
+RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
+    auto stopping = worker();
+    if (stopping == nullptr) return RTC::RTC_OK;
+    {
+        std::unique_lock<std::mutex> lock(stopping->mutex);
+        stopping->ending = true;
+        stopping->tick->interrupt();
+        stopping->wake.notify_all();
+        if (insideCycle()) return RTC::RTC_OK; // the thread ends after this cycle
+        if (stopping->hangs && !stopping->ended) return RTC::RTC_ERROR;
+        stopping->hangs =
+            !stopping->wake.wait_for(lock, RTC::host_options().stop_timeout, [&] { return stopping->ended; });
+        if (stopping->hangs) return RTC::RTC_ERROR; // in a callback; its component must be left behind
+    }
+    std::lock_guard<std::mutex> lock(m_workerMutex);
+    if (m_worker == stopping) {
+        stopping->thread.join();
+        m_ended = stopping->ticks();
+        m_worker.reset();
+    }
+    return RTC::RTC_OK;
+}
+
+RTC::ReturnCode_t PeriodicExecutionContext::onSetRate(double) {
+    auto running = worker();
+    if (running == nullptr) return RTC::RTC_OK;
+    std::lock_guard<std::mutex> lock(running->mutex);
+    auto former = running->tick;
+    makeTick(*running);
+    former->interrupt();
+    return RTC::RTC_OK;
+}
+
+void PeriodicExecutionContext::onRequest() {
+    auto running = worker();
+    if (running == nullptr) return;
+    std::lock_guard<std::mutex> lock(running->mutex);
+    running->requested = true;
+    running->wake.notify_all();
+}
+
+} // namespace RTC_exp
+
+void PeriodicExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("PeriodicExecutionContext", RTC::ECCreate<RTC_exp::PeriodicExecutionContext>,
+                               RTC::ECDelete<RTC_exp::PeriodicExecutionContext>);
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The contexts that run when somebody says so.
+#include "host/rtm/runtime/manager/manager_options.hpp"
+#include <condition_variable>
+#include <rtm/ExtTrigExecutionContext.h>
+#include <rtm/Manager.h>
+#include <rtm/SimulatorExecutionContext.h>
+
+namespace RTC {
+
+OpenHRPExecutionContext::OpenHRPExecutionContext() : ExecutionContextServant("synch_ext_trigger_ec") {
+    m_kind = OTHER;
+}
+
+void OpenHRPExecutionContext::tick() {
+    if (isRunning() && !insideCycle()) invokeWorker();
+}
+
+/// Shared with the thread, which may hang in a component when the context is gone.
+struct ExtTrigExecutionContext::Worker {
+    std::mutex mutex;
+    std::condition_variable wake;
+    unsigned long wanted = 0;
+    bool ending = false;
+    bool ended = false;
+    std::thread thread;
+};
+
+ExtTrigExecutionContext::ExtTrigExecutionContext() : ExecutionContextServant("ext_trig_ec") {
+    m_kind = OTHER;
+}
+ExtTrigExecutionContext::~ExtTrigExecutionContext() { onStopping(); }
+
+void ExtTrigExecutionContext::tick() {
+    std::lock_guard<std::mutex> lock(m_workerMutex);
+    if (m_worker == nullptr) return;
+    std::lock_guard<std::mutex> worker_lock(m_worker->mutex);
+    ++m_worker->wanted;
+    m_worker->wake.notify_all();
+}
+
+ReturnCode_t ExtTrigExecutionContext::onStarted() {
+    auto started = std::make_shared<Worker>();
+    started->thread = std::thread([this, started] { run(*started); });
+    std::lock_guard<std::mutex> lock(m_workerMutex);
+    m_worker = started;
+    return RTC_OK;
+}
+
+void ExtTrigExecutionContext::run(Worker& worker) {
+    std::unique_lock<std::mutex> lock(worker.mutex);
+    while (!worker.ending) {
+        worker.wake.wait(lock, [&] { return worker.ending || worker.wanted > 0; });
+        if (worker.ending) break;
+        --worker.wanted;
+        lock.unlock();
+        invokeWorker();
+        lock.lock();
+    }
+    worker.ended = true;
+    worker.wake.notify_all();
+}
+
+ReturnCode_t ExtTrigExecutionContext::onStopping() {
+    std::shared_ptr<Worker> stopping;
+    {
+        std::lock_guard<std::mutex> lock(m_workerMutex);
+        stopping = m_worker;
+    }
+    if (stopping == nullptr) return RTC_OK;
+    {
+        std::unique_lock<std::mutex> lock(stopping->mutex);
+        stopping->ending = true;
+        stopping->wake.notify_all();
+        if (insideCycle()) return RTC_OK; // the thread ends after this cycle
+        if (!stopping->wake.wait_for(lock, host_options().stop_timeout, [&] { return stopping->ended; }))
+            return RTC_ERROR; // in a callback; its component must be left behind
+    }
+    std::lock_guard<std::mutex> lock(m_workerMutex);
+    if (m_worker == stopping) {
+        stopping->thread.join();
+        m_worker.reset();
+    }
+    return RTC_OK;
+}
+
+} // namespace RTC
+
+void OpenHRPExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("SynchExtTriggerEC", RTC::ECCreate<RTC::OpenHRPExecutionContext>,
+                               RTC::ECDelete<RTC::OpenHRPExecutionContext>);
+}
+void SimulatorExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("SimulatorExecutionContext", RTC::ECCreate<RTC::SimulatorExecutionContext>,
+                               RTC::ECDelete<RTC::SimulatorExecutionContext>);
+}
+void ExtTrigExecutionContextInit(RTC::Manager* manager) {
+    manager->registerECFactory("ExtTrigExecutionContext", RTC::ECCreate<RTC::ExtTrigExecutionContext>,
+                               RTC::ECDelete<RTC::ExtTrigExecutionContext>);
+}

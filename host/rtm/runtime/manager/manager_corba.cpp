@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manager's ORB.
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+#include <omniORB4/omniPolicy.h>
+
+namespace RTC {
+namespace {
+
+std::vector<std::string> endpoints(const coil::Properties& config) {
+    std::vector<std::string> out;
+    std::string list = config.getProperty("corba.endpoints");
+    if (!config.getProperty("corba.endpoint").empty()) list = config.getProperty("corba.endpoint");
+    for (const auto& one : coil::split(list, ",", true)) {
+        if (coil::normalize(one) == "all")
+            out.push_back("giop:tcp::");
+        else if (one.compare(0, 5, "giop:") == 0)
+            out.push_back(one);
+        else
+            out.push_back("giop:tcp:" + one + (one.find(':') == std::string::npos ? ":" : ""));
+    }
+    return out;
+}
+
+coil::vstring orb_arguments(const coil::Properties& config) {
+    coil::vstring args{"tandem"};
+    auto add = [&](const char* option, const std::string& value) {
+        args.push_back(option);
+        args.push_back(value);
+    };
+    for (const auto& endpoint : endpoints(config)) add("-ORBendPoint", endpoint);
+    add("-ORBclientCallTimeOutPeriod", "10000"); // ms: no call waits for ever
+    add("-ORBgiopMaxMsgSize", "67108864");       // camera images and point clouds fit
+    add("-ORBinConScanPeriod", "0");             // an idle tool keeps its connection
+    // omniORB 4.2 uses freed memory when it serves broken requests of one connection at the same time.
+    add("-ORBmaxServerThreadPerConnection", "1");
+    add("-ORBtraceLevel", "0"); // what goes wrong is said by us, in one line
+    for (const auto& arg : coil::parseArgs(config.getProperty("corba.args"))) args.push_back(arg);
+    return args;
+}
+
+PortableServer::POA_ptr make_shortcut_poa(PortableServer::POA_ptr root,
+                                          PortableServer::POAManager_ptr manager) {
+    CORBA::PolicyList policies;
+    policies.length(1);
+    policies[0] = omniPolicy::create_local_shortcut_policy(omniPolicy::LOCAL_CALLS_SHORTCUT);
+    return root->create_POA("shortcut", manager, policies);
+}
+
+coil::vstring manager_names(const Manager::Impl& impl) {
+    coil::Properties self;
+    self.setProperty("instance_name", impl.config.getProperty("manager.instance_name"));
+    coil::vstring names;
+    const std::string formats = impl.config.getProperty("manager.naming_formats", "%h.host_cxt/%n.mgr");
+    for (const auto& format : coil::split(formats, ",", true))
+        names.push_back(format_name(format, self, impl.config));
+    return names;
+}
+
+} // namespace
+
+void start_orb(Manager::Impl& impl) {
+    coil::Argv argv(orb_arguments(impl.config));
+    int argc = static_cast<int>(argv.size());
+    try {
+        impl.orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
+        CORBA::Object_var object = impl.orb->resolve_initial_references("RootPOA");
+        impl.poa = PortableServer::POA::_narrow(object.in());
+        impl.poa_manager = impl.poa->the_POAManager();
+        impl.shortcut_poa = make_shortcut_poa(impl.poa.in(), impl.poa_manager.in());
+        impl.poa_manager->activate();
+    } catch (const CORBA::INITIALIZE&) {
+        throw ManagerError(
+            "the ORB does not start; is the endpoint " + impl.config.getProperty("corba.endpoints") +
+            " taken, or an option of corba.args wrong (" + impl.config.getProperty("corba.args") + ")?");
+    } catch (const CORBA::Exception& e) {
+        throw ManagerError(std::string("the ORB does not start: CORBA exception ") + e._name());
+    }
+    const auto servers = coil::split(impl.config.getProperty("corba.nameservers"), ",", true);
+    const bool wanted = coil::toBool(impl.config.getProperty("naming.enable"), "YES", "NO", !servers.empty());
+    impl.naming = std::make_unique<Naming>(impl.orb.in(), !wanted           ? coil::vstring()
+                                                          : servers.empty() ? coil::vstring{"localhost"}
+                                                                            : servers);
+}
+
+void publish_manager(Manager& manager, Manager::Impl& impl) {
+    impl.servant = new RTM::ManagerServant(manager);
+    if (!coil::toBool(impl.config.getProperty("manager.corba_servant"), "YES", "NO", true)) return;
+    CORBA::Object_var object = impl.orb->resolve_initial_references("omniINSPOA");
+    PortableServer::POA_var poa = PortableServer::POA::_narrow(object.in());
+    PortableServer::ObjectId_var id = PortableServer::string_to_ObjectId("manager");
+    poa->activate_object_with_id(id.in(), impl.servant.in());
+    PortableServer::POAManager_var(poa->the_POAManager())->activate();
+    CORBA::Object_var reference = poa->id_to_reference(id.in());
+    impl.servant->setObjRef(RTM::Manager_var(RTM::Manager::_narrow(reference.in())).in());
+    Logger& rtclog = impl.log;
+    for (const auto& name : manager_names(impl))
+        for (const auto& refusal : impl.naming->bind(name, reference.in())) RTC_WARN(("%s", refusal.c_str()));
+}
+
+void withdraw_manager(Manager::Impl& impl) {
+    impl.naming_manager->unbindAll();
+    for (const auto& name : manager_names(impl)) impl.naming->unbind(name);
+}
+
+void start_keeper(Manager& manager, Manager::Impl& impl) {
+    auto seconds = [&](const char* key, double usual) {
+        double value = usual;
+        if (!coil::stringTo(value, impl.config.getProperty(key).c_str()) || !(value > 0)) value = usual;
+        return std::chrono::nanoseconds(static_cast<std::int64_t>(value * 1e9));
+    };
+    impl.connections = std::make_unique<ConnectionKeeper>(manager, seconds("manager.peer_check_interval", 2));
+    auto yes = [&](const char* key, bool usual) {
+        return coil::toBool(impl.config.getProperty(key), "YES", "NO", usual);
+    };
+    if (!yes("naming.update.enable", true)) return;
+    const bool rebind = yes("naming.update.rebind", false);
+    impl.connections->also(
+        [&impl, rebind] {
+            Logger& rtclog = impl.log;
+            for (const auto& line : impl.naming->update(rebind)) RTC_WARN(("%s", line.c_str()));
+        },
+        seconds("naming.update.interval", 10));
+}
+
+RTM::ManagerServant& Manager::getManagerServant() { return *m_impl->servant; }
+
+CORBA::ORB_ptr Manager::theORB() { return m_impl->orb.in(); }
+CORBA::ORB_ptr Manager::getORB() { return CORBA::ORB::_duplicate(m_impl->orb.in()); }
+PortableServer::POA_ptr Manager::thePOA() { return m_impl->poa.in(); }
+PortableServer::POA_ptr Manager::getPOA() { return PortableServer::POA::_duplicate(m_impl->poa.in()); }
+PortableServer::POA_ptr Manager::theShortCutPOA() { return m_impl->shortcut_poa.in(); }
+PortableServer::POA_ptr Manager::getShortCutPOA() {
+    return PortableServer::POA::_duplicate(m_impl->shortcut_poa.in());
+}
+PortableServer::POAManager_ptr Manager::thePOAManager() { return m_impl->poa_manager.in(); }
+PortableServer::POAManager_ptr Manager::getPOAManager() {
+    return PortableServer::POAManager::_duplicate(m_impl->poa_manager.in());
+}
+
+} // namespace RTC

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Loading libraries of components, and the types they register.
+#include "host/plugin/abi.hpp"
+#include "host/plugin/find_library.hpp"
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/manager/probe_module.hpp"
+#include <rtm/RTObject.h>
+#include <rtm/TandemAbi.h>
+
+namespace RTC {
+
+std::vector<std::filesystem::path> Manager::Impl::module_dirs() const {
+    std::vector<std::filesystem::path> dirs;
+    for (const auto& dir : coil::split(setting("manager.modules.load_path"), ",", true)) {
+        dirs.emplace_back(coil::replaceEnv(dir));
+        // A configuration folder can be moved as a whole.
+        if (!conf_file.empty() && dirs.back().is_relative())
+            dirs.push_back(conf_file.parent_path() / dirs.back());
+    }
+    dirs.insert(dirs.end(), options.plugin_path.begin(), options.plugin_path.end());
+    return dirs;
+}
+
+namespace {
+
+// /a/libName.so -> Name
+std::string base_name(const std::string& file_name) {
+    std::string name = std::filesystem::path(file_name).filename().string();
+    return name.substr(0, name.find('.'));
+}
+
+std::string init_symbol(const std::filesystem::path& file, const tandem::plugin::Contents& contents,
+                        const std::string& base) {
+    std::vector<std::string> tried{base + "Init"};
+    if (base.compare(0, 3, "lib") == 0) tried.push_back(base.substr(3) + "Init");
+    tried.emplace_back("rtc_init"); // old components
+    for (const auto& symbol : tried)
+        if (contents.exports.count(symbol)) return symbol;
+    if (contents.kind != tandem::plugin::Kind::rtc_module && contents.kind != tandem::plugin::Kind::other)
+        tandem::plugin::require_kind(file, contents, tandem::plugin::Kind::rtc_module);
+    throw ManagerError("module " + file.string() + " has no function " + tried[0] +
+                       "; export it (extern \"C\"), or name another as file(function)");
+}
+
+// The module's own code: whatever it throws ends here.
+void call(const std::function<void()>& init, const std::string& what) {
+    try {
+        init();
+    } catch (const std::exception& e) {
+        throw ManagerError(what + " threw an exception: " + e.what());
+    } catch (const CORBA::Exception& e) {
+        throw ManagerError(what + " threw the CORBA exception " + e._name());
+    } catch (...) {
+        throw ManagerError(what + " threw an exception of unknown type");
+    }
+}
+
+} // namespace
+
+void Manager::loadOrThrow(const std::string& file_name, const std::string& init_function) {
+    std::string name = file_name, function = init_function;
+    m_impl->listeners.module_.forEach([&](auto& listener) { listener.preLoad(name, function); });
+    try {
+        namespace plugin = tandem::plugin;
+        if (std::filesystem::path(name).is_absolute() &&
+            !coil::toBool(m_impl->setting("manager.modules.abs_path_allowed"), "YES", "NO", true))
+            throw ManagerError("module " + name +
+                               ": absolute paths are not allowed (manager.modules.abs_path_allowed: NO)");
+        const auto file = plugin::find_library(name, m_impl->module_dirs());
+        const auto contents = plugin::read_contents(file);
+        plugin::require_abi(file, contents, plugin::Model::rtm, TANDEM_RTM_ABI);
+        const std::string symbol = function.empty() ? init_symbol(file, contents, base_name(name)) : function;
+        if (m_impl->options.probe) probe_module(*m_impl->options.probe, file, symbol, m_impl->log);
+        const auto library = plugin::Library::load(file);
+        plugin::require_abi_of_process(plugin::Model::rtm, TANDEM_RTM_ABI, library->path());
+        const auto init = library->symbol<void(Manager*)>(symbol);
+        {
+            // Kept for ever: objects and code of a component may be in use to the end of the process.
+            std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+            m_impl->libraries.insert(library);
+            std::erase_if(m_impl->modules, [&](auto& one) { return one.library->path() == library->path(); });
+            m_impl->modules.push_back({name, library});
+        }
+        call([&] { init(this); }, symbol + "() of module " + file.string());
+    } catch (const tandem::plugin::Error& e) {
+        throw ManagerError(e.what());
+    }
+    m_impl->listeners.module_.forEach([&](auto& listener) { listener.postLoad(name, function); });
+}
+
+bool Manager::loadForType(const std::string& type) {
+    if (!coil::toBool(m_impl->setting("manager.modules.search_auto"), "YES", "NO", true)) return false;
+    try {
+        tandem::plugin::find_library(type, m_impl->module_dirs());
+    } catch (const tandem::plugin::Error&) {
+        return false; // what is missing is the type: that is what will be said
+    }
+    loadOrThrow(type, "");
+    return true;
+}
+
+ReturnCode_t Manager::load(const std::string& file_name, const std::string& init_function) {
+    Logger& rtclog = m_impl->log;
+    try {
+        loadOrThrow(file_name, init_function);
+        return RTC_OK;
+    } catch (const ManagerError& e) {
+        RTC_ERROR(("%s", e.what()));
+        return RTC_ERROR;
+    }
+}
+
+bool Manager::registerFactory(coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func) {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    coil::Properties id;
+    for (const char* key : {"implementation_id", "vendor", "category", "version", "language"})
+        id.setProperty(key, profile.getProperty(key));
+    if (m_impl->find_factory(id) != nullptr) return false;
+    m_impl->factories.push_back(std::make_shared<FactoryCXX>(profile, new_func, delete_func));
+    return true;
+}
+
+std::shared_ptr<FactoryBase> Manager::Impl::find_factory(const coil::Properties& id) {
+    for (const auto& factory : factories) {
+        bool same = true;
+        for (const char* key : {"implementation_id", "vendor", "category", "version", "language"}) {
+            const std::string wanted = id.getProperty(key);
+            same = same && (wanted.empty() || wanted == factory->profile().getProperty(key));
+        }
+        if (same) return factory;
+    }
+    return nullptr;
+}
+
+std::vector<coil::Properties> Manager::getFactoryProfiles() {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    std::vector<coil::Properties> profiles;
+    for (auto& factory : m_impl->factories) profiles.push_back(factory->profile());
+    return profiles;
+}
+
+std::vector<std::string> Manager::getModulesFactories() {
+    std::vector<std::string> names;
+    for (auto& profile : getFactoryProfiles()) names.push_back(profile.getProperty("implementation_id"));
+    return names;
+}
+
+bool Manager::registerECFactory(const char* name, ECNewFunc new_func, ECDeleteFunc delete_func) {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    return m_impl->contexts.emplace(name, Impl::ContextType{new_func, delete_func}).second;
+}
+
+ExecutionContextBase* Manager::createContext(const char* ec_args) {
+    const std::string args(ec_args);
+    // In lock-step nothing may run on its own, whatever a component asks for.
+    const std::string type = m_impl->options.lockstep ? "SynchExtTriggerEC" : args.substr(0, args.find('?'));
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    auto found = m_impl->contexts.find(type);
+    if (found != m_impl->contexts.end()) return found->second.create();
+    return ExecutionContextFactory::instance().createObject(type); // NULL: nobody has brought it along
+}
+
+} // namespace RTC

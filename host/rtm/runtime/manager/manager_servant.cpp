@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+#include <coil/stringutil.h>
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/ManagerServant.h>
+#include <rtm/RTObject.h>
+
+namespace RTM {
+namespace {
+
+ModuleProfileList* to_corba(const std::vector<coil::Properties>& profiles) {
+    ModuleProfileList_var list = new ModuleProfileList;
+    for (const auto& profile : profiles) {
+        ModuleProfile one;
+        NVUtil::copyFromProperties(one.properties, profile);
+        CORBA_SeqUtil::push_back(list.inout(), one);
+    }
+    return list._retn();
+}
+
+} // namespace
+
+RTC::ReturnCode_t ManagerServant::load_module(const char* pathname, const char* initfunc) {
+    return manager_.load(pathname, initfunc);
+}
+RTC::ReturnCode_t ManagerServant::unload_module(const char* pathname) { return manager_.unload(pathname); }
+ModuleProfileList* ManagerServant::get_loadable_modules() { return to_corba(manager_.getLoadableModules()); }
+ModuleProfileList* ManagerServant::get_loaded_modules() { return to_corba(manager_.getLoadedModules()); }
+ModuleProfileList* ManagerServant::get_factory_profiles() { return to_corba(manager_.getFactoryProfiles()); }
+
+RTC::RTObject_ptr ManagerServant::create_component(const char* module_name) {
+    RTC::RTObject_impl* component = manager_.createComponent(module_name);
+    return component ? component->getObjRef() : RTC::RTObject::_nil();
+}
+
+// Deleted later, in the manager's thread.
+RTC::ReturnCode_t ManagerServant::delete_component(const char* instance_name) {
+    auto found = components([&](auto& one) { return instance_name == std::string(one.getInstanceName()); });
+    if (found->length() == 0) return RTC::BAD_PARAMETER;
+    try {
+        return found[0]->exit();
+    } catch (const CORBA::OBJECT_NOT_EXIST&) {
+        return RTC::RTC_OK; // it has just left by itself
+    }
+}
+
+// References: any of them may be leaving while others are looked at.
+RTC::RTCList_var ManagerServant::components(const std::function<bool(RTC::RTObject_impl&)>& fits) const {
+    RTC::RTCList_var list = new RTC::RTCList;
+    for (auto& component : manager_.impl().references(fits))
+        CORBA_SeqUtil::push_back(list.inout(), component);
+    return list;
+}
+
+RTC::RTCList* ManagerServant::get_components() {
+    return components([](auto&) { return true; })._retn();
+}
+
+RTC::ComponentProfileList* ManagerServant::get_component_profiles() {
+    RTC::ComponentProfileList_var list = new RTC::ComponentProfileList;
+    for (auto& component : manager_.impl().references()) {
+        try {
+            CORBA_SeqUtil::push_back(list.inout(),
+                                     RTC::ComponentProfile_var(component->get_component_profile()).in());
+        } catch (const CORBA::OBJECT_NOT_EXIST&) {
+            continue; // it has just left
+        }
+    }
+    return list._retn();
+}
+
+// `Name0`, `category/Name0`, or `*/Name0` for any category.
+RTC::RTCList* ManagerServant::get_components_by_name(const char* name) {
+    const std::string wanted = coil::eraseHeadBlank(name);
+    const std::size_t slash = wanted.find('/');
+    const std::string category = slash == std::string::npos ? "*" : wanted.substr(0, slash);
+    const std::string instance = slash == std::string::npos ? wanted : wanted.substr(slash + 1);
+    return components([&](auto& one) {
+               return instance == one.getInstanceName() && (category == "*" || category == one.getCategory());
+           })
+        ._retn();
+}
+
+ManagerProfile* ManagerServant::get_profile() {
+    ManagerProfile_var profile = new ManagerProfile;
+    const coil::Properties settings = manager_.impl().settings();
+    if (const auto* node = settings.findNode("manager"))
+        NVUtil::copyFromProperties(profile->properties, *node);
+    return profile._retn();
+}
+
+NVList* ManagerServant::get_configuration() {
+    NVList_var list = new NVList;
+    NVUtil::copyFromProperties(list.inout(), manager_.impl().settings());
+    return list._retn();
+}
+
+// Seen by what is done from now on: components that are created, modules that are loaded.
+RTC::ReturnCode_t ManagerServant::set_configuration(const char* name, const char* value) {
+    return manager_.impl().change_setting(name, value) ? RTC::RTC_OK : RTC::BAD_PARAMETER;
+}
+
+CORBA::Boolean ManagerServant::is_master() {
+    return coil::toBool(manager_.impl().setting("manager.is_master"), "YES", "NO", false);
+}
+ManagerList* ManagerServant::get_master_managers() { return new ManagerList; }
+RTC::ReturnCode_t ManagerServant::add_master_manager(Manager_ptr) { return RTC::UNSUPPORTED; }
+RTC::ReturnCode_t ManagerServant::remove_master_manager(Manager_ptr) { return RTC::BAD_PARAMETER; }
+ManagerList* ManagerServant::get_slave_managers() { return new ManagerList; }
+RTC::ReturnCode_t ManagerServant::add_slave_manager(Manager_ptr) { return RTC::UNSUPPORTED; }
+RTC::ReturnCode_t ManagerServant::remove_slave_manager(Manager_ptr) { return RTC::BAD_PARAMETER; }
+RTC::ReturnCode_t ManagerServant::fork() { return RTC::UNSUPPORTED; }
+RTC::ReturnCode_t ManagerServant::shutdown() {
+    RTC::Manager::terminate();
+    return RTC::RTC_OK;
+}
+RTC::ReturnCode_t ManagerServant::restart() {
+    RTC::Manager::Impl& impl = manager_.impl();
+    if (!impl.options.can_restart) return RTC::UNSUPPORTED;
+    impl.restart_wanted = true;
+    RTC::Manager::terminate();
+    return RTC::RTC_OK;
+}
+CORBA::Object_ptr ManagerServant::get_service(const char*) { return CORBA::Object::_nil(); }
+
+} // namespace RTM

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/naming/remote_names.hpp"
+#include <rtm/NamingManager.h>
+
+namespace RTC {
+
+void NamingManager::registerNameServer(const char* method, const char* name_server) {
+    Logger& rtclog = m_manager->impl().log;
+    if (coil::normalize(method) != "corba") {
+        RTC_ERROR(("name server %s: there is no method %s, only corba", name_server, method));
+        return;
+    }
+    m_manager->impl().naming->add_server(name_server);
+    update();
+}
+
+void NamingManager::bind(const std::string& name, CORBA::Object_ptr object, const RTObject_impl* component) {
+    Logger& rtclog = m_manager->impl().log;
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        m_bound[name] = component;
+    }
+    for (const auto& refusal : m_manager->impl().naming->bind(name, object))
+        RTC_WARN(("%s", refusal.c_str()));
+}
+
+void NamingManager::bindObject(const char* name, const RTObject_impl* rtobj) {
+    bind(name, RTObject_var(rtobj->getObjRef()).in(), rtobj);
+}
+
+void NamingManager::bindObject(const char* name, const PortBase* port) {
+    bind(name, PortService_var(port->getPortRef()).in(), nullptr);
+}
+
+void NamingManager::bindObject(const char* name, const RTM::ManagerServant* mgr) {
+    bind(name, RTM::Manager_var(mgr->getObjRef()).in(), nullptr);
+}
+
+void NamingManager::update() {
+    Logger& rtclog = m_manager->impl().log;
+    for (const auto& line : m_manager->impl().naming->update(true)) RTC_INFO(("%s", line.c_str()));
+}
+
+void NamingManager::unbindObject(const char* name) {
+    m_manager->impl().naming->unbind(name);
+    std::lock_guard<std::mutex> lock(m_mutex);
+    m_bound.erase(name);
+}
+
+void NamingManager::unbindAll() {
+    std::map<std::string, const RTObject_impl*> all;
+    {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        all.swap(m_bound);
+    }
+    for (const auto& entry : all) m_manager->impl().naming->unbind(entry.first);
+}
+
+std::vector<RTObject_impl*> NamingManager::getObjects() {
+    std::vector<RTObject_impl*> objects;
+    std::lock_guard<std::mutex> lock(m_mutex);
+    for (auto* component : m_manager->getComponents())
+        for (const auto& entry : m_bound)
+            if (entry.second == component) objects.push_back(component);
+    return objects;
+}
+
+RTCList NamingManager::string_to_component(const std::string& name) {
+    RTCList found;
+    RTObject_var component;
+    if (parse_remote_name(name).scheme.empty()) {
+        if (RTObject_impl* local = m_manager->getComponent(name.c_str())) component = local->getObjRef();
+    } else {
+        Logger& rtclog = m_manager->impl().log;
+        try {
+            component = find_component(m_manager->impl().orb.in(), name, m_manager->impl().naming->servers());
+        } catch (const NotThere& e) {
+            RTC_WARN(("%s", e.what()));
+        }
+    }
+    if (!CORBA::is_nil(component.in())) CORBA_SeqUtil::push_back(found, component);
+    return found;
+}
+
+NamingManager* Manager::getNaming() { return m_impl->naming_manager.get(); }
+
+} // namespace RTC

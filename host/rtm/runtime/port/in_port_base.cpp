@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/port/data_port.hpp"
+#include "host/rtm/runtime/transport/in_port_connectors.hpp"
+#include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/transport/registered_transports.hpp"
+#include <rtm/InPortBase.h>
+#include <rtm/OutPortBase.h>
+
+namespace RTC {
+
+InPortBase::InPortBase(const char* name, const char* data_type)
+    : PortBase(name), m_thebuffer(new CdrRingBuffer) {
+    addProperty("port.port_type", "DataInPort");
+    addProperty("dataport.data_type", data_type);
+    addProperty("dataport.subscription_type", "Any");
+    addProperty("dataport.dataflow_type", "push, pull");
+    addProperty("dataport.interface_type", "corba_cdr, data_service, direct");
+}
+
+InPortBase::~InPortBase() {
+    retire();
+    for (auto* connector : m_connectors) delete connector;
+    delete m_thebuffer;
+}
+
+void InPortBase::init(coil::Properties& prop) {
+    m_properties << prop;
+    if (const auto* node = m_properties.findNode("buffer")) m_thebuffer->init(*node);
+    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    append_registered_types(m_profile.properties, true);
+    int limit = -1;
+    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
+        setConnectionLimit(limit);
+}
+
+ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
+    const ReturnCode_t allowed = _publishInterfaces();
+    if (allowed != RTC_OK) return allowed;
+    const coil::Properties prop = connector_properties(m_properties, profile, "inport");
+    const std::string why = unsupported(prop);
+    if (!why.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + why);
+    const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
+    return flow == "pull" ? RTC_OK : addPushConnector(profile, prop);
+}
+
+ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    const std::string type = coil::eraseBothEndsBlank(prop.getProperty("buffer_type", "ring_buffer"));
+    CdrBufferBase* buffer = m_thebuffer;
+    const bool own = type != "ring_buffer" || !m_singlebuffer;
+    if (own) {
+        buffer = CdrBufferFactory::instance().createObject(type);
+        if (buffer == nullptr)
+            return refuse(BAD_PARAMETER, std::string(getName()) + ": there is no buffer type " + type +
+                                             "; add it to RTC::CdrBufferFactory before connecting");
+    }
+    if (own || info.properties.findNode("buffer") != nullptr) buffer->init(info.properties.getNode("buffer"));
+    const bool direct =
+        !own && coil::normalize(prop.getProperty("interface_type")) == "direct" && !converts(profile);
+    const auto lane = direct ? directLane() : nullptr;
+    if (lane != nullptr)
+        if (const auto* node = info.properties.findNode("buffer")) lane->init(*node);
+    auto* connector = new InPortPushConnector(*this, info, buffer, own, lane);
+    const std::string registered = registered_push(prop);
+    if (!registered.empty()) return addProvided(profile, prop, registered, connector);
+    publish_object(profile, "dataport." + wire_interface(prop) + ".inport", connector->servant().reference(),
+                   connector->servant().ior());
+    addConnector(connector);
+    return RTC_OK;
+}
+
+ReturnCode_t InPortBase::addProvided(ConnectorProfile& profile, const coil::Properties& prop,
+                                     const std::string& type, InPortPushConnector* made) {
+    std::unique_ptr<InPortPushConnector> connector(made);
+    auto provider = registered_in_provider(type, prop);
+    if (provider == nullptr)
+        return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + type +
+                                     " has no InPortProvider here; load the library that brings it");
+    ConnectorInfo info = connector->profile();
+    provider->setListener(info, &m_listeners);
+    provider->setBuffer(connector->getBuffer());
+    provider->setConnector(connector.get());
+    if (!provider->publishInterface(profile.properties))
+        return refuse(RTC_ERROR, std::string(getName()) + ": the InPortProvider of interface type " + type +
+                                     " publishes nothing");
+    connector->provideBy(std::move(provider));
+    addConnector(connector.release());
+    return RTC_OK;
+}
+
+ReturnCode_t InPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
+    const coil::Properties prop = connector_properties(m_properties, profile, "inport");
+    if (coil::normalize(prop.getProperty("dataflow_type", "push")) != "pull") return RTC_OK;
+    return addPullConnector(profile, prop);
+}
+
+ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    const std::string registered = registered_pull(prop);
+    if (!registered.empty()) {
+        auto sender = registered_sender(registered, profile, info, m_listeners, *m_thebuffer, prop);
+        if (sender == nullptr)
+            return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
+                                         " has no OutPortConsumer here, or it does not find the other side");
+        addConnector(new InPortPullConnector(*this, info, std::move(sender)));
+        return RTC_OK;
+    }
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
+        auto port = local_object<OutPortBase>(profile.ports[i]);
+        auto outlet = port ? port->outlet(profile.connector_id) : nullptr;
+        if (outlet == nullptr) continue;
+        addConnector(new InPortPullConnector(*this, info, outlet));
+        return RTC_OK;
+    }
+    auto remote = RemoteSender::find(profile, wire_interface(prop));
+    if (remote == nullptr)
+        return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
+                                     wire_interface(prop) + " reference to pull from");
+    addConnector(new InPortPullConnector(*this, info, std::move(remote)));
+    return RTC_OK;
+}
+
+void InPortBase::addConnector(InPortConnector* connector) {
+    ConnectorInfo info = connector->profile();
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        m_connectors.push_back(connector);
+    }
+    m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
+}
+
+void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
+    std::unique_ptr<InPortConnector> leaving;
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        for (auto it = m_connectors.begin(); it != m_connectors.end(); ++it) {
+            if (std::string((*it)->id()) != static_cast<const char*>(profile.connector_id)) continue;
+            leaving.reset(*it);
+            m_connectors.erase(it);
+            break;
+        }
+    }
+    if (!leaving) return;
+    // Outside the lock: a listener on its way may be reading this port.
+    leaving->disconnect();
+    ConnectorInfo info = leaving->profile();
+    m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
+}
+
+std::shared_ptr<DataInlet> InPortBase::inlet(const char* connector_id) {
+    auto* connector = dynamic_cast<InPortPushConnector*>(getConnectorById(connector_id));
+    return connector ? connector->inlet() : nullptr;
+}
+
+InPortConnector* InPortBase::readable() {
+    std::lock_guard<std::mutex> lock(m_connectorsMutex);
+    return readableLocked("", false);
+}
+
+InPortConnector* InPortBase::readableLocked(const std::string& name, bool or_first) {
+    InPortConnector* first = nullptr;
+    for (auto* connector : m_connectors) {
+        if (!name.empty() && name != connector->name()) continue;
+        if (first == nullptr) first = connector;
+        // The only one is what the caller gets, new data or not, and reading it shows which.
+        if (or_first && m_connectors.size() == 1) return first;
+        if (connector->waiting() > 0) return connector;
+    }
+    if (!or_first) return nullptr;
+    // A sender in another process does not say whether it has something: each is asked, since the first may
+    // be empty, hang or be dead.
+    for (auto* connector : m_connectors) {
+        if (!name.empty() && name != connector->name()) continue;
+        auto* pull = dynamic_cast<InPortPullConnector*>(connector);
+        if (pull != nullptr && pull->fetchAhead(connector == first)) return connector;
+    }
+    return first;
+}
+
+void InPortBase::stampReceived(ByteData&) {}
+void InPortBase::activateInterfaces() {}
+void InPortBase::deactivateInterfaces() {}
+
+} // namespace RTC

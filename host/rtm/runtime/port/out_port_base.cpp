@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/port/data_port.hpp"
+#include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/transport/out_port_connectors.hpp"
+#include "host/rtm/runtime/transport/registered_transports.hpp"
+#include <rtm/InPortBase.h>
+#include <rtm/OutPortBase.h>
+
+namespace RTC {
+namespace {
+
+void tell_alone(const std::vector<OutPortConnector*>& connectors) {
+    for (auto* connector : connectors)
+        if (auto* push = dynamic_cast<OutPortPushConnector*>(connector))
+            push->setAlone(connectors.size() == 1);
+}
+
+} // namespace
+
+OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(name) {
+    addProperty("port.port_type", "DataOutPort");
+    addProperty("dataport.data_type", data_type);
+    addProperty("dataport.subscription_type", "flush, new, periodic");
+    addProperty("dataport.dataflow_type", "push, pull");
+    addProperty("dataport.interface_type", "corba_cdr, data_service, direct");
+}
+
+OutPortBase::~OutPortBase() {
+    retire();
+    for (auto* connector : m_connectors) delete connector;
+}
+
+void OutPortBase::init(coil::Properties& prop) {
+    m_properties << prop;
+    NVUtil::mergeFromProperties(m_profile.properties, m_properties);
+    append_registered_types(m_profile.properties, false);
+    int limit = -1;
+    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
+        setConnectionLimit(limit);
+}
+
+ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
+    const ReturnCode_t allowed = _publishInterfaces();
+    if (allowed != RTC_OK) return allowed;
+    const coil::Properties prop = connector_properties(m_properties, profile, "outport");
+    const std::string why = unsupported(prop);
+    if (!why.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + why);
+    const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
+    return flow == "pull" ? addPullConnector(profile, prop) : RTC_OK;
+}
+
+ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    auto connector = std::make_unique<OutPortPullConnector>(*this, info);
+    const std::string registered = registered_pull(prop);
+    if (registered.empty()) {
+        publish_object(profile, "dataport." + wire_interface(prop) + ".outport",
+                       connector->servant().reference(), connector->servant().ior());
+    } else {
+        auto provider = registered_out_provider(registered, prop);
+        if (provider == nullptr)
+            return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
+                                         " has no OutPortProvider here; load the library that brings it");
+        provider->setListener(info, &m_listeners);
+        provider->setBuffer(connector->getBuffer());
+        provider->setConnector(connector.get());
+        if (!provider->publishInterface(profile.properties))
+            return refuse(RTC_ERROR, std::string(getName()) + ": the OutPortProvider of interface type " +
+                                         registered + " publishes nothing");
+        connector->provideBy(std::move(provider));
+    }
+    addConnector(connector.release());
+    return RTC_OK;
+}
+
+ReturnCode_t OutPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
+    const coil::Properties prop = connector_properties(m_properties, profile, "outport");
+    const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
+    return flow == "push" ? addPushConnectors(profile, prop) : RTC_OK;
+}
+
+ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, const coil::Properties& prop) {
+    ConnectorInfo info = connector_info(profile, prop);
+    const std::string registered = registered_push(prop);
+    if (!registered.empty()) {
+        auto receiver = registered_receiver(registered, profile, prop);
+        if (receiver == nullptr)
+            return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
+                                         " has no InPortConsumer here, or it does not find the other side");
+        addConnector(new OutPortPushConnector(*this, info, std::move(receiver)));
+        return RTC_OK;
+    }
+    bool local = false;
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
+        auto port = local_object<InPortBase>(profile.ports[i]);
+        auto inlet = port ? port->inlet(profile.connector_id) : nullptr;
+        if (inlet == nullptr) continue;
+        addConnector(new OutPortPushConnector(*this, info, inlet));
+        local = true;
+    }
+    if (local || profile.ports.length() < 2) return RTC_OK;
+    auto remote = RemoteReceiver::find(profile, wire_interface(prop));
+    if (remote == nullptr)
+        return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
+                                     wire_interface(prop) + " reference to push to");
+    addConnector(new OutPortPushConnector(*this, info, std::move(remote)));
+    return RTC_OK;
+}
+
+void OutPortBase::addConnector(OutPortConnector* connector) {
+    ConnectorInfo info = connector->profile();
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        m_connectors.push_back(connector);
+        tell_alone(m_connectors);
+    }
+    m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
+}
+
+void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
+    std::vector<std::unique_ptr<OutPortConnector>> leaving;
+    {
+        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        for (std::size_t i = m_connectors.size(); i-- > 0;) {
+            if (std::string(m_connectors[i]->id()) != static_cast<const char*>(profile.connector_id))
+                continue;
+            leaving.emplace_back(m_connectors[i]);
+            m_connectors.erase(m_connectors.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+        tell_alone(m_connectors);
+    }
+    for (auto& connector : leaving) {
+        connector->disconnect();
+        ConnectorInfo info = connector->profile();
+        m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
+    }
+}
+
+std::shared_ptr<DataOutlet> OutPortBase::outlet(const char* connector_id) {
+    auto* connector = dynamic_cast<OutPortPullConnector*>(getConnectorById(connector_id));
+    return connector ? connector->outlet() : nullptr;
+}
+
+void OutPortBase::dropLost(const std::vector<std::string>& connector_ids) {
+    for (const auto& id : connector_ids) forget(id.c_str());
+}
+
+void OutPortBase::activateInterfaces() {}
+void OutPortBase::deactivateInterfaces() {}
+
+} // namespace RTC

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/sdo/sdo_configuration.hpp"
+#include <rtm/Manager.h>
+
+namespace SDOPackage {
+namespace {
+
+ConfigurationSet to_corba(const coil::Properties& set) {
+    ConfigurationSet out;
+    out.id = CORBA::string_dup(set.getName());
+    out.description = CORBA::string_dup(set.getProperty("description").c_str());
+    NVUtil::copyFromProperties(out.configuration_data, set);
+    return out;
+}
+
+coil::Properties to_properties(const ConfigurationSet& set) {
+    coil::Properties out(set.id);
+    NVUtil::copyToProperties(out, set.configuration_data);
+    return out;
+}
+
+bool describes_parameters(const coil::Properties& set) {
+    return std::string(set.getName()).compare(0, 2, "__") == 0;
+}
+
+} // namespace
+
+Configuration_impl::Configuration_impl(RTC::RTObject_impl& owner, RTC::ConfigAdmin& sets,
+                                       std::shared_ptr<Organizations> organizations)
+    : sets_(sets), services_(owner, RTC::Manager::instance().getConfig()),
+      organizations_(std::move(organizations)), poa_(RTC::Manager::instance().getPOA()) {
+    id_ = poa_->activate_object(this);
+}
+
+void Configuration_impl::retire() {
+    services_.finalize();
+    try {
+        poa_->deactivate_object(id_.in());
+    } catch (const CORBA::Exception&) {
+        // the ORB has gone down before: nothing is left to deactivate
+    }
+}
+
+CORBA::Boolean Configuration_impl::set_device_profile(const DeviceProfile&) { return false; }
+CORBA::Boolean Configuration_impl::add_service_profile(const ServiceProfile& profile) {
+    return services_.add_consumer(profile);
+}
+CORBA::Boolean Configuration_impl::add_organization(Organization_ptr organization) {
+    return organizations_->add(organization);
+}
+CORBA::Boolean Configuration_impl::remove_service_profile(const char* id) {
+    return services_.remove_consumer(id);
+}
+CORBA::Boolean Configuration_impl::remove_organization(const char* id) { return organizations_->remove(id); }
+ParameterList* Configuration_impl::get_configuration_parameters() { return new ParameterList; }
+
+NVList* Configuration_impl::get_configuration_parameter_values() {
+    NVList_var values = new NVList;
+    NVUtil::copyFromProperties(values.inout(), sets_.getActiveConfigurationSet());
+    return values._retn();
+}
+
+CORBA::Any* Configuration_impl::get_configuration_parameter_value(const char* name) {
+    const coil::Properties set = sets_.getActiveConfigurationSet();
+    if (set.findNode(name) == nullptr) throw InvalidParameter("no such parameter");
+    CORBA::Any_var value = new CORBA::Any;
+    value.inout() <<= set.getProperty(name).c_str();
+    return value._retn();
+}
+
+CORBA::Boolean Configuration_impl::set_configuration_parameter(const char* name, const CORBA::Any& value) {
+    const char* text = nullptr;
+    if (!(value >>= text)) throw InvalidParameter("the value is not a string");
+    coil::Properties change(sets_.activeId().c_str());
+    change.setProperty(name, text);
+    return sets_.setConfigurationSetValues(change);
+}
+
+ConfigurationSetList* Configuration_impl::get_configuration_sets() {
+    ConfigurationSetList_var list = new ConfigurationSetList;
+    for (const auto& set : sets_.copies())
+        if (!describes_parameters(set)) CORBA_SeqUtil::push_back(list.inout(), to_corba(set));
+    return list._retn();
+}
+
+ConfigurationSet* Configuration_impl::get_configuration_set(const char* config_id) {
+    if (!sets_.haveConfig(config_id)) throw InternalError("no such configuration set");
+    return new ConfigurationSet(to_corba(sets_.getConfigurationSet(config_id)));
+}
+
+CORBA::Boolean Configuration_impl::set_configuration_set_values(const ConfigurationSet& set) {
+    if (!sets_.setConfigurationSetValues(to_properties(set)))
+        throw InvalidParameter("no such configuration set");
+    return true;
+}
+
+ConfigurationSet* Configuration_impl::get_active_configuration_set() {
+    return new ConfigurationSet(to_corba(sets_.getActiveConfigurationSet()));
+}
+
+CORBA::Boolean Configuration_impl::add_configuration_set(const ConfigurationSet& set) {
+    return sets_.addConfigurationSet(to_properties(set));
+}
+CORBA::Boolean Configuration_impl::remove_configuration_set(const char* config_id) {
+    return sets_.removeConfigurationSet(config_id);
+}
+CORBA::Boolean Configuration_impl::activate_configuration_set(const char* config_id) {
+    if (!sets_.activateConfigurationSet(config_id)) throw InvalidParameter("no such configuration set");
+    return true;
+}
+
+} // namespace SDOPackage
+
+namespace RTC {
+
+SDOPackage::OrganizationList* RTObject_impl::get_owned_organizations() {
+    return m_ownedOrganizations->list();
+}
+char* RTObject_impl::get_sdo_id() { return CORBA::string_dup(m_profile.instance_name); }
+char* RTObject_impl::get_sdo_type() { return CORBA::string_dup(m_profile.description); }
+SDOPackage::DeviceProfile* RTObject_impl::get_device_profile() { return new SDOPackage::DeviceProfile; }
+SDOPackage::ServiceProfileList* RTObject_impl::get_service_profiles() {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().profiles();
+}
+SDOPackage::ServiceProfile* RTObject_impl::get_service_profile(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return new SDOPackage::ServiceProfile(m_sdoConfiguration->services().profile(id));
+}
+SDOPackage::SDOService_ptr RTObject_impl::get_sdo_service(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return SDOPackage::SDOService::_duplicate(m_sdoConfiguration->services().profile(id).service);
+}
+bool RTObject_impl::addSdoServiceProvider(const SDOPackage::ServiceProfile& profile,
+                                          SdoServiceProviderBase* provider) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().add_provider(profile, provider);
+}
+bool RTObject_impl::removeSdoServiceProvider(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().remove_provider(id);
+}
+bool RTObject_impl::addSdoServiceConsumer(const SDOPackage::ServiceProfile& profile) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().add_consumer(profile);
+}
+bool RTObject_impl::removeSdoServiceConsumer(const char* id) {
+    SDOPackage::Configuration_var made = get_configuration();
+    return m_sdoConfiguration->services().remove_consumer(id);
+}
+SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
+    std::lock_guard<std::mutex> lock(m_contextsMutex);
+    if (m_sdoConfiguration == nullptr)
+        m_sdoConfiguration = new SDOPackage::Configuration_impl(*this, m_configsets, m_organizations);
+    return m_sdoConfiguration->_this();
+}
+SDOPackage::Monitoring_ptr RTObject_impl::get_monitoring() {
+    throw SDOPackage::InterfaceNotImplemented("no monitoring");
+}
+SDOPackage::OrganizationList* RTObject_impl::get_organizations() { return m_organizations->list(); }
+SDOPackage::NVList* RTObject_impl::get_status_list() { return new SDOPackage::NVList; }
+CORBA::Any* RTObject_impl::get_status(const char*) {
+    throw SDOPackage::InvalidParameter("this component has no status");
+}
+
+} // namespace RTC

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/sdo/sdo_services.hpp"
+#include <algorithm>
+#include <coil/stringutil.h>
+#include <rtm/CORBA_SeqUtil.h>
+
+namespace RTC {
+namespace {
+
+using Lock = std::lock_guard<std::recursive_mutex>;
+
+template <class Service>
+typename std::vector<Service*>::iterator of_id(std::vector<Service*>& services, const std::string& id) {
+    return std::find_if(services.begin(), services.end(), [&](Service* service) {
+        return id == static_cast<const char*>(service->getProfile().id);
+    });
+}
+
+void end(SdoServiceProviderBase* provider) {
+    provider->finalize();
+    provider->_remove_ref(); // a call of a tool that is under way keeps it
+}
+
+void end(SdoServiceConsumerBase* consumer) {
+    consumer->finalize();
+    auto& factory = SdoServiceConsumerFactory::instance();
+    if (factory.deleteObject(consumer) != coil::FactoryReturn::OK) delete consumer;
+}
+
+} // namespace
+
+SdoServices::SdoServices(RTObject_impl& owner, const coil::Properties& config)
+    : owner_(owner), config_(config) {}
+
+SdoServices::~SdoServices() { finalize(); }
+
+bool SdoServices::enabled(const char* kind, const std::string& type) const {
+    const std::string wanted =
+        config_.getProperty(std::string("sdo.service.") + kind + ".enabled_services", "ALL");
+    return coil::includes(wanted, "all") || coil::includes(wanted, type);
+}
+
+void SdoServices::start_providers() {
+    for (const auto& type : SdoServiceProviderFactory::instance().getIdentifiers()) {
+        if (!enabled("provider", type)) continue;
+        SdoServiceProviderBase* provider = SdoServiceProviderFactory::instance().createObject(type);
+        if (provider == nullptr) continue;
+        SDOPackage::ServiceProfile profile;
+        profile.id = CORBA::string_dup(type.c_str());
+        profile.interface_type = CORBA::string_dup(type.c_str());
+        profile.service = provider->_this();
+        if (!add_provider(profile, provider)) end(provider);
+    }
+}
+
+void SdoServices::finalize() {
+    Lock lock(mutex_);
+    for (auto* provider : providers_) end(provider);
+    for (auto* consumer : consumers_) end(consumer);
+    providers_.clear();
+    consumers_.clear();
+}
+
+bool SdoServices::add_provider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider) {
+    Lock lock(mutex_);
+    if (of_id(providers_, static_cast<const char*>(profile.id)) != providers_.end()) return false;
+    if (!provider->init(owner_, profile)) return false;
+    providers_.push_back(provider);
+    return true;
+}
+
+bool SdoServices::remove_provider(const std::string& id) {
+    Lock lock(mutex_);
+    auto found = of_id(providers_, id);
+    if (found == providers_.end()) return false;
+    end(*found);
+    providers_.erase(found);
+    return true;
+}
+
+bool SdoServices::add_consumer(const SDOPackage::ServiceProfile& profile) {
+    Lock lock(mutex_);
+    auto found = of_id(consumers_, static_cast<const char*>(profile.id));
+    if (found != consumers_.end()) return (*found)->reinit(profile);
+    const std::string type(profile.interface_type);
+    if (!enabled("consumer", type)) return false;
+    SdoServiceConsumerBase* consumer = SdoServiceConsumerFactory::instance().createObject(type);
+    if (consumer == nullptr) return false;
+    if (!consumer->init(owner_, profile)) {
+        end(consumer);
+        return false;
+    }
+    consumers_.push_back(consumer);
+    return true;
+}
+
+bool SdoServices::remove_consumer(const std::string& id) {
+    Lock lock(mutex_);
+    auto found = of_id(consumers_, id);
+    if (found == consumers_.end()) return false;
+    end(*found);
+    consumers_.erase(found);
+    return true;
+}
+
+SDOPackage::ServiceProfileList* SdoServices::profiles() const {
+    Lock lock(mutex_);
+    SDOPackage::ServiceProfileList_var list = new SDOPackage::ServiceProfileList;
+    for (auto* provider : providers_) CORBA_SeqUtil::push_back(list.inout(), provider->getProfile());
+    return list._retn();
+}
+
+SDOPackage::ServiceProfile SdoServices::profile(const std::string& id) const {
+    Lock lock(mutex_);
+    for (auto* provider : providers_)
+        if (id == static_cast<const char*>(provider->getProfile().id)) return provider->getProfile();
+    throw SDOPackage::InvalidParameter(("no SDO service " + id).c_str());
+}
+
+} // namespace RTC

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/inlet.hpp"
+#include <rtm/InPortBase.h>
+
+namespace RTC {
+
+DataInlet::DataInlet(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
+                     std::shared_ptr<DirectLaneBase> lane)
+    : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer), lane_(std::move(lane)),
+      in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
+      marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
+      timestamp_(timestampPolicy(info.properties)) {}
+
+DataPortStatus DataInlet::receive(ByteData& bytes) {
+    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    if (!open_) return DataPortStatus::CONNECTION_LOST;
+    if (timestamp_ == TimestampPolicy::on_received) port_.stampReceived(bytes);
+    listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);
+    return store(bytes);
+}
+
+bool DataInlet::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
+    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    // Whoever wants to see or stamp the bytes needs them as ByteData.
+    if (!open_ || in_place_ == nullptr || timestamp_ == TimestampPolicy::on_received || listeners_.toData())
+        return false;
+    const BufferStatus written = in_place_->writeInPlace(marshal);
+    status = written == BufferStatus::OK     ? DataPortStatus::PORT_OK
+             : written == BufferStatus::FULL ? DataPortStatus::BUFFER_FULL
+                                             : DataPortStatus::PORT_ERROR;
+    return written != BufferStatus::NOT_SUPPORTED;
+}
+
+bool DataInlet::receiveDirect(const DirectPut& put, DataPortStatus& status) {
+    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    // Whoever wants to see or stamp the bytes needs them.
+    if (!open_ || lane_ == nullptr || timestamp_ == TimestampPolicy::on_received || listeners_.toData())
+        return false;
+    const BufferStatus written = put(*lane_);
+    status = written == BufferStatus::OK        ? DataPortStatus::PORT_OK
+             : written == BufferStatus::FULL    ? DataPortStatus::BUFFER_FULL
+             : written == BufferStatus::TIMEOUT ? DataPortStatus::BUFFER_TIMEOUT
+                                                : DataPortStatus::PORT_ERROR;
+    return written != BufferStatus::NOT_SUPPORTED;
+}
+
+DataPortStatus DataInlet::store(ByteData& bytes) {
+    using Type = ConnectorDataListenerType;
+    if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full())
+        listeners_.notify(Type::ON_BUFFER_OVERWRITE, info_, bytes, marshaling_type_);
+    switch (lane_ ? lane_->writeBytes(bytes) : buffer_.write(bytes)) {
+    case BufferStatus::OK:
+        listeners_.notify(Type::ON_BUFFER_WRITE, info_, bytes, marshaling_type_);
+        return DataPortStatus::PORT_OK;
+    case BufferStatus::FULL:
+        listeners_.notify(Type::ON_BUFFER_FULL, info_, bytes, marshaling_type_);
+        listeners_.notify(Type::ON_RECEIVER_FULL, info_, bytes, marshaling_type_);
+        return DataPortStatus::BUFFER_FULL;
+    case BufferStatus::TIMEOUT:
+        listeners_.notify(Type::ON_BUFFER_WRITE_TIMEOUT, info_, bytes, marshaling_type_);
+        listeners_.notify(Type::ON_RECEIVER_TIMEOUT, info_, bytes, marshaling_type_);
+        return DataPortStatus::BUFFER_TIMEOUT;
+    default:
+        listeners_.notify(Type::ON_RECEIVER_ERROR, info_, bytes, marshaling_type_);
+        return DataPortStatus::PORT_ERROR;
+    }
+}
+
+void DataInlet::close() {
+    std::unique_lock<std::shared_mutex> lock(open_mutex_);
+    open_ = false;
+}
+
+} // namespace RTC

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/out_port_connectors.hpp"
+#include "host/rtm/runtime/port/data_port.hpp"
+#include <rtm/OutPortBase.h>
+
+namespace RTC {
+
+OutPortConnector::OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners)
+    : m_profile(info), m_littleEndian(little_endian(info.properties)), m_listeners(listeners),
+      m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
+      m_timestamp(timestampPolicy(info.properties)) {}
+
+OutPortConnector::~OutPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
+
+DataPortStatus OutPortConnector::write(ByteDataStreamBase* stream) {
+    m_bytes = *stream;
+    m_bytes.isLittleEndian(isLittleEndian());
+    return write(m_bytes);
+}
+
+BufferStatus OutPortConnector::read(ByteData& bytes) {
+    CdrBufferBase* buffer = getBuffer();
+    return buffer == nullptr ? BufferStatus::PRECONDITION_NOT_MET : buffer->read(bytes);
+}
+
+bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return false; }
+
+bool OutPortConnector::writeDirect(const DirectPut&, DataPortStatus&) { return false; }
+
+bool OutPortConnector::sendsLike(const OutPortConnector& other) const {
+    auto stamps = [](TimestampPolicy p) {
+        return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
+    };
+    return !other.m_sentInPlace && m_littleEndian == other.m_littleEndian &&
+           m_marshaling_type == other.m_marshaling_type && !stamps(m_timestamp) && !stamps(other.m_timestamp);
+}
+
+OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
+                                           std::shared_ptr<DataInlet> local)
+    : OutPortConnector(info, port.getListeners()), local_(std::move(local)) {
+    m_direct = local_->lane() != nullptr;
+    if (!m_direct) // who wants values as they are wants them at once
+        publisher_ =
+            Publisher::make(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); });
+    if (local_->inPlace() != nullptr && !publisher_) m_longFrom = local_->inPlace()->longFrom();
+}
+
+OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
+                                           std::unique_ptr<RemoteReceiver> remote)
+    : OutPortConnector(info, port.getListeners()), receiver_(std::move(remote)),
+      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
+    if (!publisher_)
+        remote_ = std::make_unique<RemotePush>(std::move(receiver_), RemotePush::bounds(info.properties));
+}
+
+OutPortPushConnector::~OutPortPushConnector() { disconnect(); }
+
+DataPortStatus OutPortPushConnector::disconnect() {
+    publisher_.reset();
+    return DataPortStatus::PORT_OK;
+}
+
+DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
+    if (!publisher_) return deliver(bytes);
+    using Type = ConnectorDataListenerType;
+    m_listeners->notify(Type::ON_BUFFER_WRITE, m_profile, bytes, m_marshaling_type);
+    if (m_listeners->has(Type::ON_BUFFER_OVERWRITE) && publisher_->buffer().full())
+        m_listeners->notify(Type::ON_BUFFER_OVERWRITE, m_profile, bytes, m_marshaling_type);
+    const DataPortStatus status = publisher_->write(bytes);
+    if (status == DataPortStatus::BUFFER_FULL)
+        m_listeners->notify(Type::ON_BUFFER_FULL, m_profile, bytes, m_marshaling_type);
+    if (status == DataPortStatus::BUFFER_TIMEOUT)
+        m_listeners->notify(Type::ON_BUFFER_WRITE_TIMEOUT, m_profile, bytes, m_marshaling_type);
+    return status;
+}
+
+// In the publisher's thread, which runs before publisher_ is set and ends after it is reset.
+DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
+    m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);
+    return deliver(bytes);
+}
+
+DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
+    using Type = ConnectorDataListenerType;
+    m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
+    const DataPortStatus status = local_    ? local_->receive(bytes)
+                                  : remote_ ? remote_->write(bytes, alone_)
+                                            : receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
+    switch (status) {
+    case DataPortStatus::PORT_OK:
+        m_listeners->notify(Type::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
+        break;
+    case DataPortStatus::BUFFER_FULL:
+    case DataPortStatus::SEND_FULL:
+        m_listeners->notify(Type::ON_RECEIVER_FULL, m_profile, bytes, m_marshaling_type);
+        break;
+    case DataPortStatus::BUFFER_TIMEOUT:
+    case DataPortStatus::SEND_TIMEOUT:
+        m_listeners->notify(Type::ON_RECEIVER_TIMEOUT, m_profile, bytes, m_marshaling_type);
+        break;
+    default:
+        m_listeners->notify(Type::ON_RECEIVER_ERROR, m_profile, bytes, m_marshaling_type);
+    }
+    return status;
+}
+
+bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& status) {
+    return !m_listeners->toData() && local_->receiveInPlace(marshal, status);
+}
+
+bool OutPortPushConnector::writeDirect(const DirectPut& put, DataPortStatus& status) {
+    return !m_listeners->toData() && local_->receiveDirect(put, status);
+}
+
+OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)
+    : OutPortConnector(info, port.getListeners()),
+      outlet_(std::make_shared<DataOutlet>(*port.getListeners(), info)),
+      servant_(make_servant(wire_interface(info.properties), outlet_)) {}
+
+OutPortPullConnector::~OutPortPullConnector() {
+    provider_.reset(); // nobody reads after that
+    disconnect();
+}
+
+DataPortStatus OutPortPullConnector::disconnect() {
+    outlet_->close();
+    return DataPortStatus::PORT_OK;
+}
+
+DataPortStatus OutPortPullConnector::write(ByteData& bytes) { return outlet_->put(bytes); }
+
+} // namespace RTC

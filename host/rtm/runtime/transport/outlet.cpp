@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/outlet.hpp"
+
+namespace RTC {
+
+DataOutlet::DataOutlet(ConnectorListeners& listeners, const ConnectorInfo& info)
+    : listeners_(listeners), info_(info),
+      marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")) {
+    buffer_.init(info_.properties.getNode("buffer"));
+}
+
+DataPortStatus DataOutlet::put(ByteData& bytes) {
+    using Type = ConnectorDataListenerType;
+    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    if (!open_) return DataPortStatus::CONNECTION_LOST;
+    switch (buffer_.write(bytes)) {
+    case BufferStatus::OK:
+        listeners_.notify(Type::ON_BUFFER_WRITE, info_, bytes, marshaling_type_);
+        return DataPortStatus::PORT_OK;
+    case BufferStatus::FULL:
+        listeners_.notify(Type::ON_BUFFER_FULL, info_, bytes, marshaling_type_);
+        return DataPortStatus::BUFFER_FULL;
+    case BufferStatus::TIMEOUT:
+        listeners_.notify(Type::ON_BUFFER_WRITE_TIMEOUT, info_, bytes, marshaling_type_);
+        return DataPortStatus::BUFFER_TIMEOUT;
+    default:
+        return DataPortStatus::BUFFER_ERROR;
+    }
+}
+
+DataPortStatus DataOutlet::fetch(ByteData& bytes) {
+    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    if (!open_) return DataPortStatus::CONNECTION_LOST;
+    switch (buffer_.read(bytes)) {
+    case BufferStatus::OK:
+        listeners_.notify(ConnectorDataListenerType::ON_BUFFER_READ, info_, bytes, marshaling_type_);
+        listeners_.notify(ConnectorDataListenerType::ON_SEND, info_, bytes, marshaling_type_);
+        return DataPortStatus::PORT_OK;
+    case BufferStatus::EMPTY:
+        listeners_.notify(ConnectorListenerType::ON_BUFFER_EMPTY, info_);
+        listeners_.notify(ConnectorListenerType::ON_SENDER_EMPTY, info_);
+        return DataPortStatus::BUFFER_EMPTY;
+    case BufferStatus::TIMEOUT:
+        listeners_.notify(ConnectorListenerType::ON_BUFFER_READ_TIMEOUT, info_);
+        listeners_.notify(ConnectorListenerType::ON_SENDER_TIMEOUT, info_);
+        return DataPortStatus::BUFFER_TIMEOUT;
+    default:
+        listeners_.notify(ConnectorListenerType::ON_SENDER_ERROR, info_);
+        return DataPortStatus::BUFFER_ERROR;
+    }
+}
+
+void DataOutlet::close() {
+    std::unique_lock<std::shared_mutex> lock(open_mutex_);
+    open_ = false;
+}
+
+} // namespace RTC

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/publisher.hpp"
+
+namespace RTC {
+
+std::unique_ptr<Publisher> Publisher::make(const coil::Properties& properties, Deliver deliver) {
+    const std::string type = coil::normalize(properties.getProperty("subscription_type", "flush"));
+    if (type != "new" && type != "periodic") return nullptr;
+    return std::make_unique<Publisher>(properties, type == "periodic", std::move(deliver));
+}
+
+Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver deliver)
+    : deliver_(std::move(deliver)) {
+    if (const auto* node = properties.findNode("buffer")) buffer_.init(*node);
+    const std::string policy = coil::normalize(
+        properties.getProperty("publisher.push_policy", properties.getProperty("push_policy")));
+    policy_ = policy == "fifo"   ? Policy::fifo
+              : policy == "skip" ? Policy::skip
+              : policy == "all"  ? Policy::all
+                                 : Policy::newest;
+    coil::stringTo(
+        skip_, properties.getProperty("publisher.skip_count", properties.getProperty("skip_count")).c_str());
+    double rate = 10; // Hz, when periodic is asked for without a rate
+    coil::stringTo(
+        rate, properties.getProperty("publisher.push_rate", properties.getProperty("push_rate")).c_str());
+    if (periodic && rate > 0) period_ = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
+    thread_ = std::thread([this] { run(); });
+}
+
+Publisher::~Publisher() {
+    {
+        std::lock_guard<std::mutex> lock(mutex_);
+        ending_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+DataPortStatus Publisher::write(const ByteData& bytes) {
+    if (lost_) return DataPortStatus::CONNECTION_LOST;
+    const BufferStatus status = buffer_.write(bytes);
+    if (status == BufferStatus::FULL) return DataPortStatus::BUFFER_FULL;
+    if (status == BufferStatus::TIMEOUT) return DataPortStatus::BUFFER_TIMEOUT;
+    {
+        std::lock_guard<std::mutex> lock(mutex_);
+        written_ = true;
+    }
+    if (period_.count() == 0) wake_.notify_one();
+    return DataPortStatus::PORT_OK;
+}
+
+void Publisher::run() {
+    auto next = std::chrono::steady_clock::now() + period_;
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (!ending_) {
+        if (period_.count() > 0) {
+            wake_.wait_until(lock, next, [this] { return ending_; });
+            next += period_;
+        } else {
+            wake_.wait(lock, [this] { return ending_ || written_; });
+        }
+        if (ending_) return;
+        written_ = false;
+        lock.unlock();
+        push();
+        lock.lock();
+    }
+}
+
+void Publisher::push() {
+    ByteData bytes;
+    for (std::size_t waiting = buffer_.readable(); waiting > 0; waiting = buffer_.readable()) {
+        if (buffer_.read(bytes) != BufferStatus::OK) return;
+        if (policy_ == Policy::newest && waiting > 1) continue;
+        if (policy_ == Policy::skip && skipped_++ % (skip_ + 1) != skip_) continue;
+        if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) lost_ = true;
+        if (policy_ == Policy::fifo && period_.count() > 0) return;
+    }
+}
+
+} // namespace RTC

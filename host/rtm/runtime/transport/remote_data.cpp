@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rtm/runtime/transport/remote_data.hpp"
+#include "host/rtm/runtime/transport/cdr_servants.hpp"
+#include "host/rtm/runtime/port/data_port.hpp"
+
+namespace RTC {
+namespace {
+
+// What an exception of a call means: no answer, nobody there, or an answer that is no good.
+std::optional<DataPortStatus> after(const CORBA::SystemException& e) {
+    const CORBA::Exception* thrown = &e;
+    if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return std::nullopt;
+    if (CORBA::TRANSIENT::_downcast(thrown) != nullptr || CORBA::COMM_FAILURE::_downcast(thrown) != nullptr ||
+        CORBA::OBJECT_NOT_EXIST::_downcast(thrown) != nullptr ||
+        CORBA::OBJ_ADAPTER::_downcast(thrown) != nullptr || CORBA::INV_OBJREF::_downcast(thrown) != nullptr)
+        return DataPortStatus::CONNECTION_LOST;
+    return DataPortStatus::PORT_ERROR;
+}
+
+void bound_calls(CORBA::Object_ptr object, std::chrono::milliseconds bound) {
+    omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(bound.count()));
+}
+
+auto call_put(OpenRTM::InPortCdr_ptr object, const OpenRTM::CdrData& data) { return object->put(data); }
+auto call_put(RTC::DataPushService_ptr object, const RTC::OctetSeq& data) { return object->push(data); }
+auto call_get(OpenRTM::OutPortCdr_ptr object, OpenRTM::CdrData_out data) { return object->get(data); }
+auto call_get(RTC::DataPullService_ptr object, RTC::OctetSeq_out data) { return object->pull(data); }
+
+template <class Interface, class Data>
+class Receiver : public RemoteReceiver {
+  public:
+    explicit Receiver(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
+    std::optional<DataPortStatus> put(const ByteData& bytes) override {
+        const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
+        try {
+            return from_wire(static_cast<OpenRTM::PortStatus>(
+                call_put(object_.in(), Data(length, length, bytes.getBuffer(), false))));
+        } catch (const CORBA::SystemException& e) {
+            return after(e);
+        }
+    }
+    void setTimeout(std::chrono::milliseconds bound) override { bound_calls(object_.in(), bound); }
+
+  private:
+    typename Interface::_var_type object_;
+};
+
+template <class Interface, class Data>
+class Sender : public RemoteSender {
+  public:
+    explicit Sender(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
+    std::optional<DataPortStatus> get(ByteData& bytes) override {
+        try {
+            typename Data::_var_type data;
+            const DataPortStatus status =
+                from_wire(static_cast<OpenRTM::PortStatus>(call_get(object_.in(), data.out())));
+            bytes.writeData(data->get_buffer(), data->length());
+            return status;
+        } catch (const CORBA::SystemException& e) {
+            return after(e);
+        }
+    }
+    bool answers() override {
+        try {
+            object_->_non_existent();
+        } catch (const CORBA::SystemException& e) {
+            return after(e).has_value();
+        }
+        return true;
+    }
+    void setTimeout(std::chrono::milliseconds bound) override { bound_calls(object_.in(), bound); }
+
+  private:
+    typename Interface::_var_type object_;
+};
+
+} // namespace
+
+std::unique_ptr<RemoteReceiver> RemoteReceiver::find(const ConnectorProfile& profile,
+                                                     const std::string& interface_type) {
+    CORBA::Object_var object = published_object(profile, "dataport." + interface_type + ".inport");
+    if (CORBA::is_nil(object.in())) return nullptr;
+    if (interface_type == "data_service")
+        return std::make_unique<Receiver<RTC::DataPushService, RTC::OctetSeq>>(object.in());
+    return std::make_unique<Receiver<OpenRTM::InPortCdr, OpenRTM::CdrData>>(object.in());
+}
+
+std::unique_ptr<RemoteSender> RemoteSender::find(const ConnectorProfile& profile,
+                                                 const std::string& interface_type) {
+    CORBA::Object_var object = published_object(profile, "dataport." + interface_type + ".outport");
+    if (CORBA::is_nil(object.in())) return nullptr;
+    if (interface_type == "data_service")
+        return std::make_unique<Sender<RTC::DataPullService, RTC::OctetSeq>>(object.in());
+    return std::make_unique<Sender<OpenRTM::OutPortCdr, OpenRTM::CdrData>>(object.in());
+}
+
+std::string wire_interface(const coil::Properties& connector_properties) {
+    const std::string type = coil::normalize(connector_properties.getProperty("interface_type"));
+    return type == "data_service" ? type : "corba_cdr";
+}
+
+} // namespace RTC

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/devices/sensors/simulated_sensor.hpp"
+
+#include <device/GyroSensor.h>
+
+namespace {
+
+/// Turns to and fro; rad.
+class SimulatedGyroSensor : public tandem::devices::SimulatedSensor<GyroSensor, ObjectRotation> {
+  public:
+    int GetGyroSensorData(std::vector<ObjectLocation>& values) override {
+        std::vector<ObjectRotation> rotations;
+        const int result = GetSensorValue(rotations);
+        values.clear();
+        for (const ObjectRotation& rotation : rotations) values.push_back(ObjectLocation(0, 0, rotation.yaw));
+        return result;
+    }
+
+  protected:
+    ObjectRotation at(int channel, double seconds) override {
+        return ObjectRotation(0, 0, wave(channel, seconds));
+    }
+};
+
+} // namespace
+
+TANDEM_DEVICE(SimulatedGyroSensor)

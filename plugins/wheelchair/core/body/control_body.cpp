@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/wheelchair/core/body/control_body.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tandem::wheelchair {
+
+ControlBody::ControlBody(const Settings& settings)
+    : clock_(settings.simulated), poll_seconds_(settings.poll_seconds), trace_(settings.trace) {}
+
+namespace {
+
+/// About a third of a microsecond away from the port between two looks, so that a sender who needs the port's
+/// lock does not find it taken by the one who waits for it.
+void look_away() {
+    for (int i = 0; i < 8; ++i) {
+#if defined(__x86_64__)
+        __builtin_ia32_pause();
+#elif defined(__aarch64__)
+        asm volatile("yield");
+#endif
+    }
+}
+
+} // namespace
+
+/// Looks out for this tick's reference for at most poll_us. Ticks and references share one grid in real time,
+/// so the reference is read the moment it becomes visible: what is measured is the transport and not the
+/// phase of two timers. One left over from the tick before does not end the look-out, or ControlComp would
+/// stay a tick behind for good.
+ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
+    const double give_up = monotonic_seconds() + poll_seconds_;
+    Read read{0, monotonic_seconds()};
+    for (;;) {
+        const auto in = ports.references();
+        const double now = monotonic_seconds();
+        if (in.newest) {
+            sender_restarted_ = sender_restarted_ || in.newest->sequence < reference_.sequence;
+            reference_ = *in.newest;
+            read = {read.count + in.count, now};
+        }
+        const bool of_this_tick = in.newest && now - reference_.stamp < 0.5 * tick_seconds;
+        if (of_this_tick || now >= give_up) return read;
+        look_away();
+    }
+}
+
+void ControlBody::tick(ControlPorts& ports) {
+    const Read read = read_reference(ports);
+    if (const auto in = ports.wheels(); in.newest) wheels_ = *in.newest;
+    const double t = clock_.at(tick_);
+    // Ages count from the first tick: what was sent while this component could not look is not late. A stamp
+    // from the future must not keep a message fresh.
+    if (tick_ == 0) first_tick_at_ = t;
+    const auto bounded = [&](auto message) {
+        message.stamp = std::min(std::max(message.stamp, first_tick_at_), t);
+        return message;
+    };
+    auto reference = bounded(reference_);
+    // A JoystickComp that was started again in between begins at speed 0: following that would stop the chair
+    // with a jerk. It counts as a stale reference, whose way out is a released stick.
+    if (std::exchange(sender_restarted_, false)) reference.stamp = t - 2.0 * stale_seconds;
+    const Voltage voltage = law_.tick(t, reference, bounded(wheels_));
+    ports.send({t, static_cast<double>(tick_), voltage});
+    trace_.append({monotonic_seconds(), static_cast<double>(tick_), t, reference_.sequence, reference_.stamp,
+                   read.at, static_cast<double>(read.count), wheels_.sequence, wheels_.stamp,
+                   law_.filtered_direction_deg(), static_cast<double>(law_.state()), voltage.left,
+                   voltage.right, voltage.brake ? 1.0 : 0.0});
+    ++tick_;
+}
+
+void ControlBody::deactivate(ControlPorts& ports) {
+    ports.send({clock_.at(tick_), static_cast<double>(tick_), Voltage{0.0, 0.0, true}});
+}
+
+} // namespace tandem::wheelchair

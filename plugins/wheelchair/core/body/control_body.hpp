@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "plugins/wheelchair/core/body/clock.hpp"
+#include "plugins/wheelchair/core/law/control_law.hpp"
+#include "plugins/wheelchair/core/body/ports.hpp"
+#include "plugins/wheelchair/core/record/records.hpp"
+#include "plugins/wheelchair/core/body/settings.hpp"
+
+namespace tandem::wheelchair {
+
+/// ControlComp without its component model: made at activation, ticked every 10 ms.
+class ControlBody {
+  public:
+    explicit ControlBody(const Settings& settings); // throws InputError
+
+    void tick(ControlPorts& ports);       // [tick-thread]
+    void deactivate(ControlPorts& ports); // sends 0 V and brake, once
+
+    ControlState state() const { return law_.state(); }
+
+  private:
+    struct Read {
+        int count;
+        double at;
+    };
+    Read read_reference(ControlPorts& ports);
+
+    TickClock clock_;
+    double poll_seconds_;
+    Trace<ControlRecord> trace_;
+    ControlLaw law_;
+    Stamped<Reference> reference_;
+    Stamped<WheelSpeed> wheels_;
+    bool sender_restarted_ = false;
+    double first_tick_at_ = 0.0;
+    int tick_ = 0;
+};
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/wheelchair/core/body/joystick_body.hpp"
+
+#include "plugins/wheelchair/core/law/limits.hpp"
+
+namespace tandem::wheelchair {
+
+namespace {
+
+JoystickParameters parameters_for(const Scenario& scenario, const std::vector<double>& chair_limits) {
+    JoystickParameters p;
+    const ChairLimits limits = chair_limits_from(chair_limits);
+    p.max_forward = limits.forward;
+    p.max_reverse = limits.reverse;
+    p.max_spin = limits.spin;
+    p.lateral_acceleration = limits.lateral_acceleration;
+    p.direction_rate = scenario.direction_rate;
+    return p;
+}
+
+} // namespace
+
+JoystickBody::JoystickBody(const Settings& settings, const std::vector<double>& chair_limits)
+    : scenario_(settings.scenario), clock_(settings.simulated), trace_(settings.trace),
+      law_(parameters_for(settings.scenario, chair_limits)) {}
+
+void JoystickBody::tick(JoystickPorts& ports) {
+    const auto in = ports.positions();
+    if (in.newest) position_ = *in.newest;
+    const Reference reference = law_.tick(position_.value);
+    // An old stick position must not look new: after a pause of this process the driver may have let go long ago.
+    const bool position_is_stale = clock_.at(tick_) - position_.stamp > stale_seconds + 1e-9;
+    // The mute window is part of the scenario, whose time is that of HWComp's ticks.
+    const bool sent = !position_is_stale && !scenario_.muted(position_.sequence * tick_seconds);
+    const Stamped<Reference> out{clock_.at(tick_), static_cast<double>(tick_), reference};
+    if (sent) ports.send(out);
+    trace_.append({monotonic_seconds(), out.sequence, position_.sequence, static_cast<double>(in.count),
+                   position_.value.x, position_.value.y, position_.value.emergency_stop ? 1.0 : 0.0,
+                   reference.direction_deg, reference.speed, sent ? 1.0 : 0.0, out.stamp});
+    ++tick_;
+}
+
+} // namespace tandem::wheelchair

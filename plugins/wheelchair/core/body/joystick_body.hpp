@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "plugins/wheelchair/core/body/clock.hpp"
+#include "plugins/wheelchair/core/law/joystick_law.hpp"
+#include "plugins/wheelchair/core/body/ports.hpp"
+#include "plugins/wheelchair/core/record/records.hpp"
+#include "plugins/wheelchair/core/body/settings.hpp"
+
+namespace tandem::wheelchair {
+
+/// JoystickComp without its component model: made at activation, ticked every 10 ms.
+class JoystickBody {
+  public:
+    /// `chair_limits`: answer of the chair's service, see limits.hpp. Throws InputError.
+    JoystickBody(const Settings& settings, const std::vector<double>& chair_limits);
+
+    void tick(JoystickPorts& ports); // [tick-thread]
+    const JoystickParameters& parameters() const { return law_.parameters(); }
+
+  private:
+    Scenario scenario_;
+    TickClock clock_;
+    Trace<JoystickRecord> trace_;
+    JoystickLaw law_;
+    Stamped<JoystickPosition> position_;
+    int tick_ = 0;
+};
+
+} // namespace tandem::wheelchair

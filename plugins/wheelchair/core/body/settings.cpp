@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/wheelchair/core/body/settings.hpp"
+
+#include <charconv>
+
+#include "plugins/wheelchair/core/plant/parameters.hpp"
+
+namespace tandem::wheelchair {
+
+namespace {
+
+bool simulated(const std::string& clock) {
+    if (clock.empty() || clock == "monotonic") return false;
+    if (clock == "simulated") return true;
+    throw InputError("parameter clock is '" + clock + "'; expected monotonic or simulated");
+}
+
+/// Shorter than a tick, or the component could not keep its period.
+double poll_seconds(const std::string& text) {
+    if (text.empty()) return 0.0;
+    double us = -1.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), us);
+    const bool whole = error == std::errc{} && end == text.data() + text.size();
+    if (!whole || !(us >= 0.0) || us >= 1e6 * tick_seconds)
+        throw InputError("parameter poll_us is '" + text + "'; expected microseconds from 0 to below 10000");
+    return us * 1e-6;
+}
+
+} // namespace
+
+Settings read_settings(const SettingTexts& texts) {
+    return {load_scenario(texts.scenario, texts.joystick_file), simulated(texts.clock),
+            poll_seconds(texts.poll_us), texts.trace};
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/wheelchair/core/law/control_law.hpp"
+
+#include <cmath>
+
+#include "plugins/wheelchair/core/plant/numeric.hpp"
+
+namespace tandem::wheelchair {
+
+namespace {
+
+bool older_than_allowed(double t, double stamp) { return t - stamp > stale_seconds + age_tolerance; }
+
+bool finite(const Reference& r, const WheelSpeed& w) {
+    return std::isfinite(r.direction_deg) && std::isfinite(r.speed) && std::isfinite(w.left) &&
+           std::isfinite(w.right);
+}
+
+/// PI with feed-forward, output limited to +-most; the integral stands still while it pushes into the limit.
+/// It is used before it is updated.
+double proportional_integral(double wanted, double error, double feed_forward, double gain,
+                             double integral_gain, double most, double& integral) {
+    const double asked = feed_forward * wanted + gain * error + integral;
+    const double given = limit(asked, -most, most);
+    if (given == asked || (asked - given) * error < 0.0) integral += integral_gain * tick_seconds * error;
+    return given;
+}
+
+} // namespace
+
+void ControlLaw::release() { mean_integral_ = ratio_integral_ = 0.0; }
+
+void ControlLaw::update_state(double t, const Stamped<Reference>& reference,
+                              const Stamped<WheelSpeed>& wheels) {
+    const bool late = older_than_allowed(t, reference.stamp);
+    if (wheels.value.emergency_stop) {
+        state_ = ControlState::emergency_stop;
+    } else if (!finite(reference.value, wheels.value) || older_than_allowed(t, wheels.stamp)) {
+        if (state_ != ControlState::emergency_stop) state_ = ControlState::fault;
+    } else if (state_ == ControlState::run && late) {
+        state_ = ControlState::stale;
+    } else if (state_ == ControlState::stale && !late && reference.value.speed == 0.0 && speed_ == 0.0) {
+        state_ = ControlState::run;
+    }
+}
+
+/// The reference itself, or, when it is stale, its last direction with a speed that falls to 0.
+Reference ControlLaw::followed(const Reference& reference) {
+    if (state_ == ControlState::stale) {
+        const double most = parameters_.stop_deceleration * tick_seconds;
+        speed_ -= limit(speed_, -most, most);
+        return {last_direction_, speed_};
+    }
+    speed_ = reference.speed;
+    last_direction_ = reference.direction_deg;
+    return reference;
+}
+
+/// Counts ticks of standstill and lets the integrators leak; true once the brake goes on.
+bool ControlLaw::standing(double mean, double difference) {
+    const ControlParameters& p = parameters_;
+    if (speed_ == 0.0 && std::abs(mean) < p.still_speed && std::abs(difference) < p.still_speed) {
+        ++still_;
+        mean_integral_ *= p.leak;
+        ratio_integral_ *= p.leak;
+    } else {
+        still_ = 0;
+    }
+    return still_ >= p.still_ticks;
+}
+
+Voltage ControlLaw::drive(const Reference& reference, double mean, double difference) {
+    const ControlParameters& p = parameters_;
+    const double direction = reference.direction_deg, v = reference.speed;
+    double mean_wanted = 0.0, difference_wanted = 0.0;
+    if (std::abs(direction) >= spin_direction_deg) {
+        filtered_direction_ = direction;
+        difference_wanted = (direction > 0 ? p.kappa : -p.kappa) * v / p.wheel_radius;
+    } else {
+        if (std::abs(filtered_direction_) >= spin_direction_deg) filtered_direction_ = 0.0;
+        filtered_direction_ += p.direction_filter * (direction - filtered_direction_);
+        const double k = p.kappa * std::tan(filtered_direction_ / degrees);
+        mean_wanted = v / p.wheel_radius;
+        // At standstill a ratio says nothing: lean on the wanted speed until there is a real one.
+        double lean = 1.0 - std::abs(mean) / p.blend_speed;
+        if (lean < 0.0) lean = 0.0;
+        difference_wanted = k * (mean + lean * (mean_wanted - mean));
+    }
+    const double ratio_error = difference_wanted - difference;
+    const double speed_error = mean_wanted - mean;
+    const double ud = proportional_integral(difference_wanted, ratio_error, p.feed_forward, p.ratio_gain,
+                                            p.ratio_integral, p.max_difference, ratio_integral_);
+    const double um = proportional_integral(mean_wanted, speed_error, p.feed_forward, p.speed_gain,
+                                            p.speed_integral, p.max_voltage - std::abs(ud), mean_integral_);
+    return {um - ud, um + ud, false};
+}
+
+Voltage ControlLaw::tick(double t, const Stamped<Reference>& reference, const Stamped<WheelSpeed>& wheels) {
+    constexpr Voltage stop{0.0, 0.0, true};
+    update_state(t, reference, wheels);
+    if (state_ == ControlState::emergency_stop || state_ == ControlState::fault) {
+        release();
+        speed_ = 0.0;
+        return stop;
+    }
+    const Reference target = followed(reference.value);
+    const double mean = 0.5 * (wheels.value.right + wheels.value.left);
+    const double difference = 0.5 * (wheels.value.right - wheels.value.left);
+    if (standing(mean, difference)) {
+        release();
+        filtered_direction_ = target.direction_deg;
+        return stop;
+    }
+    return drive(target, mean, difference);
+}
+
+} // namespace tandem::wheelchair

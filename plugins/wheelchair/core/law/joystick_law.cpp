@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/wheelchair/core/law/joystick_law.hpp"
+
+#include <cmath>
+
+#include "plugins/wheelchair/core/plant/numeric.hpp"
+
+namespace tandem::wheelchair {
+
+JoystickLaw::Target JoystickLaw::target(const JoystickPosition& stick) const {
+    const JoystickParameters& p = parameters_;
+    const double span = p.max_count - p.dead_zone;
+    const double ax = limit(std::abs(stick.x), 0.0, p.max_count) - p.dead_zone;
+    const double ay = limit(std::abs(stick.y), 0.0, p.max_count) - p.dead_zone;
+    const double side = stick.x < 0 ? -1.0 : 1.0;
+    const double way = stick.y < 0 ? -1.0 : 1.0;
+    const bool neutral = ax <= 0 && ay <= 0;
+    const bool spin = ax > 0 && ay <= 0;
+    if (neutral || stick.emergency_stop) return {direction_, 0.0, neutral, spin};
+    if (spin) return {side * 90.0, ax * p.max_spin / span, neutral, spin};
+
+    const double direction = ax > 0 ? side * (ax * p.max_direction_deg / span) : 0.0;
+    double speed = way * (ay * (way > 0 ? p.max_forward : p.max_reverse) / span);
+    const double tangent = std::abs(std::tan(direction / degrees));
+    if (speed * speed * tangent > p.lateral_acceleration * p.wheelbase)
+        speed = way * std::sqrt(p.lateral_acceleration * p.wheelbase / tangent);
+    return {direction, speed, neutral, spin};
+}
+
+// Between driving and turning on the spot, and between its two sides, the chair stops first.
+void JoystickLaw::change_mode(Target& target) {
+    if (target.neutral) {
+        if (speed_ == 0.0) {
+            spin_ = false;
+            direction_ = target.direction = 0.0;
+        }
+        return;
+    }
+    const bool change = target.spin != spin_ || (target.spin && direction_ * target.direction < 0.0);
+    if (change && speed_ != 0.0) {
+        target.speed = 0.0;
+        target.direction = direction_;
+    } else if (change) {
+        spin_ = target.spin;
+        direction_ = target.spin ? target.direction : 0.0;
+    }
+}
+
+void JoystickLaw::limit_speed(double wanted) {
+    double change = wanted - speed_;
+    if (wanted * speed_ < 0.0) change = -speed_; // a reversal passes through zero
+    const bool faster = std::abs(speed_ + change) > std::abs(speed_);
+    const double most = (faster ? parameters_.acceleration : parameters_.deceleration) * tick_seconds;
+    speed_ += std::abs(change) > most ? limit(change, -most, most) : change;
+}
+
+void JoystickLaw::limit_direction(double wanted) {
+    if (parameters_.direction_rate > 0.0 && !spin_) {
+        const double most = parameters_.direction_rate * tick_seconds;
+        const double change = wanted - direction_;
+        direction_ = std::abs(change) > most ? direction_ + limit(change, -most, most) : wanted;
+    } else {
+        direction_ = wanted;
+    }
+}
+
+Reference JoystickLaw::tick(const JoystickPosition& stick) {
+    Target wanted = target(stick);
+    change_mode(wanted);
+    limit_speed(wanted.speed);
+    limit_direction(wanted.direction);
+    return {direction_, speed_};
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each component records per tick. `at` is CLOCK_MONOTONIC [s] in all three, so traces of two processes
+// can be laid side by side; everything else is in the units of the ports.
+#pragma once
+
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "plugins/wheelchair/core/record/trace.hpp"
+
+namespace tandem::wheelchair {
+
+struct JoystickRecord {
+    double at, tick;
+    double position_sequence, positions_received, jx, jy, emergency_stop;
+    double direction_deg, speed;
+    double sent, stamp; // sent: 1 when the reference went out in this tick
+    static constexpr const char* names[] = {"at",
+                                            "tick",
+                                            "position_sequence",
+                                            "positions_received",
+                                            "jx",
+                                            "jy",
+                                            "emergency_stop",
+                                            "direction_deg",
+                                            "speed",
+                                            "sent",
+                                            "stamp"};
+};
+
+struct ControlRecord {
+    double at, tick, time;
+    double reference_sequence, reference_stamp, reference_read_at, references_received;
+    double wheel_sequence, wheel_stamp;
+    double filtered_direction_deg, state;
+    double volts_left, volts_right, brake;
+    static constexpr const char* names[] = {"at",
+                                            "tick",
+                                            "time",
+                                            "reference_sequence",
+                                            "reference_stamp",
+                                            "reference_read_at",
+                                            "references_received",
+                                            "wheel_sequence",
+                                            "wheel_stamp",
+                                            "filtered_direction_deg",
+                                            "state",
+                                            "volts_left",
+                                            "volts_right",
+                                            "brake"};
+};
+
+struct HWRecord {
+    double at, sequence; // of the publication that ends the tick
+    double applied_at, voltage_sequence, voltage_stamp, voltages_received;
+    double volts_left, volts_right, brake, parking_brake, watchdog, link_up; // as applied during the tick
+    double jx, jy, emergency_stop;                                           // as published, like all below
+    double wheel_left_measured, wheel_right_measured, wheel_left, wheel_right;
+    double current_left, current_right, x, y, heading, caster_left, caster_right;
+    static constexpr const char* names[] = {"at",
+                                            "sequence",
+                                            "applied_at",
+                                            "voltage_sequence",
+                                            "voltage_stamp",
+                                            "voltages_received",
+                                            "volts_left",
+                                            "volts_right",
+                                            "brake",
+                                            "parking_brake",
+                                            "watchdog",
+                                            "link_up",
+                                            "jx",
+                                            "jy",
+                                            "emergency_stop",
+                                            "wheel_left_measured",
+                                            "wheel_right_measured",
+                                            "wheel_left",
+                                            "wheel_right",
+                                            "current_left",
+                                            "current_right",
+                                            "x",
+                                            "y",
+                                            "heading",
+                                            "caster_left",
+                                            "caster_right"};
+};
+
+template <class Record>
+ColumnNames column_names() {
+    static_assert(sizeof(Record) == std::size(Record::names) * sizeof(double), "one name per double");
+    static_assert(std::is_trivially_copyable_v<Record>);
+    return Record::names;
+}
+
+/// Records to a file, or nowhere when the path is empty.
+template <class Record>
+class Trace {
+  public:
+    explicit Trace(const std::string& path)
+        : file_(path.empty() ? nullptr : std::make_unique<TraceFile>(path, column_names<Record>())) {}
+
+    void append(const Record& record) {
+        if (file_) file_->append({reinterpret_cast<const double*>(&record), std::size(Record::names)});
+    }
+
+  private:
+    std::unique_ptr<TraceFile> file_;
+};
+
+/// Records [first, ...) of a trace file; empty when there is no such file yet.
+template <class Record>
+std::vector<Record> read_trace(const std::string& path, std::uint64_t first = 0) {
+    if (!trace_exists(path)) return {};
+    const TraceReader reader(path, column_names<Record>());
+    const auto doubles = reader.read(first, reader.size());
+    std::vector<Record> out(doubles.size() / std::size(Record::names));
+    if (!out.empty())
+        std::memcpy(static_cast<void*>(out.data()), doubles.data(), out.size() * sizeof(Record));
+    return out;
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plugins/wheelchair/core/record/trace.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace tandem::wheelchair {
+
+namespace {
+
+constexpr char magic[8] = {'T', 'A', 'N', 'D', 'T', 'R', 'C', '\n'};
+constexpr std::uint32_t version = 1;
+constexpr std::uint64_t chunk_records = 8192; // any number of columns then fills whole pages
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+    throw InputError("trace " + path + ": " + what);
+}
+
+std::string system_error() { return std::strerror(errno); }
+
+std::size_t chunk_bytes(std::size_t columns) { return chunk_records * columns * sizeof(double); }
+
+std::uint64_t file_size(int file) {
+    struct stat info {};
+    return fstat(file, &info) == 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
+}
+
+/// The whole first page of the file, as it would be for these columns.
+std::vector<char> header_page(ColumnNames columns) {
+    std::vector<char> page(trace_header_bytes);
+    TraceHeader header{};
+    std::copy(std::begin(magic), std::end(magic), header.magic);
+    header.version = version;
+    header.columns = static_cast<std::uint32_t>(columns.size());
+    std::memcpy(page.data(), &header, sizeof header);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        std::strncpy(page.data() + sizeof header + i * trace_name_bytes, columns[i], trace_name_bytes - 1);
+    return page;
+}
+
+/// Empty when the file begins like `expected`, apart from the count of records; else what is wrong.
+std::string difference(int file, const std::vector<char>& expected) {
+    std::vector<char> page(trace_header_bytes);
+    if (pread(file, page.data(), page.size(), 0) != static_cast<ssize_t>(page.size()))
+        return "too short for a trace";
+    if (std::memcmp(page.data(), magic, sizeof magic) != 0) return "not a trace file";
+    const std::size_t count_at = offsetof(TraceHeader, committed), names_at = sizeof(TraceHeader);
+    if (std::memcmp(page.data(), expected.data(), count_at) != 0 ||
+        std::memcmp(page.data() + names_at, expected.data() + names_at, page.size() - names_at) != 0)
+        return "another version or other columns; give each component a trace file of its own";
+    return {};
+}
+
+std::uint64_t committed(int file, const std::string& path, std::size_t columns) {
+    std::uint64_t count = 0;
+    if (pread(file, &count, sizeof count, offsetof(TraceHeader, committed)) != sizeof count)
+        fail(path, "header cannot be read");
+    const std::uint64_t room =
+        (file_size(file) - std::min<std::uint64_t>(file_size(file), trace_header_bytes)) /
+        (columns * sizeof(double));
+    if (count > room)
+        fail(path, "claims " + std::to_string(count) + " records but has room for " + std::to_string(room) +
+                       "; the file is damaged");
+    return count;
+}
+
+} // namespace
+
+TraceFile::TraceFile(const std::string& path, ColumnNames columns) : path_(path), columns_(columns.size()) {
+    if (columns.empty() || columns.size() > max_trace_columns) fail(path, "number of columns out of bounds");
+    file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (file_ < 0) fail(path, "cannot be opened for writing: " + system_error());
+    try {
+        open_or_create(columns);
+    } catch (...) {
+        close(file_);
+        throw;
+    }
+}
+
+void TraceFile::open_or_create(ColumnNames columns) {
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0) fail(path_, "another component writes it");
+    const auto page = header_page(columns);
+    if (file_size(file_) == 0 &&
+        pwrite(file_, page.data(), page.size(), 0) != static_cast<ssize_t>(page.size()))
+        fail(path_, "cannot be written: " + system_error());
+    if (const auto wrong = difference(file_, page); !wrong.empty()) fail(path_, wrong);
+    count_ = committed(file_, path_, columns_);
+    void* at = mmap(nullptr, trace_header_bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file_, 0);
+    if (at == MAP_FAILED) fail(path_, "cannot be mapped: " + system_error());
+    header_ = static_cast<TraceHeader*>(at);
+    if (!map_chunk(count_ / chunk_records)) {
+        munmap(header_, trace_header_bytes);
+        fail(path_, "no room to record: " + system_error());
+    }
+}
+
+TraceFile::~TraceFile() {
+    if (chunk_) munmap(chunk_, chunk_bytes(columns_));
+    if (header_) munmap(header_, trace_header_bytes);
+    if (file_ >= 0) close(file_);
+}
+
+// Allocated and touched here, so that no tick meets a page fault or a full disk.
+bool TraceFile::map_chunk(std::uint64_t chunk) {
+    const auto bytes = chunk_bytes(columns_);
+    const auto offset = static_cast<off_t>(trace_header_bytes + chunk * bytes);
+    if (chunk_) munmap(chunk_, bytes);
+    chunk_ = nullptr;
+    errno = posix_fallocate(file_, offset, static_cast<off_t>(bytes));
+    if (errno != 0) return false;
+    void* at = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file_, offset);
+    if (at == MAP_FAILED) return false;
+    chunk_ = static_cast<double*>(at);
+    chunk_number_ = chunk;
+    return true;
+}
+
+void TraceFile::append(std::span<const double> record) {
+    const bool full =
+        dropped_ > 0 || (count_ / chunk_records != chunk_number_ && !map_chunk(count_ / chunk_records));
+    if (full || record.size() != columns_) {
+        ++dropped_;
+        return;
+    }
+    std::copy(record.begin(), record.end(), chunk_ + (count_ % chunk_records) * columns_);
+    std::atomic_ref<std::uint64_t>(header_->committed).store(++count_, std::memory_order_release);
+}
+
+TraceReader::TraceReader(const std::string& path, ColumnNames columns)
+    : path_(path), columns_(columns.size()) {
+    file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file_ < 0) fail(path, "cannot be read: " + system_error());
+    if (const auto wrong = difference(file_, header_page(columns)); !wrong.empty()) {
+        close(file_);
+        fail(path, wrong);
+    }
+}
+
+TraceReader::~TraceReader() { close(file_); }
+
+std::uint64_t TraceReader::size() const { return committed(file_, path_, columns_); }
+
+std::vector<double> TraceReader::read(std::uint64_t first, std::uint64_t count) const {
+    const std::uint64_t have = size();
+    if (first >= have) return {};
+    std::vector<double> out(std::min(count, have - first) * columns_);
+    const auto bytes = out.size() * sizeof(double);
+    std::size_t done = 0;
+    while (done < bytes) {
+        const auto at = trace_header_bytes + first * columns_ * sizeof(double) + done;
+        const auto got =
+            pread(file_, reinterpret_cast<char*>(out.data()) + done, bytes - done, static_cast<off_t>(at));
+        if (got <= 0) fail(path_, "cannot be read: " + system_error());
+        done += static_cast<std::size_t>(got);
+    }
+    return out;
+}
+
+bool trace_exists(const std::string& path) {
+    struct stat info {};
+    return stat(path.c_str(), &info) == 0 && info.st_size > 0;
+}
+
+} // namespace tandem::wheelchair

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/call/call_queue.hpp"
+
+#include "shm/os/error.hpp"
+
+#include <new>
+
+namespace tandem::shm {
+namespace {
+
+constexpr std::uint32_t most_slots = 256;
+constexpr std::uint64_t longest_arguments = std::uint64_t{1} << 30;
+constexpr std::size_t slots_at = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
+
+/// Arguments have less room in the slot than results, so what is enough for theirs is enough for both.
+std::uint64_t overflow_size(std::uint64_t max_bytes) {
+    const std::uint64_t room = CallView::argument_room;
+    return max_bytes > room ? round_up(max_bytes - room, layout::line_pair) : 0;
+}
+
+CallQueueParts parts(std::span<std::byte> memory, std::uint32_t slots, std::uint64_t max_bytes,
+                     Side callers) {
+    std::byte* at = memory.data();
+    CallQueueParts found{};
+    found.view.header = reinterpret_cast<layout::CallQueueHeader*>(at);
+    found.times = reinterpret_cast<layout::CallTimes*>(at + sizeof(layout::CallQueueHeader));
+    found.view.slots = reinterpret_cast<layout::CallSlot*>(at + slots_at);
+    found.view.overflow =
+        reinterpret_cast<RealAtomics::Cell*>(at + slots_at + slots * sizeof(layout::CallSlot));
+    found.view.slot_count = slots;
+    found.view.max_bytes = max_bytes;
+    found.view.overflow_cells = overflow_size(max_bytes) / word_bytes;
+    found.callers = callers;
+    return found;
+}
+
+} // namespace
+
+const char* name_of(CallStatus status) {
+    constexpr const char* names[] = {"ok",        "no such operation", "bad arguments",
+                                     "exception", "timeout",           "peer died",
+                                     "overload",  "shut down",         "cancelled"};
+    const auto index = static_cast<std::uint32_t>(status);
+    return index < std::size(names) ? names[index] : "unknown status";
+}
+
+std::uint64_t call_queue_size(const CallQueueOptions& options) {
+    if (options.slots < 1 || options.slots > most_slots || options.max_bytes > longest_arguments ||
+        options.callers > Side::second)
+        return 0;
+    return slots_at + options.slots * (sizeof(layout::CallSlot) + overflow_size(options.max_bytes));
+}
+
+std::uint64_t call_queue_bytes(const std::string& name, const CallQueueOptions& options) {
+    const std::uint64_t bytes = call_queue_size(options);
+    if (bytes == 0)
+        throw Error("call queue '" + name + "': 1 to " + std::to_string(most_slots) +
+                    " slots and max_bytes up to 1 GiB expected");
+    return bytes;
+}
+
+CallQueueHandle create_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
+                                  const CallQueueOptions& options) {
+    const auto made = parts(memory, options.slots, options.max_bytes, options.callers);
+    auto* header = new (made.view.header) layout::CallQueueHeader{};
+    header->slot_count = options.slots;
+    header->callers = static_cast<std::uint32_t>(options.callers);
+    header->max_bytes = options.max_bytes;
+    header->overflow_bytes = overflow_size(options.max_bytes);
+    new (made.times) layout::CallTimes{};
+    mapping->touch(memory);
+    for (std::uint32_t i = 0; i < options.slots; ++i) new (&made.view.slots[i]) layout::CallSlot{};
+    return {std::move(mapping), made.view, made.times, made.callers};
+}
+
+CallQueueParts find_call_queue_parts(std::span<std::byte> memory, const std::string& where) {
+    struct {
+        std::uint32_t slot_count, callers;
+        std::uint64_t max_bytes, overflow_bytes;
+    } copy{};
+    if (memory.size() >= slots_at) copy_from_shared(&copy, memory.data(), sizeof copy);
+    const bool sound =
+        copy.callers <= 1 && copy.overflow_bytes == overflow_size(copy.max_bytes) &&
+        memory.size() == call_queue_size({static_cast<Side>(copy.callers), copy.slot_count, copy.max_bytes});
+    if (!sound) throw Error(where + " is damaged; restart the side that made it");
+    return parts(memory, copy.slot_count, copy.max_bytes, static_cast<Side>(copy.callers));
+}
+
+CallQueueHandle open_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
+                                const std::string& name) {
+    const auto found = find_call_queue_parts(memory, mapping->path() + ": call queue '" + name + "'");
+    mapping->touch(memory);
+    return {std::move(mapping), found.view, found.times, found.callers};
+}
+
+CallCounters read_counters(const CallView& queue) {
+    const auto get = [](const layout::Word64& word) { return word.load(std::memory_order_relaxed); };
+    CallCounters sum{};
+    sum.overloads = get(queue.header->overloads);
+    sum.timeouts = get(queue.header->timeouts);
+    sum.cancels = get(queue.header->cancels);
+    sum.expired = get(queue.header->expired);
+    sum.worker_wakes = get(queue.header->worker_wakes);
+    sum.caller_wakes = get(queue.header->caller_wakes);
+    for (std::uint32_t i = 0; i < queue.slot_count; ++i) {
+        const auto& slot = queue.slots[i];
+        const std::uint64_t answered = slot.reply.answered.load(std::memory_order_acquire);
+        const std::uint64_t reply = slot.reply.word.load(std::memory_order_acquire);
+        const std::uint64_t request = slot.request.word.load(std::memory_order_acquire);
+        count_slot(sum, answered, reply, request, get(slot.request.calls));
+    }
+    return sum;
+}
+
+void count_slot(CallCounters& sum, std::uint64_t answered, std::uint64_t reply_word,
+                std::uint64_t request_word, std::uint64_t calls) {
+    using layout::CallState;
+    const bool open = sequence_of(reply_word) != sequence_of(request_word);
+    const bool running = open && (has_state(request_word, CallState::running) ||
+                                  has_state(request_word, CallState::abandoned));
+    sum.calls += calls;
+    sum.answered += answered;
+    sum.taken += answered + (running ? 1 : 0);
+    if (running || (open && has_state(request_word, CallState::submitted))) ++sum.in_use;
+}
+
+} // namespace tandem::shm

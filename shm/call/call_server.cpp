@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/call/call_server.hpp"
+
+#include "shm/os/error.hpp"
+#include "shm/call/incoming_call.hpp"
+
+namespace tandem::shm {
+
+CallServer::CallServer(const CallQueueHandle& queue, const WaitOptions& how) {
+    if (queue.callers == queue.mapping->side())
+        throw Error(queue.mapping->path() + ": a call queue for callers of side " + name_of(queue.callers) +
+                    " cannot be served here; use CallClient");
+    state_ = std::make_shared<IncomingCall::State>(queue, how);
+    state_->worker.open();
+}
+
+CallServer::~CallServer() { shut_down(); }
+
+CallCounters CallServer::counters() const { return read_counters(state_->queue.view); }
+
+std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
+    if (const auto call = state_->take(bound)) return IncomingCall(state_, *call);
+    if (state_->queue.mapping->peer() == PeerState::dead) state_->worker.drop_submitted();
+    return std::nullopt;
+}
+
+void CallServer::interrupt() { state_->worker.interrupt(); }
+
+void CallServer::shut_down() {
+    state_->worker.close();
+    bool watches = false;
+    state_->take_waiting(watches); // hands nothing out, now that the queue is closed
+    interrupt();
+}
+
+} // namespace tandem::shm

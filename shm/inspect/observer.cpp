@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/inspect/observer.hpp"
+
+#include "shm/os/clock.hpp"
+#include "shm/os/error.hpp"
+#include "shm/segment/liveness.hpp"
+#include "shm/inspect/quiet_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <sys/stat.h>
+
+namespace tandem::shm {
+namespace {
+
+bool member_of(gid_t group) {
+    if (group == getegid()) return true;
+    std::vector<gid_t> groups(static_cast<std::size_t>(std::max(0, getgroups(0, nullptr))));
+    const int known = getgroups(static_cast<int>(groups.size()), groups.data());
+    return known > 0 && std::find(groups.begin(), groups.begin() + known, group) != groups.begin() + known;
+}
+
+/// May this process be a user of the segment: its owner, or of the group that it was shared with?
+bool ours(const struct stat& file) {
+    return file.st_uid == geteuid() || ((file.st_mode & 07777) == 0660 && member_of(file.st_gid));
+}
+
+void measure(const struct stat& file, ObservedSegment& view) {
+    constexpr std::uint64_t block = 512; // unit of st_blocks
+    view.file_bytes = static_cast<std::uint64_t>(file.st_size);
+    view.memory_bytes = static_cast<std::uint64_t>(file.st_blocks) * block;
+}
+
+/// What the directory says of the file, without opening it. Empty: it is gone.
+std::optional<ObservedSegment> view_file(const std::string& link, std::uint64_t generation) {
+    ObservedSegment view;
+    view.link = link;
+    view.generation = generation;
+    view.path = segment_path(link, generation);
+    struct stat file {};
+    if (lstat(view.path.c_str(), &file) != 0) return std::nullopt;
+    measure(file, view);
+    view.owner = file.st_uid;
+    view.mode = file.st_mode & 07777;
+    view.readability = S_ISREG(file.st_mode) && ours(file) ? Readability::readable
+                       : S_ISREG(file.st_mode)             ? Readability::foreign
+                                                           : Readability::damaged;
+    if (view.readability == Readability::damaged) view.reason = "not a regular file";
+    if (view.readability == Readability::foreign) view.reason = "of another user";
+    return view;
+}
+
+void unreadable(ObservedSegment& view, Readability as, std::string reason) {
+    view.readability = as;
+    view.reason = std::move(reason);
+}
+
+void view_header(const QuietFile& file, ObservedSegment& view) {
+    using layout::SegmentHeader;
+    Copied<sizeof(SegmentHeader)> copy;
+    if (!file.read(0, copy.bytes)) return unreadable(view, Readability::damaged, "shorter than a header");
+    const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
+    if (word(offsetof(SegmentHeader, magic)) != layout::magic)
+        return unreadable(view, Readability::damaged, "not a Tandem segment");
+    view.layout_version = copy.get<std::uint32_t>(offsetof(SegmentHeader, layout_version));
+    if (view.layout_version != layout::layout_version)
+        return unreadable(view, Readability::other_layout,
+                          "layout version " + std::to_string(view.layout_version) + ", this program reads " +
+                              std::to_string(layout::layout_version));
+    view.contract = word(offsetof(SegmentHeader, contract));
+    view.created_ns = word(offsetof(SegmentHeader, created_ns));
+    view.superseded_by = word(offsetof(SegmentHeader, superseded_by));
+    for (std::size_t half = 0; half < 2; ++half) {
+        view.arena_offset[half] = word(offsetof(SegmentHeader, arena_offset) + half * 8);
+        view.arena_bytes[half] = word(offsetof(SegmentHeader, arena_bytes) + half * 8);
+    }
+    const std::uint64_t total = word(offsetof(SegmentHeader, total_bytes));
+    const auto& offset = view.arena_offset;
+    const auto& bytes = view.arena_bytes;
+    if (total > view.file_bytes)
+        return unreadable(view, Readability::damaged,
+                          "truncated: " + std::to_string(view.file_bytes) + " of " + std::to_string(total) +
+                              " bytes are left");
+    const bool sound =
+        copy.get<std::uint32_t>(offsetof(SegmentHeader, header_bytes)) == sizeof(SegmentHeader) &&
+        total == view.file_bytes && total >= layout::arenas_begin && offset[0] == layout::arenas_begin &&
+        bytes[0] <= total - offset[0] && offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1] &&
+        word(offsetof(SegmentHeader, generation)) == view.generation;
+    if (!sound) unreadable(view, Readability::damaged, "its header contradicts itself");
+}
+
+/// See Mapping::peer(): `taken` is read before the lock is looked at.
+void view_side(const QuietFile& file, ObservedSegment& view, Side which,
+               std::chrono::nanoseconds late_after) {
+    using layout::SideHeader;
+    ObservedSide& side = view.sides[index_of(which)];
+    Copied<offsetof(SideHeader, directory)> copy;
+    const bool known =
+        view.readability == Readability::readable &&
+        file.read(sizeof(layout::SegmentHeader) + index_of(which) * sizeof(SideHeader), copy.bytes);
+    side.held = held_by_other(file.fd(), life_of(which));
+    if (!known) return;
+    side.pid = copy.get<std::uint32_t>(offsetof(SideHeader, pid));
+    side.joined_ns = copy.get<std::uint64_t>(offsetof(SideHeader, joined_ns));
+    side.heartbeat_ns = copy.get<std::uint64_t>(offsetof(SideHeader, heartbeat_ns));
+    side.published = copy.get<std::uint32_t>(offsetof(SideHeader, published)) != 0;
+    const std::uint64_t now = now_ns(), bound = static_cast<std::uint64_t>(late_after.count());
+    const bool late = now - side.heartbeat_ns > bound && side.heartbeat_ns - now > bound;
+    side.state = copy.get<std::uint32_t>(offsetof(SideHeader, taken)) == 0 ? PeerState::absent
+                 : !side.held                                              ? PeerState::dead
+                 : late                                                    ? PeerState::late
+                                                                           : PeerState::alive;
+}
+
+/// Fills in what is in the file. False: it is gone.
+bool view_content(const QuietFile& file, ObservedSegment& view, std::chrono::nanoseconds late_after) {
+    if (!file && errno == ENOENT) return false;
+    if (!file) {
+        unreadable(view, Readability::damaged, "cannot be opened (" + errno_text() + ")");
+        return true;
+    }
+    struct stat opened {};
+    if (fstat(file.fd(), &opened) != 0 || !S_ISREG(opened.st_mode) || !ours(opened))
+        return false; // just replaced
+    measure(opened, view);
+    view_header(file, view);
+    for (const Side which : {Side::first, Side::second}) view_side(file, view, which, late_after);
+    view.changing_hands = held_by_other(file.fd(), LockByte::hand_over);
+    return true;
+}
+
+std::set<std::string> links() {
+    std::set<std::string> found;
+    constexpr std::string_view prefix = "tandem.";
+    std::error_code failure;
+    for (std::filesystem::directory_iterator at(shm_directory, failure), end; !failure && at != end;
+         at.increment(failure)) {
+        const std::string name = at->path().filename();
+        const auto dot = name.rfind('.');
+        if (name.compare(0, prefix.size(), prefix) != 0 || dot <= prefix.size()) continue;
+        const std::string link = name.substr(prefix.size(), dot - prefix.size());
+        if (link.find('.') == std::string::npos) found.insert(link);
+    }
+    if (failure)
+        throw Error(std::string(shm_directory) + ": cannot be listed (" + failure.message() +
+                    "); mount a tmpfs there");
+    return found;
+}
+
+} // namespace
+
+std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after) {
+    std::vector<ObservedSegment> found;
+    for (const auto& link : links())
+        for (const auto generation : list_generations(link)) {
+            auto view = view_file(link, generation);
+            if (!view) continue;
+            if (view->readability == Readability::readable &&
+                !view_content(QuietFile(view->path), *view, late_after))
+                continue;
+            found.push_back(std::move(*view));
+        }
+    return found;
+}
+
+std::optional<Observation> observe(const std::string& link, std::uint64_t generation,
+                                   std::chrono::nanoseconds late_after) {
+    check_link_name(link);
+    for (const auto candidate : list_generations(link)) {
+        if (generation != 0 && candidate != generation) continue;
+        auto view = view_file(link, candidate);
+        if (!view) continue;
+        Observation observation{std::move(*view), {}, {}, {}, {}};
+        if (observation.segment.readability != Readability::readable) return observation;
+        const QuietFile file(observation.segment.path);
+        if (!view_content(file, observation.segment, late_after)) continue;
+        if (observation.segment.readability == Readability::readable) observe_objects(file, observation);
+        return observation;
+    }
+    return std::nullopt;
+}
+
+} // namespace tandem::shm

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shm/os/clock.hpp"
+
+#include <immintrin.h>
+
+namespace tandem::shm {
+
+/// [one thread] now_ns() as it was at most 2^16 ticks of the time-stamp counter ago: 30 us, or 66 us at 1
+/// GHz. For those to whom that is exact enough: the clock's own fences cost a short call a sixth of its time.
+class RecentClock {
+  public:
+    static constexpr std::uint64_t oldest_ns = 100'000;
+
+    std::uint64_t now_ns() {
+        const std::uint64_t ticks = __rdtsc();
+        if (ticks - ticks_ > most_ticks) { // also if it went backwards, on another core
+            ticks_ = ticks;
+            ns_ = shm::now_ns();
+        }
+        return ns_;
+    }
+
+  private:
+    static constexpr std::uint64_t most_ticks = std::uint64_t{1} << 16;
+    std::uint64_t ticks_ = 0, ns_ = 0;
+};
+
+} // namespace tandem::shm

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/segment/mapping.hpp"
+
+#include "shm/os/clock.hpp"
+#include "shm/os/error.hpp"
+#include "shm/segment/liveness.hpp"
+
+#include <sys/mman.h>
+#include <sys/stat.h>
+
+namespace tandem::shm {
+namespace {
+
+namespace ipc = boost::interprocess;
+
+// What mapped_region wants to know about a file.
+struct Mappable {
+    int fd;
+    ipc::mapping_handle_t get_mapping_handle() const { return {fd, false}; }
+};
+
+bool has_holes(int fd, std::uint64_t bytes) {
+    struct stat file {};
+    constexpr std::uint64_t block = 512; // unit of st_blocks
+    return fstat(fd, &file) == 0 && static_cast<std::uint64_t>(file.st_blocks) * block < bytes;
+}
+
+// MAP_POPULATE: all page tables are filled now, the data path takes no page fault. It would give memory to
+// what has none yet.
+ipc::mapped_region map_all(int fd, const std::string& path, std::uint64_t bytes, bool sparse) try {
+    return {Mappable{fd},
+            ipc::read_write,
+            0,
+            static_cast<std::size_t>(bytes),
+            nullptr,
+            sparse ? MAP_SHARED : MAP_SHARED | MAP_POPULATE};
+} catch (const ipc::interprocess_exception& refused) {
+    throw Error(path + ": " + std::to_string(bytes) + " bytes cannot be mapped (" + refused.what() +
+                "); raise the limit on address space or locked memory");
+}
+
+} // namespace
+
+Mapping::Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked,
+                 Side side, std::chrono::nanoseconds late_after)
+    : file_(std::move(file)), path_(path), sparse_(has_holes(file_.get(), checked.total_bytes)),
+      region_(map_all(file_.get(), path, checked.total_bytes, sparse_)),
+      guarded_(region_.get_address(), region_.get_size()), side_(side), generation_(checked.generation),
+      late_after_ns_(static_cast<std::uint64_t>(late_after.count())) {
+    for (std::size_t half = 0; half < 2; ++half)
+        arena_[half] = {at<std::byte>(checked.arena_offset[half]), checked.arena_bytes[half]};
+    touch({at<const std::byte>(0), layout::arenas_begin});
+}
+
+void Mapping::touch(std::span<const std::byte> memory) const {
+    if (!sparse_) return;
+    for (std::size_t i = 0; i < memory.size(); i += layout::page)
+        static_cast<void>(*static_cast<const volatile std::byte*>(&memory[i]));
+}
+
+bool Mapping::truncated() const {
+    struct stat file {};
+    return fstat(file_.get(), &file) == 0 && static_cast<std::uint64_t>(file.st_size) < region_.get_size();
+}
+
+PeerState Mapping::peer() const {
+    const auto& theirs = half(other(side_));
+    // `taken` is set after the lock is held, so it must be read before the lock is looked at: the other way
+    // round, a peer that joins between the two reads would look dead.
+    if (theirs.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
+    if (!held_by_other(file_.get(), life_of(other(side_)))) return PeerState::dead;
+    const std::uint64_t beat = theirs.heartbeat_ns.load(std::memory_order_relaxed);
+    const std::uint64_t now = now_ns();
+    // A beat from the future is as late as an old one; one nanosecond ahead is another core's clock read.
+    return now - beat > late_after_ns_ && beat - now > late_after_ns_ ? PeerState::late : PeerState::alive;
+}
+
+} // namespace tandem::shm

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shm/os/file_descriptor.hpp"
+#include "shm/segment/layout.hpp"
+#include "shm/segment/side.hpp"
+#include "shm/segment/truncation_guard.hpp"
+
+#include <boost/interprocess/mapped_region.hpp>
+#include <chrono>
+#include <span>
+#include <string>
+
+namespace tandem::shm {
+
+/// A segment's memory as one side sees it, with its own copy of all sizes. Segment and every ring, call queue
+/// and doorbell object share one, so the memory stays mapped as long as anybody may touch it.
+class Mapping {
+  public:
+    Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked, Side side,
+            std::chrono::nanoseconds late_after);
+
+    int fd() const { return file_.get(); }
+    const std::string& path() const { return path_; }
+    Side side() const { return side_; }
+    std::uint64_t generation() const { return generation_; }
+
+    layout::SegmentHeader& header() const { return *at<layout::SegmentHeader>(0); }
+    layout::SideHeader& half(Side side) const {
+        return *at<layout::SideHeader>(sizeof(layout::SegmentHeader) +
+                                       index_of(side) * sizeof(layout::SideHeader));
+    }
+    std::span<std::byte> arena(Side side) const { return arena_[index_of(side)]; }
+
+    /// [any-thread] One system call.
+    PeerState peer() const;
+
+    bool truncated() const; ///< The file is shorter than what was mapped. One system call.
+
+    /// Parts of the file have no memory yet (JoinOptions::sparse). Whoever adds an object reserves it first,
+    /// and each side touches it, so that the data path takes no page fault; both do nothing otherwise.
+    bool sparse() const { return sparse_; }
+    void touch(std::span<const std::byte> memory) const;
+    std::uint64_t place_in_file(const std::byte* memory) const {
+        return static_cast<std::uint64_t>(memory - static_cast<const std::byte*>(region_.get_address()));
+    }
+
+  private:
+    template <class T>
+    T* at(std::size_t offset) const {
+        return reinterpret_cast<T*>(static_cast<std::byte*>(region_.get_address()) + offset);
+    }
+
+    FileDescriptor file_;
+    std::string path_;
+    bool sparse_;
+    boost::interprocess::mapped_region region_;
+    GuardedRange guarded_;
+    std::span<std::byte> arena_[2];
+    Side side_;
+    std::uint64_t generation_;
+    std::uint64_t late_after_ns_;
+};
+
+} // namespace tandem::shm

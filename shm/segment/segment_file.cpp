@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/segment/segment_file.hpp"
+
+#include "shm/os/error.hpp"
+#include "shm/segment/liveness.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fcntl.h>
+#include <filesystem>
+#include <grp.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+
+// Plain open() and linkat() instead of boost::interprocess::shared_memory_object: a segment is made as an
+// unnamed file (O_TMPFILE) and gets its name when it is complete, so nobody ever sees half of one, and a
+// creator that is killed half-way leaves nothing behind. shared_memory_object has no way to say O_TMPFILE,
+// O_NOFOLLOW or O_CLOEXEC.
+
+namespace tandem::shm {
+namespace {
+
+constexpr int safe_open = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+
+std::string octal(mode_t mode) {
+    std::string text = "0000";
+    for (std::size_t digit = 4; digit-- > 0; mode >>= 3) text[digit] = static_cast<char>('0' + (mode & 7U));
+    return text;
+}
+
+std::string describe(const Access& access) {
+    std::string text = "owner " + std::to_string(access.owner);
+    if (access.group) text += " or group " + std::to_string(*access.group);
+    return text + ", mode " + octal(access.mode());
+}
+
+void check_access(int fd, const std::string& path, const Access& access) {
+    struct stat file {};
+    if (fstat(fd, &file) != 0) throw Error(path + ": cannot be examined (" + errno_text() + ")");
+    const bool ours = file.st_uid == access.owner || (access.group && file.st_gid == *access.group);
+    if (S_ISREG(file.st_mode) && ours && (file.st_mode & 07777) == access.mode()) return;
+    throw Error(path + ": has owner " + std::to_string(file.st_uid) + ", mode " +
+                octal(file.st_mode & 07777) + ", expected " + describe(access) +
+                "; remove it or choose another link name");
+}
+
+[[noreturn]] void no_space(const std::string& path, std::uint64_t bytes, int code) {
+    const auto available = available_bytes();
+    throw Error(path + ": " + std::to_string(bytes) + " bytes needed, " +
+                (available ? std::to_string(*available) : "unknown") + " available in " + shm_directory +
+                " (" + errno_text(code) + "); free some, enlarge it, or ask for a smaller arena");
+}
+
+/// posix_fallocate() that goes on when a signal interrupts it. Returns an errno value.
+int allocate(int fd, std::uint64_t offset, std::uint64_t bytes) {
+    int code = EINTR;
+    constexpr int interruptions = 1000;
+    for (int i = 0; i < interruptions && code == EINTR; ++i)
+        code = posix_fallocate(fd, static_cast<off_t>(offset), static_cast<off_t>(bytes));
+    return code;
+}
+
+std::optional<std::uint64_t> parse_generation(const std::string& text) {
+    if (text.empty() || text.size() > 18 || text[0] == '0') return std::nullopt;
+    if (text.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+    return std::stoull(text);
+}
+
+} // namespace
+
+void check_link_name(const std::string& link) {
+    constexpr auto allowed = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+    if (!link.empty() && link.size() <= 64 && link.find_first_not_of(allowed) == std::string::npos) return;
+    throw Error("link name '" + link + "': 1 to 64 characters of A-Z a-z 0-9 _ - expected");
+}
+
+std::string file_prefix(const std::string& link) { return "tandem." + link + "."; }
+
+std::string segment_path(const std::string& link, std::uint64_t generation) {
+    return std::string(shm_directory) + "/" + file_prefix(link) + std::to_string(generation);
+}
+
+std::vector<std::uint64_t> list_generations(const std::string& link) {
+    std::vector<std::uint64_t> found;
+    const std::string prefix = file_prefix(link);
+    std::error_code failure;
+    for (std::filesystem::directory_iterator at(shm_directory, failure), end; !failure && at != end;
+         at.increment(failure)) {
+        const std::string name = at->path().filename();
+        if (name.compare(0, prefix.size(), prefix) != 0) continue;
+        if (const auto generation = parse_generation(name.substr(prefix.size())))
+            found.push_back(*generation);
+    }
+    if (failure)
+        throw Error(std::string(shm_directory) + ": cannot be listed (" + failure.message() +
+                    "); mount a tmpfs there");
+    std::sort(found.rbegin(), found.rend());
+    return found;
+}
+
+Access access_of_this_process(const std::string& group) {
+    Access access{geteuid(), std::nullopt};
+    if (group.empty()) return access;
+    std::vector<char> buffer(16384);
+    struct group entry {};
+    struct group* found = nullptr;
+    getgrnam_r(group.c_str(), &entry, buffer.data(), buffer.size(), &found);
+    if (found == nullptr)
+        throw Error("group '" + group + "': unknown to this system; create it or name another");
+    access.group = entry.gr_gid;
+    return access;
+}
+
+FileDescriptor open_segment(const std::string& path, const Access& access) {
+    FileDescriptor file(::open(path.c_str(), O_RDWR | safe_open));
+    if (!file && errno == ENOENT) return file;
+    if (!file)
+        throw Error(path + ": cannot be opened (" + errno_text() + "), expected " + describe(access) +
+                    "; remove it or choose another link name");
+    check_access(file.get(), path, access);
+    return file;
+}
+
+Probe probe_segment(const std::string& path) {
+    const FileDescriptor file(::open(path.c_str(), O_RDONLY | safe_open));
+    if (!file)
+        return Probe{errno != ENOENT, {}, errno != ENOENT}; // not ours to look into: cannot be called dead
+    return Probe{true,
+                 {held_by_other(file.get(), LockByte::first), held_by_other(file.get(), LockByte::second)},
+                 held_by_other(file.get(), LockByte::hand_over)};
+}
+
+std::optional<std::uint64_t> available_bytes() {
+    struct statvfs disk {};
+    if (statvfs(shm_directory, &disk) != 0) return std::nullopt;
+    return disk.f_bavail * disk.f_frsize;
+}
+
+bool try_reserve(int fd, std::uint64_t offset, std::uint64_t bytes) {
+    return allocate(fd, offset, bytes) == 0;
+}
+
+void reserve(int fd, const std::string& path, std::uint64_t offset, std::uint64_t bytes) {
+    if (const int code = allocate(fd, offset, bytes); code != 0) no_space(path, bytes, code);
+}
+
+namespace {
+
+FileDescriptor unnamed_file(const std::string& path, std::uint64_t reserved, const Access& access) {
+    FileDescriptor file(::open(shm_directory, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+    if (!file)
+        throw Error(path + ": cannot be created (" + errno_text() + "); a writable tmpfs is expected at " +
+                    shm_directory);
+    reserve(file.get(), path, 0, reserved);
+    if (access.group && fchown(file.get(), static_cast<uid_t>(-1), *access.group) != 0)
+        throw Error(path + ": cannot be given to group " + std::to_string(*access.group) + " (" +
+                    errno_text() + "); this process must be a member of it");
+    if (fchmod(file.get(), access.mode()) != 0)
+        throw Error(path + ": cannot be given mode " + octal(access.mode()) + " (" + errno_text() + ")");
+    return file;
+}
+
+} // namespace
+
+FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, const Access& access) {
+    return unnamed_file(path, bytes, access);
+}
+
+FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t at_once,
+                             const Access& access) {
+    if (available_bytes().value_or(at_once) < at_once) no_space(path, at_once, ENOSPC);
+    FileDescriptor file = unnamed_file(path, layout::arenas_begin, access);
+    if (ftruncate(file.get(), static_cast<off_t>(bytes)) != 0) no_space(path, bytes, errno);
+    return file;
+}
+
+bool give_name(int fd, const std::string& path) {
+    const std::string self = "/proc/self/fd/" + std::to_string(fd);
+    if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
+    if (errno == EEXIST) return false;
+    throw Error(path + ": cannot be named (" + errno_text() + "); " + shm_directory +
+                " must be writable and /proc mounted");
+}
+
+bool still_named(int fd) {
+    struct stat file {};
+    return fstat(fd, &file) == 0 && file.st_nlink > 0;
+}
+
+layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t contract) {
+    layout::SegmentHeader header{};
+    struct stat file {};
+    const auto got = pread(fd, static_cast<void*>(&header), sizeof header, 0);
+    if (got != static_cast<ssize_t>(sizeof header) || fstat(fd, &file) != 0 || header.magic != layout::magic)
+        throw Error(path + ": is not a Tandem segment; remove it or choose another link name");
+    if (header.layout_version != layout::layout_version)
+        throw Error(path + ": has layout version " + std::to_string(header.layout_version) +
+                    ", this process has " + std::to_string(layout::layout_version) +
+                    "; use one build of Tandem on both sides");
+    if (header.contract != contract)
+        throw Error(path + ": has contract version " + std::to_string(header.contract) +
+                    ", this process has " + std::to_string(contract) +
+                    "; use one build of the link on both sides");
+    const auto& offset = header.arena_offset;
+    const auto& bytes = header.arena_bytes;
+    const std::uint64_t total = header.total_bytes;
+    const bool sound =
+        header.header_bytes == sizeof header && total == static_cast<std::uint64_t>(file.st_size) &&
+        total >= layout::arenas_begin && offset[0] == layout::arenas_begin && bytes[0] <= total - offset[0] &&
+        bytes[0] % layout::page == 0 && offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1];
+    if (!sound) throw Error(path + ": has a damaged header; remove it or choose another link name");
+    return header;
+}
+
+bool remove_if_dead(const std::string& path) {
+    const FileDescriptor file(::open(path.c_str(), O_RDWR | safe_open));
+    if (!file) return errno == ENOENT;
+    struct stat status {};
+    if (fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
+        return false;
+    // Only the holder of this file's hand-over byte unlinks it, and its name cannot pass to another file
+    // before that: so while the file has a name, that name is `path`, and unlink() cannot hit a younger file
+    // of the same name.
+    const HandOver hand_over(file.get(), std::chrono::milliseconds(0));
+    if (!hand_over.held()) return false;
+    if (held_by_other(file.get(), LockByte::first) || held_by_other(file.get(), LockByte::second))
+        return false;
+    return !still_named(file.get()) || ::unlink(path.c_str()) == 0;
+}
+
+void remove_dead(const std::string& link) {
+    check_link_name(link);
+    for (const auto generation : list_generations(link)) {
+        const std::string path = segment_path(link, generation);
+        if (probe_segment(path).dead()) remove_if_dead(path);
+    }
+}
+
+} // namespace tandem::shm

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program itself, on its smallest run.
+#include "apps/bench/report/row.hpp"
+#include "apps/bench/suite.hpp"
+#include "apps/wheelchair/run/run_program.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+using namespace tandem::bench;
+
+namespace {
+
+struct Folder {
+    Folder() {
+        std::string name = (std::filesystem::temp_directory_path() / "bench-test-XXXXXX").string();
+        path = mkdtemp(name.data());
+    }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::string file(const char* name) const { return (path / name).string(); }
+    std::filesystem::path path;
+};
+
+auto bench(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), BENCH_PROGRAM);
+    return tandem::wheelchair::run_program(arguments, "", ".");
+}
+
+std::string content(const std::string& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+TEST_CASE("A quick run of floors and rings yields rows and files and names skipped peers") {
+    const Folder folder;
+    const auto json = folder.file("a.json"), html = folder.file("a.html");
+    const auto result =
+        bench({"--only", "floor/cache-line,floor/clock,ring/one-way/64/spin,call-queue/call/64/spin",
+               "--quick", "--json", json, "--html", html});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    const Report report = from_json(content(json));
+    CHECK_THAT(content(html), Catch::Contains("<svg") && Catch::Contains("</html>"));
+    const bool two_cores = allowed_cores().size() > 1;
+    for (const Row& row : report.rows) {
+        INFO(row.id << ": " << row.skipped);
+        if (row.skipped.empty())
+            CHECK((row.summary.samples > 0 && row.summary.p50 > 0 && !row.cores.empty()));
+        if (row.group == "floor" && two_cores && row.regime == "normal") CHECK(row.skipped.empty());
+    }
+    for (const Skipped& skipped : all_cases().skipped)
+        CHECK_THAT(result.output, Catch::Contains("skipped peer/" + skipped.who));
+
+    const auto again = bench({"--only", "floor/clock", "--quick", "--compare", json});
+    CHECK(again.exit_code == 0);
+    CHECK_THAT(again.output, Catch::Contains("common rows changed beyond noise"));
+}
+
+TEST_CASE("Wrong options end in one line and a code") {
+    for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--only", "nothing-of-this-name"}, "--list"},
+             {{"--compare", "/no/such/file"}, "cannot read /no/such/file"},
+             {{"--cores", "9999"}, "may not use core 9999"},
+             {{"--runs", "0"}, "--runs"}}) {
+        const auto result = bench(arguments);
+        CHECK(result.exit_code != 0);
+        CHECK_THAT(result.errors, Catch::Contains(text));
+    }
+}
+
+TEST_CASE("The list names every case and no measurement is made") {
+    const auto result = bench({"--list", "--only", "floor"});
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.output, Catch::Contains("floor/cache-line/one-way/8/spin\n"));
+    CHECK_THAT(result.output, !Catch::Contains("ours/"));
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/harness/measure.hpp"
+#include "apps/bench/suite.hpp"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sys/wait.h>
+
+using namespace tandem::bench;
+
+namespace {
+
+Case alone(const char* what, std::function<void(Session&)> run) {
+    Case one;
+    one.who = "test";
+    one.what = what;
+    one.placement = Placement::alone;
+    one.run = std::move(run);
+    return one;
+}
+
+Report measured(std::vector<Case> cases, double bound = 10) {
+    Plan plan;
+    plan.cases = std::move(cases);
+    plan.limits.bound_seconds = bound;
+    plan.limits.attempts = 1;
+    plan.cores.a = plan.cores.b = allowed_cores().front();
+    plan.progress = false;
+    return measure(plan);
+}
+
+} // namespace
+
+TEST_CASE("Every case has a name of its own and the two sides of a ratio are neighbours") {
+    const Registry registry = all_cases();
+    std::set<std::string> ids, closed;
+    std::string topic;
+    for (const Case& one : registry.cases) {
+        CHECK(ids.insert(one.id()).second);
+        if (one.topic() != topic) {
+            INFO(one.topic());
+            CHECK(closed.insert(topic = one.topic()).second);
+        }
+    }
+}
+
+TEST_CASE("Cases are selected by any of several parts of their names") {
+    const auto all = all_cases().cases;
+    CHECK(selected(all, "").size() == all.size());
+    CHECK(selected(all, "no such case").empty());
+    const auto some = selected(all, "cache-line,call-queue");
+    CHECK(!some.empty());
+    for (const Case& one : some)
+        CHECK((one.id().find("cache-line") != std::string::npos ||
+               one.id().find("call-queue") != std::string::npos));
+}
+
+TEST_CASE("What a side throws stands in its row") {
+    const Report report =
+        measured({alone("throws", [](Session&) { throw std::runtime_error("it broke here"); })});
+    CHECK(report.rows.at(0).skipped == "it broke here");
+}
+
+TEST_CASE("A side that hangs is killed and one that crashes is named and nothing is left behind") {
+    const Report report = measured({alone("hangs",
+                                          [](Session& session) {
+                                              std::ofstream("/dev/shm/" + session.name() + "-left") << "x";
+                                              for (;;) pause();
+                                          }),
+                                    alone("crashes", [](Session&) { raise(SIGKILL); })},
+                                   0.3);
+    CHECK_THAT(report.rows.at(0).skipped, Catch::Contains("not finished after 0.3 s"));
+    CHECK_THAT(report.rows.at(1).skipped, Catch::Contains("ended by signal"));
+    CHECK(waitpid(-1, nullptr, WNOHANG) == -1); // no child
+    for (const auto& file : std::filesystem::directory_iterator("/dev/shm"))
+        CHECK(file.path().filename().string().find("tandem-bench-" + std::to_string(getpid())) ==
+              std::string::npos);
+}
+
+TEST_CASE("A case that needs two cores says so where there is one") {
+    Case pair = alone("pair", [](Session&) {});
+    pair.placement = Placement::processes;
+    CHECK_THAT(measured({pair}).rows.at(0).skipped, Catch::Contains("needs two cores"));
+}
+
+TEST_CASE("Paced samples count from when they were due") {
+    // Each exchange takes as long as three intervals: the n-th is due at n and over at 3 n, so lateness
+    // grows.
+    struct Slow {
+        explicit Slow(Session&) {}
+        void send(std::uint64_t sequence) { last = sequence; }
+        std::uint64_t receive() {
+            for (const std::uint64_t end = ticks() + to_ticks(3e6); ticks() < end;) {
+            }
+            return last;
+        }
+        std::uint64_t last = 0;
+    };
+    Clock::calibrate();
+    Case one = alone("paced", paced<Slow>);
+    Plan plan;
+    plan.cases = {one};
+    plan.limits.samples = 20;
+    plan.limits.attempts = 1;
+    plan.cores.a = plan.cores.b = allowed_cores().front();
+    plan.progress = false;
+    const Report report = measure(plan);
+    REQUIRE(report.rows.at(0).skipped.empty());
+    CHECK(report.rows.at(0).summary.max >= 20 * 2e6); // and not the 3 ms that each exchange took
+}

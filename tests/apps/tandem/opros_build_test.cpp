@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "shell.hpp"
+#include "tests/host/opros/engine/folder.hpp"
+
+#include <algorithm>
+
+using tandem::test::tandem_program;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+tandem::test::Result build(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"opros", "build"});
+    return tandem_program(std::move(arguments));
+}
+
+// A component in the style of v1: exported with a definition only, IComponent, the profile in a folder of its
+// own.
+void old_component(const Folder& folder, const std::string& body) {
+    folder.write("neighbour/Gain.h", "inline double gain() { return 3; }\n");
+    folder.write("Old/Old.cpp",
+                 "#include <Component.h>\n#include <OPRoSTypes.h>\n#include <OutputDataPort.h>\n"
+                 "#include \"Gain.h\"\n#include \"Helper.h\"\n"
+                 "class Old : public Component {\n  OutputDataPort<double> out;\n public:\n"
+                 "  Old() { addPort(\"out\", &out); " +
+                     body +
+                     " }\n  virtual ReturnType onExecute() { out.push(gain() * helped()); return "
+                     "OPROS_SUCCESS; }\n};\n"
+                     "#ifdef MAKE_COMPONENT_DLL\nextern \"C\" {\n"
+                     "Component* getComponent() { return new Old; }\n"
+                     "void releaseComponent(Component* com) { delete com; }\n}\n#endif\n");
+    folder.write("Old/Helper.h", "double helped();\n");
+    folder.write("Old/src/Helper.cpp", "#include \"Helper.h\"\ndouble helped() { return 2; }\n");
+    folder.write("Old/mfc/Old.cpp", "#include <afxwin.h>\n");
+    folder.component("Old/profile/Old", "Old.dll");
+    folder.write("Old/profile/OldService.xml", "<service_port_type_profile/>");
+}
+
+std::vector<std::string> files_in(const fs::path& dir) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(dir)) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("a component made by tandem opros new is built by tandem opros build and runs") {
+    const Folder folder;
+    const auto dir = folder.path() / "Fresh";
+    REQUIRE(tandem_program({"opros", "new", "Fresh", "--in", folder.path()}).exit_code == 0);
+    const auto built = build({dir});
+    INFO(built.output << built.errors);
+    REQUIRE(built.exit_code == 0);
+    CHECK(built.output == (dir / "Fresh.so").string() + "\n");
+    CHECK(files_in(dir) == std::vector<std::string>{"CMakeLists.txt", "Fresh.cpp", "Fresh.h", "Fresh.so",
+                                                    "Fresh.xml", "FreshApp.xml"});
+    const auto ran = tandem::test::run_host(OPROS_HOST, dir / "FreshApp.xml");
+    INFO(ran.output);
+    CHECK(ran.exit_code == 0);
+    CHECK_THAT(ran.output, Catch::Contains("Fresh: started, gain 2") && Catch::Contains("ready"));
+    CHECK(tandem_program({"opros", "check", dir / "FreshApp.xml"}).exit_code == 0);
+}
+
+TEST_CASE("a component is built from its folder and a neighbour's headers into a plugin beside its profile") {
+    const Folder folder;
+    old_component(folder, "");
+    const auto built = build({folder.path() / "Old", "-I", folder.path() / "neighbour"});
+    INFO(built.output << built.errors);
+    REQUIRE(built.exit_code == 0);
+    CHECK(files_in(folder.path() / "Old/profile") ==
+          std::vector<std::string>{"Old.so", "Old.xml", "OldService.xml"});
+    CHECK(files_in(folder.path() / "Old") ==
+          std::vector<std::string>{"Helper.h", "Old.cpp", "mfc", "profile", "src"});
+    CHECK(tandem_program({"opros", "info", folder.path() / "Old/profile/Old.xml"})
+              .says("output     out   double"));
+    const auto elsewhere = folder.path() / "elsewhere";
+    REQUIRE(
+        build({folder.path() / "Old", "-I", folder.path() / "neighbour", "--output", elsewhere}).exit_code ==
+        0);
+    CHECK(files_in(elsewhere) == std::vector<std::string>{"Old.so", "Old.xml", "OldService.xml"});
+}
+
+TEST_CASE("what cannot be built is one last line with the first error and leaves the old plugin alone") {
+    const Folder folder;
+    old_component(folder, "undeclared_thing();");
+    folder.write("Old/profile/Old.so", "the old one");
+    const auto failed = [&](std::vector<std::string> arguments) {
+        const auto result = build(std::move(arguments));
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        CHECK(files_in(folder.path() / "Old/profile") ==
+              std::vector<std::string>{"Old.so", "Old.xml", "OldService.xml"});
+        CHECK(fs::file_size(folder.path() / "Old/profile/Old.so") == 11);
+        return result.errors;
+    };
+    const std::string old = folder.path() / "Old", neighbour = folder.path() / "neighbour";
+    CHECK_THAT(failed({old, "-I", neighbour}),
+               Catch::Contains("Old.cpp:9:") && Catch::Contains("undeclared_thing"));
+    CHECK_THAT(failed({old}), Catch::Contains("Gain.h"));
+    old_component(folder, "extern void nowhere(); nowhere();");
+    CHECK_THAT(failed({old, "-I", neighbour}),
+               Catch::Contains("undefined reference") && Catch::Contains("nowhere"));
+    CHECK_THAT(failed({old, "-I", folder.path() / "missing"}), Catch::Contains("missing is not a folder"));
+    CHECK_THAT(failed({neighbour}), Catch::Contains("no component profile"));
+    CHECK_THAT(failed({"/nowhere"}), Catch::Contains("/nowhere is not a folder"));
+    folder.component("Old/Second", "Second.dll");
+    CHECK_THAT(failed({old}), Catch::Contains("several component profiles") && Catch::Contains("--profile"));
+}
+
+TEST_CASE("names that no build can have are told as such before anything is built") {
+    const Folder folder;
+    old_component(folder, "");
+    folder.component("Old/profile/Old", "Old $(date)");
+    const auto refused = [&](std::vector<std::string> arguments) {
+        const auto result = build(std::move(arguments));
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        return result.errors;
+    };
+    CHECK_THAT(refused({folder.path() / "Old"}),
+               Catch::Contains("Old.xml:3: no library can be built as 'Old $(date)'"));
+    folder.component("Old/profile/Old", "Old.dll");
+    fs::rename(folder.path() / "Old", folder.path() / "O;d");
+    CHECK_THAT(refused({folder.path() / "O;d"}), Catch::Contains("O;d has a ';' in its name"));
+}
+
+TEST_CASE("a plugin that cannot be put in its place leaves nothing there") {
+    const Folder folder;
+    old_component(folder, "");
+    fs::create_directory(folder.path() / "Old/profile/Old.so");
+    const auto result = build({folder.path() / "Old", "-I", folder.path() / "neighbour"});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::Contains("Old.so cannot be written: Is a directory"));
+    CHECK(files_in(folder.path() / "Old/profile") ==
+          std::vector<std::string>{"Old.so", "Old.xml", "OldService.xml"});
+}
+
+TEST_CASE("what CMake says is the last line in its own words") {
+    const Folder folder;
+    folder.component("Empty/Empty", "Empty.dll");
+    const auto result = build({folder.path() / "Empty"});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::Contains("no C++ source in"));
+}
+
+TEST_CASE("a function that forgets its return goes on behind its call as with compilers of old") {
+    const Folder folder;
+    folder.write("Old/Old.cpp",
+                 "#include <Component.h>\n#include <vector>\n"
+                 "class Old : public Component {\n  int count;\n"
+                 "  int fill(int n) { std::vector<int> values(n); count = values.size(); }\n public:\n"
+                 "  ReturnType onInitialize() { fill(100); return count == 100 ? OPROS_SUCCESS : 1; }\n};\n"
+                 "extern \"C\" {\nComponent* getComponent() { return new Old; }\n"
+                 "void releaseComponent(Component* com) { delete com; }\n}\n");
+    folder.component("Old/Old", "Old.dll");
+    const auto built = build({folder.path() / "Old"});
+    INFO(built.output << built.errors);
+    REQUIRE(built.exit_code == 0);
+    const auto info = tandem_program({"opros", "info", folder.path() / "Old/Old.xml", "--initialize"});
+    INFO(info.errors);
+    CHECK(info.exit_code == 0);
+}
+
+TEST_CASE("a build that takes too long is ended and leaves the folder as it was") {
+    const Folder folder;
+    old_component(folder, "");
+    const auto result = build({folder.path() / "Old", "-I", folder.path() / "neighbour", "--timeout", "0.1"});
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::Contains("was not done within 0.1 s") && Catch::Contains("--timeout"));
+    CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+    CHECK(files_in(folder.path() / "Old/profile") == std::vector<std::string>{"Old.xml", "OldService.xml"});
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "tests/host/opros/engine/folder.hpp"
+
+#include <algorithm>
+
+using tandem::test::tandem_program;
+
+namespace {
+tandem::test::Result check(const std::filesystem::path& application) {
+    return tandem_program({"opros", "check", application, "--plugin-path", FIXTURES});
+}
+} // namespace
+
+TEST_CASE("tandem opros check finds nothing in an application that fits") {
+    const Folder folder;
+    folder.component("M", "maker.dll");
+    folder.component("P", "printer");
+    const auto result = check(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"),
+                                                 Folder::connect("data", "M", "numbers", "P", "numbers") +
+                                                     Folder::connect("service", "M", "math", "P", "math")));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(result.says("app: 2 components and 2 connections fit"));
+}
+
+TEST_CASE("tandem opros check tells every fault of an application in a line of its own") {
+    const Folder folder;
+    folder.component("M", "maker");
+    folder.component("P", "printer");
+    folder.component("Crash", ZOO "/opros/entry_crashes.so");
+    folder.component("Lost", "nothing.dll");
+    folder.component("Slow", "maker", "<type>periodic</type>");
+    folder.component("Foreign", PLUGINS "/rtm/HWComp.so");
+    folder.component("Old", ZOO "/opros/another_tandem.so");
+    const auto result =
+        check(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml") +
+                                     Folder::sub("Crash", "Crash.xml") + Folder::sub("Lost", "Lost.xml") +
+                                     Folder::sub("Slow", "Slow.xml") + Folder::sub("Nobody", "Nobody.xml") +
+                                     Folder::sub("Foreign", "Foreign.xml") + Folder::sub("Old", "Old.xml"),
+                                 Folder::connect("data", "M", "numbers", "P", "numbers") +
+                                     Folder::connect("data", "M", "nope", "P", "numbers") +
+                                     Folder::connect("data", "M", "words", "P", "numbers") +
+                                     Folder::connect("event", "M", "numbers", "P", "numbers") +
+                                     Folder::connect("data", "Crash", "x", "P", "numbers"),
+                                 "<coordination><depends source=\"M\" target=\"P\"/><depends source=\"P\" "
+                                 "target=\"M\"/></coordination>"));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.errors.empty());
+    CHECK(result.says("Crash.xml:3: library " ZOO "/opros/entry_crashes.so "));
+    CHECK(result.says("Lost.xml:3: library 'nothing.dll' not found"));
+    CHECK(result.says("a periodic component needs a <period>"));
+    CHECK(result.says("profile 'Nobody.xml' of component 'Nobody' not found"));
+    CHECK(result.says("is an RTC module (exports HWCompInit)"));
+    CHECK(result.says("Old.xml:3: library " ZOO
+                      "/opros/another_tandem.so was built against the headers of another"));
+    CHECK(result.says("app.xml:8: component 'M' has no port 'nope'"));
+    CHECK(result.says("app.xml:9: type mismatch"));
+    CHECK(result.says("app.xml:10: "));
+    CHECK(result.says("app: 10 faults\n"));
+    CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 11);
+    const auto json =
+        tandem_program({"opros", "check", folder.path() / "app.xml", "--plugin-path", FIXTURES, "--json"});
+    CHECK(json.exit_code == 1);
+    CHECK(json.json()["faults"].size() == 10);
+}
+
+TEST_CASE("tandem opros check reads the type profiles that a component refers to, if they are there") {
+    const Folder folder;
+    folder.write("P.xml",
+                 "<component_profile><name>P</name><execution_environment><library_name>printer"
+                 "</library_name></execution_environment><execution_semantics><type>passive</type>"
+                 "</execution_semantics><data_type_list><reference>Points.xml</reference>"
+                 "<reference>Lost.xml</reference></data_type_list><ports><service_port><name>math</name>"
+                 "<type>Math</type><usage>provided</usage><reference>Math.xml</reference></service_port>"
+                 "</ports></component_profile>");
+    const auto application = folder.application(Folder::sub("P", "P.xml"));
+    CHECK(check(application).exit_code == 0);
+    folder.write("Math.xml", "<service_port_type_profile>\n<service_port_type><type_name>Math</type_name>\n"
+                             "<method/></service_port_type></service_port_type_profile>");
+    folder.write("Points.xml", "<data_type>\n</data_type>");
+    const auto result = check(application);
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.says("Math.xml:3: "));
+    CHECK(result.says("Points.xml:1: <data_type> lacks its <struct>\n"));
+    CHECK(result.says("app: 2 faults\n"));
+}
+
+TEST_CASE("tandem opros check tells a connection that is listed again and again in one line") {
+    const Folder folder;
+    folder.component("M", "maker");
+    folder.component("P", "printer");
+    std::string connections;
+    for (int i = 0; i < 6000; ++i) connections += Folder::connect("data", "M", "numbers", "P", "numbers");
+    const auto result =
+        check(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"), connections));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.says("app.xml:8: connection M.numbers -> P.numbers is listed 6000 times, first at "));
+    CHECK(result.says("app: 1 fault\n"));
+}
+
+TEST_CASE("tandem opros check tells a wrong connection that is listed again and again in one line") {
+    const Folder folder;
+    folder.component("M", "maker");
+    std::string connections;
+    for (int i = 0; i < 3000; ++i)
+        connections += Folder::connect("data", "M", "numbers", "Q", "numbers") +
+                       Folder::connect("mail", "M", "news", "M", "news");
+    const auto result = check(folder.application(Folder::sub("M", "M.xml"), connections));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(result.says(
+        "app.xml:7: unknown component 'Q', expected one of M, in a connection that is listed 3000 times\n"));
+    CHECK(result.says("app.xml:8: port_type is 'mail'"));
+    CHECK(result.says("app: 2 faults\n"));
+}
+
+TEST_CASE("tandem opros check refuses a file that is no application in one line") {
+    const Folder folder;
+    const auto result = check(folder.write("bad.xml", "<package_profile>\n<name>x</nam>"));
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.errors, Catch::StartsWith("tandem: ") && Catch::Contains("bad.xml:2: not well-formed"));
+}
+
+TEST_CASE("tandem opros check compares the ports that a profile lists with those of the component") {
+    const Folder folder;
+    const auto port = [](const std::string& kind, const std::string& name, const std::string& usage,
+                         const std::string& type) {
+        return "<" + kind + "_port><name>" + name + "</name><usage>" + usage + "</usage><data_type>" + type +
+               "</data_type></" + kind + "_port>\n";
+    };
+    const auto checked = [&](const std::string& ports) {
+        folder.write("P.xml",
+                     "<component_profile>\n<name>P</name>\n<execution_environment><library_name>printer"
+                     "</library_name></execution_environment>\n<execution_semantics><type>passive"
+                     "</type></execution_semantics>\n<ports>\n" +
+                         ports + "</ports>\n</component_profile>\n");
+        return check(folder.application(Folder::sub("P", "P.xml")));
+    };
+    const auto fits = checked(port("data", "numbers", "input", "vector&lt; double &gt;") +
+                              port("data", "counts", "input", "") + port("event", "news", "input", "string") +
+                              port("service", "math", "provided", ""));
+    INFO(fits.output << fits.errors);
+    CHECK(fits.exit_code == 0);
+    const auto unfit =
+        checked(port("data", "numbers", "input", "vector&lt;int&gt;") +
+                port("data", "counts", "output", "int") + port("data", "news", "input", "string") +
+                port("service", "maths", "provided", "") + port("data", "numbers", "input1", ""));
+    INFO(unfit.output << unfit.errors);
+    CHECK(unfit.exit_code == 1);
+    CHECK(unfit.says(
+        "P.xml:6: data port 'numbers' is std::vector<double> in the component, not vector<int>\n"));
+    CHECK(unfit.says("P.xml:7: data port 'counts' is input in the component, not output\n"));
+    CHECK(unfit.says("P.xml:8: data port 'news' is of kind event in the component\n"));
+    CHECK(unfit.says(
+        "P.xml:9: service port 'maths' is not in the component, its service ports are: math (and"));
+    CHECK(unfit.says("P.xml:10: <data_port> 'numbers' has the <usage> 'input1', expected input or output\n"));
+    CHECK(unfit.says("app: 5 faults\n"));
+}

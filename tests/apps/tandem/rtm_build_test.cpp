@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+#include "shell.hpp"
+#include "tests/host/opros/engine/folder.hpp"
+
+#include <algorithm>
+
+using tandem::test::tandem_program;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char module_text[] =
+    "#include <rtm/Manager.h>\n"
+    "extern \"C\" {\nvoid GoodInit ( RTC::Manager * manager ) { (void)manager; }\n}\n";
+
+std::string failed(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all{"rtm", "build"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto result = tandem_program(all);
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 1);
+    CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+    return result.errors;
+}
+
+} // namespace
+
+TEST_CASE("which module a folder of an RT-Component is must be plain from its sources") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    CHECK_THAT(failed({dir}), Catch::Contains("is not a folder"));
+    folder.write("Rtc/main.cpp", "void MyModuleInit(RTC::Manager* m);\nint main() {}\n");
+    folder.write("Rtc/src/a.cpp", "// void OldInit(RTC::Manager* m);\n/* void OlderInit(RTC::Manager*) */\n"
+                                  "void setInit(int); bool BoolInit(RTC::Manager*);\n");
+    CHECK_THAT(failed({dir}), Catch::Contains("NAMEInit(RTC::Manager*)") && Catch::Contains("--name"));
+    folder.write("Rtc/include/b.h", "void BInit(RTC::Manager *manager);\n");
+    folder.write("Rtc/c.cpp", "extern \"C\" void CInit(RTC::Manager*) {}\n");
+    CHECK_THAT(failed({dir}), Catch::Contains("modules B, C") && Catch::Contains("--name"));
+    CHECK_THAT(failed({dir, "--name", "no good"}), Catch::Contains("cannot be the name"));
+}
+
+TEST_CASE("what does not compile in an RT-Component is one last line with the first error") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    folder.write("Rtc/Good.cpp", module_text);
+    folder.write("Rtc/Good.so", "the old one");
+    folder.write("Rtc/idl/Broken.idl",
+                 "#include \"BasicDataType.idl\"\ninterface Broken { RTC::TimedLung f(); };\n");
+    CHECK_THAT(failed({dir}), Catch::Contains("Broken.idl:2:") && Catch::Contains("TimedLung"));
+    fs::remove(dir + "/idl/Broken.idl");
+    folder.write("Rtc/Good.cpp", std::string("#include \"neighbour.h\"\n") + module_text);
+    CHECK_THAT(failed({dir}), Catch::Contains("Good.cpp:1:") && Catch::Contains("neighbour.h"));
+    CHECK(fs::file_size(dir + "/Good.so") == 11);
+
+    folder.write("beside/neighbour.h", "int neighbour();\n");
+    const auto built = tandem_program({"rtm", "build", dir, "-I", folder.path() / "beside", "--output",
+                                       folder.path() / "out", "--standard", "20"});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(fs::exists(folder.path() / "out/Good.so"));
+    CHECK(fs::file_size(dir + "/Good.so") == 11);
+}
+
+TEST_CASE("what an interrupted omniidl has left in the folder of an RT-Component is not built") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    folder.write("Rtc/Good.cpp", module_text);
+    folder.write("Rtc/omniidl-tmp4711.idl", "# 1 \"Gone.idl\"\ninterface Gone { Lost f(); };\n");
+    folder.write("Rtc/idl/omniidl-tmp12.idl", "interface Half {");
+    const auto built = tandem_program({"rtm", "build", dir});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(fs::exists(dir + "/Good.so"));
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// The installed tree, moved after its installation, and what the build systems of RT-Components ask of it.
+#include "shell.hpp"
+#include "tests/host/opros/engine/folder.hpp"
+
+#include <catch2/catch.hpp>
+
+using tandem::test::shell;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string run(const std::string& command) {
+    const auto said = shell("timeout 250 " + command);
+    INFO(command << "\n" << said.output);
+    REQUIRE(said.exit_code == 0);
+    return said.output;
+}
+
+// A folder with the tree in moved/.
+struct Installed {
+    Folder folder;
+    std::string moved = folder.path() / "moved", bin = moved + "/bin/";
+
+    Installed() {
+        run("cmake --install " BUILD_TREE " --component rtm --prefix " + (folder.path() / "first").string());
+        fs::rename(folder.path() / "first", moved);
+    }
+    std::string at(const std::string& name) const { return folder.path() / name; }
+};
+
+// Until the component says ready.
+tandem::test::Said until_ready(const std::string& command, const std::string& expected) {
+    const auto said = tandem::test::run_host(command, "");
+    INFO(command << "\n" << said.output);
+    CHECK_THAT(said.output, Catch::Contains(expected));
+    return said;
+}
+
+void host_runs(const std::string& command, const std::string& expected) {
+    CHECK(until_ready(command, expected).exit_code == 0);
+}
+
+// The manager takes signals from runManager() on, which may come after the component's word; 143 before.
+void program_runs(const std::string& command, const std::string& expected) {
+    const int code = until_ready(command, expected).exit_code;
+    CHECK((code == 0 || code == 143));
+}
+
+} // namespace
+
+TEST_CASE("a project in the manner of RTCBuilder builds unchanged against a tree that was moved and runs") {
+    const Installed tree;
+    const std::string project = tree.at("Dictionary"), build = tree.at("build");
+    fs::copy(PROJECT, project, fs::copy_options::recursive);
+    // Neither a `python` nor a doxygen on the path of this shell, as on a Debian that has only what Tandem
+    // asks for.
+    const std::string plain = "env PATH=/usr/bin:/bin ";
+    run(plain + "cmake -S " + project + " -B " + build +
+        " -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=" SANITIZER_FLAGS " -DOpenRTM_DIR=" + tree.moved +
+        "/" LIBDIR "/cmake/OpenRTM");
+    run(plain + "cmake --build " + build + " --parallel 2");
+    const std::string found = "Dictionary0 found robot!, asked 1 time";
+    program_runs(build + "/src/DictionaryComp -f " + project + "/rtc.conf", found);
+    host_runs(tree.bin + "rtm_host -f " + project + "/rtc.conf -o manager.modules.load_path:" + build +
+                  "/src -o manager.modules.preload:Dictionary.so -o manager.components.precreate:Dictionary",
+              found);
+    run("cmake --install " + build + " --prefix " + tree.at("installed"));
+    program_runs(tree.at("installed/share/openrtm-2.1/components/DictionaryComp -f ") + project + "/rtc.conf",
+                 found);
+    // Bridges know its services.
+    CHECK_THAT(run("nm -DC " + build + "/src/Dictionary.so"), Catch::Contains("RTC::InterfaceSignatures"));
+
+    // The same folder without its project files; its own program stays out.
+    run(tree.bin + "tandem rtm build " + project);
+    host_runs(tree.bin + "rtm_host -f " + project +
+                  "/rtc.conf -o manager.modules.preload:Dictionary.so "
+                  "-o manager.components.precreate:Dictionary",
+              found);
+}
+
+TEST_CASE("a component made by tandem rtm new builds with find_package and with tandem rtm build and runs") {
+    const Installed tree;
+    const std::string arm = tree.at("Arm");
+    run(tree.bin + "tandem rtm new Arm --in " + tree.folder.path().string());
+    run("cmake -S " + arm + " -B " + arm +
+        "/build -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PREFIX_PATH=" + tree.moved);
+    run("cmake --build " + arm + "/build");
+    host_runs(tree.bin + "rtm_host -f " + arm + "/rtc.conf", "Arm0: activated, gain 2");
+    fs::remove(arm + "/Arm.so");
+    fs::remove_all(arm + "/build");
+    CHECK(run(tree.bin + "tandem rtm build " + arm) == arm + "/Arm.so\n");
+    host_runs(tree.bin + "rtm_host -f " + arm + "/rtc.conf", "Arm0: activated, gain 2");
+    CHECK_THAT(shell(tree.bin + "tandem rtm new Arm --in " + tree.folder.path().string()).output,
+               Catch::Contains("Arm exists"));
+}
+
+TEST_CASE(
+    "rtm-config and pkg-config answer for a tree that was moved and nothing in it knows its old place") {
+    const Installed tree;
+    const std::string config = tree.bin + "rtm-config ";
+    CHECK(run(config + "--prefix --version --orb") == tree.moved + "\n2.1.0\nomniORB\n");
+    const auto idl = run(config + "--rtm-idldir");
+    CHECK(fs::exists(fs::path(idl.substr(0, idl.size() - 1)) / "BasicDataType.idl"));
+    CHECK(run(tree.bin + "rtm2-config --libs") == run(config + "--libs"));
+    const auto wrong = shell(config + "--wings");
+    CHECK(wrong.exit_code == 1);
+    CHECK_THAT(wrong.output, Catch::Contains("unknown option --wings"));
+    // As makefiles of rtc-template use it.
+    tree.folder.write("x.cpp",
+                      "#include <CameraCommonInterfaceSkel.h>\n#include <rtm/Manager.h>\n"
+                      "int main() { return RTC::Manager::init(0, 0) == 0 || !Img::_tc_TimedCameraImage; }\n");
+    run("bash -c \"c++ " + tree.at("x.cpp") + " -o " + tree.at("x") + " $(" + config +
+        "--cflags --libs | tr \"\\n\" \" \")\"");
+    // An IDL of its own on top of the camera's, which lies beside the data types as in OpenRTM-aist 2.x.
+    tree.folder.write("Eye.idl", "#include \"CameraCommonInterface.idl\"\n"
+                                 "struct Eye { Img::CameraImage seen; };\n");
+    run("bash -c \"cd " + tree.at("") + " && omniidl $(" + config + "--idlflags | tr \"\\n\" \" \") -I$(" +
+        config + "--rtm-idldir) Eye.idl\"");
+    tree.folder.write("eye.cpp", "#include <rtm/idl/CameraCommonInterfaceUtil.h>\n#include \"Eye.hh\"\n"
+                                 "int main() { return Eye().seen.image.raw_data.length(); }\n");
+    run("bash -c \"c++ -c " + tree.at("eye.cpp") + " -o " + tree.at("eye.o") + " $(" + config +
+        "--cflags | tr \"\\n\" \" \")\"");
+    const auto needed = run("readelf -d " + tree.at("x"));
+    CHECK_THAT(needed, Catch::Contains("librtmCamera2.so") && !Catch::Contains("librtmManipulator2.so"));
+    for (const std::string package : {"openrtm-aist", "openrtm2"})
+        CHECK_THAT(
+            run("env PKG_CONFIG_PATH=" + tree.moved + "/" LIBDIR "/pkgconfig pkg-config --cflags " + package),
+            Catch::Contains("include/tandem/rtm"));
+    CHECK(shell("grep -rlI " + tree.at("first") + " " + tree.moved).output.empty());
+    CHECK(shell("grep -rlI " BUILD_TREE " " + tree.moved).output.empty());
+
+    tree.folder.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.16)\nproject(x CXX)\n"
+                                        "find_package(OpenRTM-aist 1.1 REQUIRED)\n"
+                                        "message(STATUS version=${OPENRTM_VERSION})\n");
+    CHECK_THAT(run("cmake -S " + tree.folder.path().string() + " -B " + tree.at("b") +
+                   " -DCMAKE_PREFIX_PATH=" + tree.moved),
+               Catch::Contains("version=2.1.0"));
+}
+
+TEST_CASE(
+    "a project with an OpenRTM finder of its own that insists on Doxygen builds with what the page names") {
+    const Installed tree;
+    tree.folder.write("FindOpenRTM.cmake", "find_package(PkgConfig REQUIRED)\n"
+                                           "pkg_check_modules(OPENRTM REQUIRED openrtm-aist)\n");
+    tree.folder.write("Doxyfile", "HTML_OUTPUT = pages\n");
+    tree.folder.write("CMakeLists.txt", "cmake_minimum_required(VERSION 3.16)\nproject(x CXX)\n"
+                                        "set(CMAKE_MODULE_PATH ${PROJECT_SOURCE_DIR})\n"
+                                        "find_package(OpenRTM REQUIRED)\n"
+                                        "find_package(Doxygen)\n"
+                                        "if(NOT DOXYGEN_FOUND)\n"
+                                        "  message(FATAL_ERROR \"Doxygen was not found.\")\n"
+                                        "endif()\n"
+                                        "add_custom_target(doc ALL ${DOXYGEN_EXECUTABLE} Doxyfile\n"
+                                        "  WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})\n"
+                                        "install(DIRECTORY pages DESTINATION doc)\n");
+    const std::string environment = "env PATH=" + tree.bin + ":/usr/bin:/bin:" + tree.moved +
+                                    "/share/tandem/rtm/stand-ins PKG_CONFIG_PATH=" + tree.moved +
+                                    "/" LIBDIR "/pkgconfig ";
+    run(environment + "cmake -S " + tree.folder.path().string() + " -B " + tree.at("b"));
+    run(environment + "cmake --build " + tree.at("b"));
+    run(environment + "cmake --install " + tree.at("b") + " --prefix " + tree.at("installed"));
+    CHECK(fs::is_directory(tree.at("installed/doc/pages")));
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sub-commands of `tandem rtm` for components that run, on a host in another process.
+#include "program.hpp"
+#include "tests/host/rtm/other_host.hpp"
+
+#include <algorithm>
+#include <arpa/inet.h>
+#include <thread>
+
+using tandem::test::Result;
+using tandem::test::tandem_program;
+
+namespace {
+
+/// A host, and `tandem rtm` with its manager as the only place to look.
+struct Running {
+    testing::OtherHost other{"Counter,Teller,Thrower"};
+    std::string at = "rtcloc://127.0.0.1:" + other.port + "/";
+
+    Result run(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "rtm");
+        arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + other.port});
+        return tandem_program(arguments);
+    }
+    Result good(const std::vector<std::string>& arguments) {
+        const Result result = run(arguments);
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 0);
+        return result;
+    }
+    std::string failed(const std::vector<std::string>& arguments) {
+        const Result result = run(arguments);
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        return result.errors;
+    }
+};
+
+/// Takes connections and says nothing; or, told so, what no GIOP server says.
+class WrongServer {
+  public:
+    explicit WrongServer(std::string answer) : answer_(std::move(answer)) {
+        fd_ = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        if (bind(fd_, reinterpret_cast<sockaddr*>(&address), size) != 0 || listen(fd_, 8) != 0)
+            throw std::runtime_error("no server");
+        getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size);
+        at = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+        thread_ = std::thread([this] { serve(); });
+    }
+    ~WrongServer() {
+        shutdown(fd_, SHUT_RDWR);
+        thread_.join();
+        close(fd_);
+    }
+    std::string at;
+
+  private:
+    void serve() {
+        std::vector<int> taken;
+        for (int fd; (fd = accept(fd_, nullptr, nullptr)) >= 0;) {
+            taken.push_back(fd);
+            if (!answer_.empty()) send(fd, answer_.data(), answer_.size(), MSG_NOSIGNAL);
+        }
+        for (const int fd : taken) close(fd);
+    }
+    std::string answer_;
+    int fd_ = -1;
+    std::thread thread_;
+};
+
+} // namespace
+
+TEST_CASE("tandem rtm shows components and changes their states and parameters") {
+    Running host;
+    REQUIRE(host.other.host.says("ready\n"));
+    const auto list = host.good({"list", "--json"}).json();
+    REQUIRE(list.size() == 3);
+    CHECK(list[0]["instance"] == "Counter0");
+    CHECK(list[0]["address"] == host.at + "Counter0");
+    CHECK(list[0]["state"] == "INACTIVE");
+    CHECK(host.good({"info", host.at + "Counter0", "--json"}).json()["ports"][0]["name"] == "Counter0.out");
+    CHECK(host.good({"tree"}).says("Teller0.in DataInPort IDL:RTC/TimedLong:1.0"));
+
+    CHECK(host.good({"activate", "Counter0", "Teller0"}).says("Teller0 ACTIVE"));
+    CHECK(host.good({"deactivate", "Counter0"}).says("Counter0 INACTIVE"));
+    CHECK_THAT(host.failed({"activate", "Thrower0"}),
+               Catch::Contains("ERROR") && Catch::Contains("rtm reset"));
+    CHECK(host.good({"reset", "Thrower0"}).says("INACTIVE"));
+
+    CHECK(host.good({"conf", "Counter0", "step=5"}).says("step=5"));
+    CHECK_THAT(host.failed({"conf", "Counter0", "stride=5"}), Catch::Contains("it has: step"));
+    CHECK(host.good({"exit", "Thrower0"}).says("exited"));
+    CHECK_THAT(host.failed({"info", "Thrower0"}), Catch::Contains("there is no component Thrower0"));
+}
+
+TEST_CASE("tandem rtm connects ports and prints and injects their values") {
+    Running host;
+    REQUIRE(host.other.host.says("ready\n"));
+    host.good({"activate", "Counter0", "Teller0"});
+    const auto connection = host.good({"connect", "Counter0:out", "Teller0.in", "--json"}).json();
+    CHECK(connection[0]["ports"][1] == "Teller0.in");
+    CHECK(host.other.host.says("received 1"));
+    CHECK_THAT(host.failed({"connect", "Counter0:out", "Teller0:in"}), Catch::Contains("connected already"));
+    CHECK_THAT(host.failed({"connect", "Teller0:in", "Teller0:in"}), Catch::Contains("cannot be connected"));
+    CHECK_THAT(host.failed({"connect", "Counter0:in", "Teller0:in"}),
+               Catch::Contains("it has: Counter0.out"));
+    const auto cat = host.good({"cat", "Counter0:out", "-n", "2", "--for", "20"});
+    const auto second = nlohmann::json::parse(cat.output.substr(cat.output.find('\n')));
+    CHECK(second["data"].get<long>() > 1);
+    CHECK(second["tm"]["sec"].get<long>() > 0);
+    CHECK(host.good({"cat", "Counter0:out", "-n", "1", "--for", "20", "--raw"}).says("{\"cdr\":\""));
+    host.good({"disconnect", "Counter0:out"});
+    CHECK_THAT(host.failed({"disconnect", "Counter0:out"}), Catch::Contains("no such connection"));
+    const auto sent =
+        host.good({"inject", "Teller0:in", "7", "{\"tm\":{\"sec\":1},\"data\":-8}", "-n", "3", "--json"});
+    CHECK(sent.json()["sent"] == 6);
+    CHECK_THAT(host.failed({"inject", "Teller0:in", "hello"}), Catch::Contains("TimedLong.data"));
+    CHECK_THAT(host.failed({"inject", "Teller0:in", "5000000000"}), Catch::Contains("does not fit"));
+    CHECK_THAT(host.failed({"inject", "Counter0:out", "7"}), Catch::Contains("expected a DataInPort"));
+    CHECK_THAT(host.failed({"cat", "Teller0:in"}), Catch::Contains("expected a DataOutPort"));
+}
+
+TEST_CASE("tandem rtm list and tree show what answers and fail for a place that was named and does not") {
+    Running host;
+    REQUIRE(host.other.host.says("ready\n"));
+    for (const char* command : {"list", "tree"}) {
+        const Result result = host.run({command, "--nameserver", "127.0.0.1:9"});
+        CHECK(result.says("Counter0"));
+        CHECK(result.exit_code == 1);
+        CHECK(result.errors == "tandem: name server 127.0.0.1:9: nobody listens there\n");
+    }
+}
+
+TEST_CASE("tandem rtm says in one line and in time that a server is dead or stuck or something else") {
+    const std::string dead = "127.0.0.1:9";
+    WrongServer stuck(""), web("HTTP/1.1 400 Bad Request\r\n\r\n"),
+        half(std::string("GIOP\1\2\1\1\100\0\0\0", 12));
+    for (const auto& at : {dead, stuck.at, web.at, half.at})
+        for (std::vector<std::string> command :
+             {std::vector<std::string>{"list", "--manager", at, "--nameserver", at},
+              {"tree", "--manager", at, "--nameserver", at},
+              {"info", "rtcloc://" + at + "/A0"},
+              {"activate", "rtcname://" + at + "/a/A0.rtc"},
+              {"exit", "rtcloc://" + at + "/A0"},
+              {"connect", "rtcloc://" + at + "/A0:out", "rtcloc://" + at + "/B0:in"},
+              {"cat", "rtcloc://" + at + "/A0:out"},
+              {"inject", "rtcloc://" + at + "/A0:in", "1"}}) {
+            command.insert(command.begin(), "rtm");
+            command.insert(command.end(), {"--timeout", "0.3"});
+            const Result result = tandem_program(command);
+            INFO(command[1] << " " << at << ": " << result.output << result.errors);
+            CHECK(result.exit_code == 1);
+            CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+            CHECK_THAT(result.errors, Catch::Contains(at));
+        }
+}

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "program.hpp"
+
+#include "shm/call/call_client.hpp"
+
+#include <fstream>
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+using namespace tandem::test;
+
+namespace {
+
+/// A host in a process of its own that joins one side and writes until it is killed.
+Child writing_host(const std::string& link, Side side) {
+    Child child([=] {
+        const auto segment = Segment::join(link, side, small());
+        RingWriter writer(segment->add_ring(
+            "odometry",
+            {.writer = side, .policy = RingPolicy::drop_oldest, .max_record = 100, .capacity = 4096}));
+        segment->add_call_queue("services", {.callers = side, .slots = 4, .max_bytes = 100});
+        segment->publish();
+        for (;;) {
+            segment->heartbeat();
+            writer.write(bytes_of("eight doubles"), now_ns(), 0);
+            std::this_thread::sleep_for(1ms);
+        }
+        return 0;
+    });
+    REQUIRE(eventually([&] {
+        const auto seen = shm_program({"stats", link, "--json"});
+        return seen.exit_code == 0 && !seen.json()["rings"].empty() && seen.json()["rings"][0]["sent"] > 0;
+    }));
+    return child;
+}
+
+std::string only_file(const Link& link) {
+    const auto files = link.files();
+    REQUIRE(files.size() == 1);
+    return files[0];
+}
+
+} // namespace
+
+TEST_CASE("list shows a segment and both of its sides") {
+    const Pair pair;
+    pair.first->heartbeat();
+    const auto segment = listed(pair.link.name);
+    CHECK(segment["generation"] == 1);
+    CHECK(segment["state"] == "readable");
+    CHECK(segment["sides"]["first"]["pid"] == getpid());
+    CHECK(segment["sides"]["second"]["held"] == true);
+    const auto text = shm_program({"list"});
+    CHECK(text.exit_code == 0);
+    CHECK(text.says(pair.link.name));
+    CHECK(text.says("pid " + std::to_string(getpid())));
+}
+
+TEST_CASE("list tells a dead side from one that never joined") {
+    const Link link;
+    Child host = writing_host(link.name, Side::first);
+    CHECK(listed(link.name)["sides"]["second"]["state"] == "absent");
+    host.kill_now();
+    CHECK(listed(link.name)["sides"]["first"]["state"] == "dead");
+}
+
+TEST_CASE("list names damaged segments with the reason and still ends with 0") {
+    const Link link;
+    SECTION("no segment at all") { std::ofstream(segment_path(link.name, 3)) << "hello"; }
+    SECTION("empty") { std::ofstream{segment_path(link.name, 3)}; }
+    SECTION("a folder") { std::filesystem::create_directory(segment_path(link.name, 3)); }
+    CHECK(listed(link.name)["state"] == "damaged");
+    CHECK_FALSE(listed(link.name)["reason"].get<std::string>().empty());
+    const auto text = shm_program({"list"});
+    CHECK(text.exit_code == 0);
+    CHECK(text.says("damaged: "));
+    const auto info = shm_program({"info", link.name});
+    CHECK(info.exit_code == 1);
+    CHECK(info.errors.find("damaged") != std::string::npos);
+}
+
+TEST_CASE("a segment of another user is listed and neither read nor removed") {
+    if (geteuid() != 0) return; // only root can make one
+    const Link link;
+    const auto path = segment_path(link.name, 1);
+    std::ofstream(path) << "secret";
+    REQUIRE(chown(path.c_str(), 12345, 12345) == 0);
+    CHECK(listed(link.name)["state"] == "foreign");
+    CHECK(listed(link.name)["owner"] == "12345");
+    CHECK(shm_program({"stats", link.name}).exit_code == 1);
+    const auto clean = shm_program({"clean", link.name});
+    CHECK(clean.exit_code == 0);
+    CHECK(clean.says("left"));
+    CHECK(clean.says("12345"));
+    CHECK(std::filesystem::exists(path));
+}
+
+TEST_CASE("info shows every object of both halves") {
+    const Pair pair;
+    pair.first->add_ring("scan", {.policy = RingPolicy::latest_only, .max_record = 1000, .capacity = 4096});
+    pair.second->add_ring(
+        "stick", {.writer = Side::second, .policy = RingPolicy::wait, .max_record = 100, .capacity = 4096});
+    pair.second->add_call_queue("calls", {.slots = 5, .max_bytes = 100});
+    pair.second->add_blob("table", 321);
+    pair.first->publish();
+    pair.second->publish();
+    const auto text = shm_program({"info", pair.link.name});
+    CHECK(text.exit_code == 0);
+    for (const char* part :
+         {"scan", "latest only", "stick", "second writes, wait 10 ms", "calls", "5 slots", "table", "321 B"})
+        CHECK(text.says(part));
+    const auto json = shm_program({"info", pair.link.name, "--json"}).json();
+    REQUIRE(json["objects"].size() == 4);
+    CHECK(json["objects"][0]["name"] == "scan");
+    CHECK(json["objects"][0]["policy"] == "latest only");
+    CHECK(json["damage"].empty());
+}
+
+TEST_CASE("names that would upset a terminal or a JSON parser come out harmless") {
+    const Pair pair;
+    pair.first->add_blob("\x1b[2J\xff\"name", 10);
+    pair.first->publish();
+    const auto text = shm_program({"info", pair.link.name});
+    CHECK(text.says("?[2J?\"name"));
+    CHECK(text.output.find('\x1b') == std::string::npos);
+    CHECK(shm_program({"info", pair.link.name, "--json"}).json()["objects"].size() == 1);
+}
+
+TEST_CASE("stats of a running writer grow and an idle segment stays as it is") {
+    const Link link;
+    Child host = writing_host(link.name, Side::first);
+    const auto sent = [&] {
+        return shm_program({"stats", link.name, "--json"}).json()["rings"][0]["sent"].get<std::uint64_t>();
+    };
+    const auto before = sent();
+    CHECK(eventually([&] { return sent() > before; }));
+
+    ::kill(host.pid(), SIGSTOP);
+    const auto bytes = [&] {
+        std::ifstream file(only_file(link), std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    REQUIRE(eventually([&] { return listed(link.name)["sides"]["first"]["state"] == "late"; }));
+    const auto idle = bytes();
+    const auto stats = shm_program({"stats", link.name});
+    CHECK(stats.says("odometry"));
+    CHECK(stats.says("services"));
+    CHECK(stats.says("late"));
+    shm_program({"list"});
+    shm_program({"info", link.name});
+    CHECK(bytes() == idle);
+}
+
+TEST_CASE("a watch shows one line of JSON per look with the rates in between") {
+    const Link link;
+    Child host = writing_host(link.name, Side::second);
+    const auto watch = shm_program({"stats", link.name, "--json", "--watch", "0.1", "--count", "3"});
+    CHECK(watch.exit_code == 0);
+    std::istringstream lines(watch.output);
+    std::vector<nlohmann::json> looks;
+    for (std::string line; std::getline(lines, line);) looks.push_back(nlohmann::json::parse(line));
+    REQUIRE(looks.size() == 3);
+    CHECK_FALSE(looks[0].contains("rates"));
+    CHECK(looks[2]["rates"]["rings"][0]["name"] == "odometry");
+    CHECK(looks[2]["rates"]["rings"][0]["sent_per_s"] > 0.0);
+    CHECK(looks[2]["rates"]["call_queues"][0]["calls_per_s"] == 0.0);
+    CHECK(shm_program({"stats", link.name, "--watch", "0.05", "--count", "2"}).says("sent/s"));
+}
+
+TEST_CASE("a watch outlives the segment that it watches") {
+    const Link link;
+    const auto watch = shm_program({"stats", link.name, "--watch", "0.02", "--count", "2"});
+    CHECK(watch.exit_code == 0);
+    CHECK(watch.says("no segment at the moment"));
+}
+
+TEST_CASE("clean removes what the dead left and nothing else") {
+    const Link dead, living, damaged;
+    Child(writing_host(dead.name, Side::first)).kill_now();
+    const auto segment = join(living, Side::first);
+    std::ofstream{segment_path(damaged.name, 7)} << "damaged";
+
+    const auto living_result = shm_program({"clean", living.name, "--json"});
+    CHECK(living_result.json()["removed"].empty());
+    CHECK(living_result.json()["left"].size() == 1);
+    CHECK(living.files().size() == 1);
+
+    const auto result = shm_program({"clean", dead.name});
+    CHECK(result.exit_code == 0);
+    CHECK(result.says("removed"));
+    CHECK(result.says("dead, pid"));
+    CHECK(dead.files().empty());
+    CHECK(damaged.files().size() == 1);
+    CHECK(shm_program({"clean", damaged.name}).says("shorter than a header"));
+    CHECK(damaged.files().empty());
+    CHECK(shm_program({"clean", damaged.name}).says("nothing to remove"));
+    CHECK(shm_program({"stats", living.name}).exit_code == 0);
+}
+
+TEST_CASE("doctor ends with 1 exactly if something is bad") {
+    const auto result = shm_program({"doctor", "--json"});
+    const auto json = result.json();
+    bool any_bad = false;
+    for (const auto& finding : json["findings"]) {
+        any_bad = any_bad || finding["verdict"] == "bad";
+        CHECK(finding.contains("advice") == (finding["verdict"] != "ok"));
+    }
+    CHECK(json["findings"].size() == 20);
+    CHECK(result.exit_code == (any_bad ? 1 : 0));
+    CHECK(shm_program({"doctor"}).says("/dev/shm mount"));
+}
+
+TEST_CASE("what cannot be done is one line that says what and an exit code that is not 0") {
+    const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"info", "nosuchlink"},
+                                                      {"stats", "no/such"},
+                                                      {"clean", "a.b"},
+                                                      {"stats", "nosuchlink", "--generation", "3"}}) {
+        const auto result = shm_program(arguments);
+        CHECK(result.exit_code == 1);
+        CHECK(result.output.empty());
+        CHECK(lines(result.errors) == 1);
+    }
+    CHECK(shm_program({"stats"}).exit_code != 0);
+    CHECK(tandem_program({}).exit_code != 0);
+    CHECK(shm_program({"stats", "x", "--watch", "0"}).exit_code != 0);
+    CHECK(shm_program({"stats", "x", "--count", "2"}).exit_code != 0);
+}
+
+TEST_CASE("every command explains itself") {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                      {"list", "--help"},
+                                                      {"info", "--help"},
+                                                      {"stats", "--help"},
+                                                      {"clean", "--help"},
+                                                      {"doctor", "--help"}}) {
+        const auto result = shm_program(arguments);
+        CHECK(result.exit_code == 0);
+        CHECK(result.output.size() > 200);
+    }
+}

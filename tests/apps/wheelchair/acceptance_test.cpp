@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <catch2/catch.hpp>
+
+#include "apps/wheelchair/report/acceptance.hpp"
+
+using namespace tandem::wheelchair;
+
+namespace {
+
+const std::vector<Row>& step20() {
+    static const auto rows = simulate(find_scenario("step20"));
+    return rows;
+}
+
+double value_of(const std::vector<Judgement>& list, const std::string& name) {
+    for (const auto& j : list)
+        if (j.name == name) return j.value;
+    FAIL("no figure " << name);
+    return 0.0;
+}
+
+} // namespace
+
+TEST_CASE("the in-memory step has the figures of the specification and is accepted") {
+    const auto list = judge_step20(step20());
+    CHECK(all_pass(list));
+    CHECK(value_of(list, "time to 10 %") == Approx(0.0535).margin(1e-4));
+    CHECK(value_of(list, "rise 10-90 %") == Approx(0.3242).margin(1e-4));
+    CHECK(value_of(list, "overshoot") == Approx(0.2357).margin(1e-4));
+    CHECK(value_of(list, "settling to 5 %") == Approx(0.45));
+    CHECK(value_of(list, "settling to 2 %") == Approx(0.53));
+    CHECK(value_of(list, "steady band, true") == Approx(0.0081).margin(1e-4));
+    CHECK(value_of(list, "steady band, measured") == Approx(0.0599).margin(1e-4));
+    CHECK(value_of(list, "largest voltage") == Approx(15.45).margin(0.01));
+    CHECK(value_of(list, "largest current") == Approx(19.83).margin(0.01));
+    CHECK(value_of(list, "least speed in the turn") == Approx(0.79).margin(0.001));
+}
+
+TEST_CASE("another drive is not accepted as the step, and a short one is not judged") {
+    CHECK_FALSE(all_pass(judge_step20(simulate(find_scenario("step20_slope")))));
+    CHECK_FALSE(all_pass(judge_step20(simulate(find_scenario("s_curve")))));
+    CHECK(judge_step20({step20().begin(), step20().begin() + 900}).empty());
+}
+
+TEST_CASE("one lost tick at the step makes two runs differ by more than is allowed") {
+    auto late = step20();
+    for (std::size_t n = 1000; n > 500; --n)
+        late[n].steering_measured_deg = late[n - 1].steering_measured_deg;
+    CHECK(all_pass(judge_alike("same", step20(), step20())));
+    CHECK_FALSE(all_pass(judge_alike("late", step20(), late)));
+}
+
+TEST_CASE("one digit that the log shows makes lock-step runs different") {
+    auto other = step20();
+    other[700].steering_true_deg += 1e-5;
+    CHECK(all_pass(judge_identical("same", step20(), step20())));
+    const auto judged = judge_identical("other", step20(), other);
+    CHECK_FALSE(all_pass(judged));
+    CHECK(judged[0].value == 1);
+    other.pop_back();
+    CHECK(judge_identical("shorter", step20(), other)[0].value == 2);
+}
+
+TEST_CASE("runs too short to compare fail") {
+    CHECK_FALSE(all_pass(judge_alike("short", step20(), {})));
+    CHECK_THAT(judgement_table("Title", judge_alike("short", step20(), {})), Catch::Contains("FAIL"));
+}

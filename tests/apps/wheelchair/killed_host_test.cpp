@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host of the mixed run is killed in mid-run, or its segment is truncated. Times are reported by the run;
+// here they only have to be there, and of a size that a busy machine does not exceed.
+#include <catch2/catch.hpp>
+
+#include <dirent.h>
+#include <fcntl.h>
+
+#include <algorithm>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "apps/wheelchair/run/child_process.hpp"
+#include "plugins/wheelchair/core/record/records.hpp"
+#include "program.hpp"
+#include "scratch_dir.hpp"
+#include "shm/segment/segment_file.hpp"
+
+using namespace tandem::wheelchair;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A mixed (or swapped) run in the background, its files in a folder of its own.
+class MixedRun {
+  public:
+    explicit MixedRun(const std::vector<std::string>& more, const std::string& configuration = "mixed")
+        : output_(open_file("output")), errors_(open_file("errors")) {
+        std::vector<std::string> command{WHEELCHAIR_PROGRAM, "--config", configuration,
+                                         "--duration",       "5",        "--keep",
+                                         dir_ / "run",       "--json",   dir_ / "run.json"};
+        command.insert(command.end(), more.begin(), more.end());
+        process_.emplace(command, ChildIo{-1, output_.get(), errors_.get(), ""});
+    }
+
+    /// Kills the host once the chair drives. The pid is the one the run printed: no other process is meant.
+    void kill_when_driving(const std::string& host) {
+        wait_until_driving();
+        const std::string text = file_content(dir_ / "output");
+        const auto at = text.find(host + " pid ");
+        REQUIRE(at != text.npos);
+        kill(std::stoi(text.substr(at + host.size() + 5)), SIGKILL);
+    }
+
+    void truncate_when_driving() {
+        wait_until_driving();
+        const auto generations = tandem::shm::list_generations(link());
+        REQUIRE(generations.size() == 1);
+        truncated_ = tandem::shm::segment_path(link(), generations[0]);
+        REQUIRE(truncate(truncated_.c_str(), 4096) == 0);
+    }
+
+    nlohmann::json result() {
+        const auto& ended = process_->wait(60s);
+        REQUIRE(ended);
+        exit_code = ended->signalled ? -1 : ended->code;
+        errors = file_content(dir_ / "errors");
+        return nlohmann::json::parse(file_content(dir_ / "run.json"))["runs"][0];
+    }
+
+    std::string link() const { return "wheelchair-" + std::to_string(process_->pid()); }
+    const std::string& truncated() const { return truncated_; }
+    int exit_code = -1;
+    std::string errors;
+
+    std::vector<HWRecord> hw() const { return read_trace<HWRecord>(dir_ / "run/trace/HWComp.trace"); }
+    std::vector<ControlRecord> control() const {
+        return read_trace<ControlRecord>(dir_ / "run/trace/ControlComp.trace");
+    }
+    std::string host_log(const std::string& host) const {
+        return file_content(dir_ / ("run/log/" + host + ".log"));
+    }
+
+  private:
+    void wait_until_driving() const {
+        for (int i = 0; i < 300 && !driving(); ++i) std::this_thread::sleep_for(50ms);
+        REQUIRE(driving());
+    }
+    Fd open_file(const std::string& name) {
+        return Fd(::open((dir_ / name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+    }
+    bool driving() const {
+        const auto records = hw();
+        return !records.empty() && records.back().volts_left > 1.0;
+    }
+
+    ScratchDir dir_;
+    Fd output_, errors_;
+    std::optional<ChildProcess> process_;
+    std::string truncated_;
+};
+
+bool left_in_shared_memory(const std::string& link) {
+    bool found = false;
+    DIR* dir = opendir("/dev/shm");
+    while (const dirent* entry = readdir(dir))
+        found |= std::string(entry->d_name).find(link) != std::string::npos;
+    closedir(dir);
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("when rtm_host is killed the motors stop, the other host stays, and the run says so") {
+    MixedRun run({});
+    run.kill_when_driving("rtm_host");
+    const auto result = run.result();
+    INFO(run.errors);
+    CHECK(run.exit_code != 0);
+    REQUIRE(result["incidents"].size() == 1);
+    CHECK(result["incidents"][0]["host"] == "rtm_host");
+    REQUIRE(result["incidents"][0]["motors_off_after_ms"].is_number());
+    CHECK(result["incidents"][0]["motors_off_after_ms"] < 1000.0);
+    CHECK(result["complete"] == true); // HWComp went on to the end
+    CHECK_THAT(run.errors, Catch::Contains("was killed by signal 9") &&
+                               Catch::Contains("to start it again: ") &&
+                               Catch::Contains("both motor voltages at 0"));
+    CHECK_FALSE(left_in_shared_memory(run.link()));
+}
+
+TEST_CASE("a killed rtm_host that is started again gets its data without a restart of opros_host") {
+    MixedRun run({"--restart"});
+    run.kill_when_driving("rtm_host");
+    const auto result = run.result();
+    INFO(run.errors);
+    REQUIRE(result["incidents"].size() == 1);
+    CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    CHECK_FALSE(left_in_shared_memory(run.link()));
+}
+
+TEST_CASE("a killed opros_host that is started again gets its data without a restart of rtm_host") {
+    MixedRun run({"--restart"});
+    run.kill_when_driving("opros_host");
+    const auto result = run.result();
+    INFO(run.errors);
+    REQUIRE(result["incidents"].size() == 1);
+    CHECK(result["incidents"][0]["host"] == "opros_host");
+    CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    CHECK_FALSE(left_in_shared_memory(run.link()));
+}
+
+TEST_CASE("with the roles exchanged the hardware RTC stops the motors when opros_host is killed") {
+    MixedRun run({"--restart"}, "swapped");
+    run.kill_when_driving("opros_host");
+    const auto result = run.result();
+    INFO(run.errors);
+    REQUIRE(result["incidents"].size() == 1);
+    CHECK(result["incidents"][0]["host"] == "opros_host");
+    REQUIRE(result["incidents"][0]["motors_off_after_ms"].is_number());
+    CHECK(result["incidents"][0]["motors_off_after_ms"] < 1000.0);
+    CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    CHECK_FALSE(left_in_shared_memory(run.link()));
+}
+
+TEST_CASE("when the segment is truncated the motors stop until the hosts have joined a new one") {
+    MixedRun run({});
+    run.truncate_when_driving();
+    const auto result = run.result();
+    INFO(run.errors);
+    CHECK(result["incidents"].empty()); // no host died; what was under way may be lost, and is reported
+    CHECK(result["complete"] == true);
+    for (const auto* host : {"opros_host", "rtm_host"}) {
+        INFO(run.host_log(host));
+        CHECK_THAT(run.host_log(host), Catch::Contains(run.truncated() + " was truncated by another process"));
+    }
+    const auto hw = run.hw();
+    const auto down = [](const HWRecord& r) { return r.voltage_sequence > 0 && r.link_up == 0.0; };
+    const auto cut = std::find_if(hw.begin(), hw.end(), down);
+    REQUIRE(cut != hw.end());
+    CHECK(std::all_of(hw.begin(), hw.end(), [&](const HWRecord& r) {
+        return !down(r) || (r.volts_left == 0.0 && r.volts_right == 0.0);
+    }));
+    const auto control = run.control();
+    CHECK(std::any_of(control.begin(), control.end(), [&](const ControlRecord& r) {
+        return r.at > cut->at && r.references_received > 0; // through the new segment
+    }));
+    CHECK_FALSE(left_in_shared_memory(run.link()));
+}

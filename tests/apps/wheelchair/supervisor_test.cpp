@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// The supervisor with shell commands in place of hosts.
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <fstream>
+
+#include "apps/wheelchair/run/run_program.hpp"
+#include "apps/wheelchair/run/supervisor.hpp"
+#include "plugins/wheelchair/core/record/scenario.hpp"
+#include "scratch_dir.hpp"
+
+using namespace tandem::wheelchair;
+using namespace std::chrono_literals;
+
+namespace {
+
+std::vector<std::string> shell(const std::string& script) { return {"/bin/sh", "-c", script}; }
+
+bool alive(pid_t pid) { return kill(pid, 0) == 0; }
+
+/// Watches until the host's end is news, at most ten seconds.
+bool told_of_end(Supervisor& s, const Host& host) {
+    for (int i = 0; i < 100; ++i)
+        for (const Host* h : s.watch(100ms).ended)
+            if (h == &host) return true;
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("a host is ready once it says so, and is stopped by a signal it can handle") {
+    const ScratchDir dir;
+    Supervisor s;
+    Host& host =
+        s.start("host", shell("trap 'exit 0' TERM; echo starting; echo ready; while :; do sleep 0.05; done"),
+                dir / "log");
+    s.wait_until_ready(10);
+    CHECK(host.ready());
+    const pid_t pid = host.process.pid();
+    CHECK(s.stop(host));
+    CHECK_FALSE(alive(pid));
+}
+
+TEST_CASE("a host that ends before it is ready is reported with what it said") {
+    const ScratchDir dir;
+    Supervisor s;
+    s.start("host", shell("echo first >&2; echo 'no such profile' >&2; exit 3"), dir / "log");
+    CHECK_THROWS_WITH(s.wait_until_ready(10),
+                      Catch::Contains("exited with 3 before it was ready: no such profile"));
+}
+
+TEST_CASE("a host that never becomes ready ends the wait, not the patience") {
+    const ScratchDir dir;
+    Supervisor s;
+    s.start("host", shell("exec sleep 100"), dir / "log");
+    CHECK_THROWS_WITH(s.wait_until_ready(0.2),
+                      Catch::Contains("was not ready within 0.2 s") && Catch::Contains("--host-wait"));
+}
+
+TEST_CASE("a killed host is news with its signal, and can be started again") {
+    const ScratchDir dir;
+    Supervisor s;
+    Host& host = s.start("host", shell("echo ready; exec sleep 100"), dir / "log");
+    s.wait_until_ready(10);
+    kill(host.process.pid(), SIGKILL);
+    REQUIRE(told_of_end(s, host));
+    CHECK(host.process.poll()->text() == "was killed by signal 9 (Killed)");
+    CHECK_FALSE(s.stop(host));
+    s.restart(host);
+    CHECK_FALSE(host.ready());
+    s.wait_until_ready(10);
+    CHECK(host.ready());
+}
+
+TEST_CASE("hosts do not outlive their supervisor") {
+    const ScratchDir dir;
+    pid_t pid = 0;
+    {
+        Supervisor s;
+        pid = s.start("host", shell("echo ready; exec sleep 100"), dir / "log").process.pid();
+        s.wait_until_ready(10);
+    }
+    CHECK_FALSE(alive(pid));
+}
+
+TEST_CASE("an interrupt of this program is news and ends the wait for a host") {
+    const ScratchDir dir;
+    Supervisor s;
+    s.start("host", shell("exec sleep 100"), dir / "log");
+    raise(SIGINT);
+    CHECK_THROWS_AS(s.wait_until_ready(10), Interrupted);
+}
+
+TEST_CASE("a program that does not exist is named") {
+    const ScratchDir dir;
+    Supervisor s;
+    CHECK_THROWS_WITH(s.start("host", {"/nonexistent/host"}, dir / "log"),
+                      Catch::Contains("/nonexistent/host cannot be started: No such file"));
+}
+
+TEST_CASE("the printed command line can be typed into a shell") {
+    const ScratchDir dir;
+    Supervisor s;
+    Host& host = s.start("host", shell("echo ready; exec sleep 100"), dir / "log");
+    CHECK(host.command_line() == "/bin/sh -c 'echo ready; exec sleep 100'");
+    host.command = {"host", "--parent-death", "it's"};
+    CHECK(host.command_line() == "host 'it'\\''s'");
+}
+
+TEST_CASE("a program is fed its input and its complaint is kept") {
+    const auto result = run_program({"/bin/sh"}, "echo wrong >&2; exit 4\n", "/");
+    CHECK(result.exit_code == 4);
+    CHECK(result.first_line() == "wrong");
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// A component with a device library of the user's own, found as component libraries are.
+#include "tests/host/opros/engine/running.hpp"
+
+using tandem::engine::Application;
+
+namespace {
+std::filesystem::path sensing(const Folder& folder, const std::string& device) {
+    folder.component("S", "sensing", "<type>passive</type>",
+                     "<property name=\"ApiName\">" + device +
+                         "</property><property name=\"scale\">4.5</property>");
+    return folder.application(Folder::sub("S", "S.xml"));
+}
+} // namespace
+
+TEST_CASE("a component runs with a device library of its user's own from the places of components") {
+    const Folder folder;
+    // The first is beside the profile, the others are on the plugin path.
+    const std::string device = GENERATE("Beside.dll", "own_device", "own_device.dll", "libown_device.so");
+    std::filesystem::copy_file(FIXTURES "/libown_device.so", folder.path() / "libBeside.so");
+    Application application(sensing(folder, device), test_options(folder));
+    application.start();
+    application.step("S");
+    application.step("S");
+    CHECK(recorder(application, "S").executions == 2);
+    CHECK(recorder(application, "S").last_number == 9);
+    application.end();
+    CHECK(state(application, "S") == OPROS_CS_DESTROYED);
+}
+
+TEST_CASE("a device library that is missing or none leaves its component out with the code that it gave") {
+    const Folder folder;
+    const std::string device = GENERATE("nowhere", "maker");
+    Application application(sensing(folder, device), test_options(folder));
+    CHECK(application.find("S")->failed());
+    CHECK(state(application, "S") == OPROS_CS_ERROR);
+    CHECK(application.find("S")->component().getErrorInfo() ==
+          (device == "nowhere" ? OPROS_FIND_DLL_ERROR : OPROS_LOAD_DLL_ERROR));
+    CHECK_THROWS_AS(application.start(), tandem::engine::SetupError); // nothing else is there
+}
+
+TEST_CASE("a device library built against the headers of another Tandem is not given to its component") {
+    const Folder folder;
+    CHECK_THAT(setup_error(sensing(folder, "old_device"), test_options(folder)),
+               Catch::Contains("S.xml") && Catch::Contains("ApiName old_device: library ") &&
+                   Catch::Contains("was built against the headers of another Tandem"));
+}

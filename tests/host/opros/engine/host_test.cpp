@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program, as a process.
+#include "tests/host/opros/engine/folder.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <csignal>
+#include <poll.h>
+#include <sys/wait.h>
+#include <thread>
+
+namespace {
+
+class Process {
+  public:
+    explicit Process(const std::vector<std::string>& arguments) {
+        int out[2];
+        REQUIRE(pipe(out) == 0);
+        pid_ = fork();
+        if (pid_ == 0) {
+            dup2(out[1], STDOUT_FILENO);
+            dup2(out[1], STDERR_FILENO);
+            close(out[0]);
+            std::vector<char*> argv;
+            for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+            argv.push_back(nullptr);
+            execv(argv[0], argv.data());
+            _exit(127);
+        }
+        close(out[1]);
+        output_ = out[0];
+    }
+    ~Process() {
+        if (pid_ > 0) {
+            kill(pid_, SIGKILL);
+            waitpid(pid_, nullptr, 0);
+        }
+        close(output_);
+    }
+
+    /// Reads until the text has come, the process ends, or 60 s are over.
+    bool says(const std::string& text) {
+        while (said.find(text) == std::string::npos) {
+            pollfd readable{output_, POLLIN, 0};
+            char chunk[512];
+            if (poll(&readable, 1, 60000) <= 0) return false;
+            const ssize_t got = read(output_, chunk, sizeof chunk);
+            if (got <= 0) return false;
+            said.append(chunk, static_cast<std::size_t>(got));
+        }
+        return true;
+    }
+    void signal(int number) { kill(pid_, number); }
+    /// The signal that ended it, of those sent until it did; 0 if it has not within a bound out of
+    /// proportion.
+    int ended_by(int number) {
+        int status = 0;
+        for (int i = 0; i < 600; ++i) {
+            signal(number);
+            if (waitpid(pid_, &status, WNOHANG) == pid_) {
+                pid_ = -1;
+                return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+        return 0;
+    }
+    int exit_code() {
+        says("no program says this");
+        int status = 0;
+        waitpid(pid_, &status, 0);
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    std::string said;
+
+  private:
+    pid_t pid_;
+    int output_;
+};
+
+std::filesystem::path one_component(const Folder& folder, const std::string& library,
+                                    const std::string& trouble = "") {
+    folder.component("M", library, "<type>periodic</type><period>10</period>",
+                     "<property name=\"trouble\">" + trouble + "</property>");
+    return folder.application(Folder::sub("M", "M.xml"));
+}
+
+} // namespace
+
+TEST_CASE("the host says ready when all is started and stops in order on a signal") {
+    const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker.dll")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(number);
+    CHECK(host.exit_code() == 0);
+}
+
+TEST_CASE("the host takes all its options") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", "/nowhere", "--plugin-path", FIXTURES, "--cpu", "0",
+                  "--tick-spin", "50", "--wait-mode", "same-core", "--low-latency-idle", "--parent-death",
+                  "--lockstep", folder.path() / "step", one_component(folder, "maker")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+}
+
+TEST_CASE("bad input is one line on standard error and exit code 1") {
+    const Folder folder;
+    Process host({OPROS_HOST, one_component(folder, "nothing.dll")});
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::StartsWith("opros_host: ") &&
+                              Catch::Contains("M.xml:3: library 'nothing.dll' not found"));
+    CHECK(std::count(host.said.begin(), host.said.end(), '\n') == 1);
+    Process missing({OPROS_HOST, "/nowhere/app.xml"});
+    CHECK(missing.exit_code() == 1);
+    CHECK_THAT(missing.said, Catch::Contains("/nowhere/app.xml"));
+}
+
+TEST_CASE("a device library that is none is told of in one line with what it is") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>",
+                     "<property name=\"ApiName\">printer</property><property name=\"DllName\">Text</property>"
+                     "<property name=\"ArmApiName\">Nowhere</property>");
+    folder.write("Text.so", "int main() {}\n");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, folder.application(Folder::sub("M", "M.xml"))});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.said, Catch::Contains("warning: ApiName printer: library ") &&
+                              Catch::Contains("libprinter.so is an OPRoS component (exports getComponent), "
+                                              "expected a device API, which exports GetAPI (extern \"C\")"));
+    CHECK_THAT(host.said, Catch::Contains("warning: DllName Text: ") && Catch::Contains("Text.so"));
+    CHECK_THAT(host.said, Catch::Contains("ArmApiName Nowhere: left to the component to find: library "
+                                          "'Nowhere' not found: looked for Nowhere.so, libNowhere.so"));
+}
+
+TEST_CASE("a component that calls nobody while it starts is told of in one line") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start calls")});
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("component M: start failed, its callback made a call that failed: "
+                                          "required method add is not connected\n"));
+}
+
+TEST_CASE("a host whose component hangs says which and ends") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  one_component(folder, "maker", "execute hangs")});
+    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.says("M hangs\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("component M does not come back from onExecute within 0.1 s"));
+}
+
+TEST_CASE("signals that come together are one wish to stop and everything is stopped in order") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGINT);
+    host.signal(SIGTERM);
+    host.signal(SIGHUP);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.said, Catch::Contains("M is gone\n"));
+}
+
+TEST_CASE("another signal later ends a host whose component will not stop") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "3600",
+                  one_component(folder, "maker", "stop hangs")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    REQUIRE(host.says("M hangs\n"));
+    CHECK(host.ended_by(SIGINT) == SIGINT);
+}
+
+TEST_CASE("a host whose component hangs in the set-up can be ended") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  one_component(folder, "maker", "initialize hangs")});
+    REQUIRE(host.says("M hangs\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("onInitialize of component M does not come back within 0.1 s"));
+}
+
+TEST_CASE("a host whose component hangs at its end says which and in what and ends") {
+    const std::string where =
+        GENERATE("stop hangs", "destroy hangs", "its destructor hangs", "its static destructors hang");
+    const Folder folder;
+    Process host(
+        {OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1", one_component(folder, "maker", where)});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("component M does not come back from " +
+                                          where.substr(0, where.rfind(' ')) + " within 0.1 s"));
+}
+
+TEST_CASE("a library that stays loaded and hangs at the very end is named and the host ends") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  one_component(folder, "lasting_maker", "its static destructors hang")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said,
+               Catch::Contains("the library hangs\nopros_host: component M does not come back from "
+                               "its static destructors within 0.1 s; the host ends without it\n"));
+}
+
+TEST_CASE("a component that hangs in its destructor takes no other one's end from it") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>",
+                     "<property name=\"trouble\">its destructor hangs</property>");
+    folder.component("Hardware", "maker", "<type>passive</type>");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
+                  folder.application(Folder::sub("M", "M.xml") + Folder::sub("Hardware", "Hardware.xml"))});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("Hardware is gone\n"));
+}
+
+TEST_CASE("a set-up that fails ends also when a component hangs in its destructor") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>passive</type>",
+                     "<property name=\"trouble\">its destructor hangs</property>");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1", "--strict",
+                  folder.application(Folder::sub("M", "M.xml"),
+                                     Folder::connect("data", "M", "numbers", "M", "none"))});
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("'none'"));
+}
+
+TEST_CASE("the host prints what its executors have counted when asked to") {
+    const Folder folder;
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--stats", one_component(folder, "maker")});
+    REQUIRE(host.says("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.said, Catch::Contains("executor of M: every 10 ms, "));
+}

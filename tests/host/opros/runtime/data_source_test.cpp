@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/allocations.hpp"
+#include "tests/host/opros/runtime/recording_archive.hpp"
+
+#include <InputDataPort.h>
+
+#include <catch2/catch.hpp>
+#include <deque>
+#include <memory>
+
+namespace {
+
+/// Encoded numbers that wait outside the component.
+class Outside : public DataPortSource {
+  public:
+    void send(double value) {
+        BinaryPipe pipe;
+        pipe.out << value;
+        waiting.push_back(pipe.bytes.str());
+    }
+    opros::archive::iarchive* next() override {
+        ++looks;
+        if (waiting.empty()) return nullptr;
+        bytes_ = std::istringstream(waiting.front());
+        archive_ = std::make_unique<opros::archive::binary_iarchive>(&bytes_);
+        return archive_.get();
+    }
+    void done() override {
+        waiting.pop_front();
+        ++finished;
+    }
+    void undecodable(const std::string& why) override { complaint = why; }
+
+    std::deque<std::string> waiting;
+    std::string complaint;
+    int finished = 0, looks = 0;
+
+  private:
+    std::istringstream bytes_;
+    std::unique_ptr<opros::archive::binary_iarchive> archive_;
+};
+
+/// Offers the same encoded numbers whenever asked to, without allocating itself.
+class Repeater : public DataPortSource {
+  public:
+    explicit Repeater(const std::vector<double>& values) {
+        BinaryPipe pipe;
+        pipe.out << values;
+        bytes_.str(pipe.bytes.str());
+    }
+    opros::archive::iarchive* next() override {
+        if (!ready) return nullptr;
+        bytes_.clear();
+        bytes_.seekg(0);
+        return &archive_;
+    }
+    void done() override { ready = false; }
+
+    bool ready = false;
+
+  private:
+    std::istringstream bytes_;
+    opros::archive::binary_iarchive archive_{&bytes_};
+};
+
+/// Counts how often its pixels are copied.
+struct Picture {
+    Picture() = default;
+    Picture(const Picture& other) : pixels(other.pixels) { copies += !pixels.empty(); }
+    Picture& operator=(const Picture& other) {
+        pixels = other.pixels;
+        copies += !pixels.empty();
+        return *this;
+    }
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << pixels; }
+    void load(opros::archive::iarchive& ar, const unsigned int) { ar >> pixels; }
+    std::vector<unsigned char> pixels;
+    static inline int copies = 0;
+};
+std::string typeName(Picture*) { return "Picture"; }
+
+/// Pictures that wait outside, and say that they are large.
+class Camera : public DataPortSource {
+  public:
+    void take(unsigned char shade) { waiting_.push_back(shade); }
+    opros::archive::iarchive* next() override {
+        if (waiting_.empty()) return nullptr;
+        Picture picture;
+        picture.pixels.assign(1000, waiting_.front());
+        BinaryPipe pipe;
+        pipe.out << picture;
+        bytes_ = std::istringstream(pipe.bytes.str());
+        archive_ = std::make_unique<opros::archive::binary_iarchive>(&bytes_);
+        return archive_.get();
+    }
+    void done() override { waiting_.pop_front(); }
+    bool large() const override { return true; }
+
+  private:
+    std::deque<unsigned char> waiting_;
+    std::istringstream bytes_;
+    std::unique_ptr<opros::archive::binary_iarchive> archive_;
+};
+
+double pop(InputDataPort<double>& port) {
+    const std::unique_ptr<opros_any> any(port.pop());
+    return any ? port.getContent(*any) : -1;
+}
+
+} // namespace
+
+TEST_CASE("with LAST the consumer gets the newest value of a source, and the others are used up") {
+    InputDataPort<double> port(OPROS_LAST, 1);
+    Outside outside;
+    REQUIRE(port.addSource(&outside) == OPROS_SUCCESS);
+    CHECK(port.pop() == nullptr);
+    for (double value : {1., 2., 3.}) outside.send(value);
+    CHECK(pop(port) == 3);
+    CHECK(outside.finished == 3);
+    CHECK(port.pop() == nullptr);
+}
+
+TEST_CASE("with FIFO the consumer gets every value in order, and a full queue leaves the rest outside") {
+    InputDataPort<double> port(OPROS_FIFO, 2);
+    Outside outside;
+    port.addSource(&outside);
+    for (double value : {1., 2., 3.}) outside.send(value);
+    CHECK(port.getSize() == 2);
+    CHECK(outside.waiting.size() == 1);
+    CHECK(pop(port) == 1);
+    CHECK(pop(port) == 2);
+    CHECK(pop(port) == 3);
+}
+
+TEST_CASE("a consumer that waits gets the next value with one look at the source and the rest in order") {
+    InputDataPort<double> port(OPROS_FIFO, 4);
+    Outside outside;
+    port.addSource(&outside);
+    CHECK(port.pop() == nullptr);
+    for (double value : {1., 2., 3.}) outside.send(value);
+    outside.looks = 0;
+    CHECK(pop(port) == 1);
+    CHECK(outside.looks == 1);
+    CHECK(pop(port) == 2); // it lags behind, so what waits outside is fetched in
+    CHECK(outside.waiting.empty());
+    CHECK(pop(port) == 3);
+    CHECK(port.pop() == nullptr);
+}
+
+TEST_CASE("a consumer that waits gets the values of all its sources and what is pushed") {
+    InputDataPort<double> port;
+    Outside one, other;
+    port.addSource(&one);
+    port.addSource(&other);
+    CHECK(port.pop() == nullptr);
+    other.send(1);
+    CHECK(pop(port) == 1);
+    CHECK(port.pop() == nullptr);
+    double pushed = 2;
+    port.push(pushed);
+    CHECK(pop(port) == 2);
+    CHECK(port.pop() == nullptr);
+    one.waiting.push_back("junk");
+    one.send(3);
+    CHECK(pop(port) == 3);
+    CHECK(one.finished == 2);
+}
+
+TEST_CASE("a value that was popped stays as it is when others come") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    std::vector<std::unique_ptr<opros_any>> kept;
+    for (double value : {1., 2., 3.}) {
+        CHECK(port.pop() == nullptr);
+        outside.send(value);
+        kept.emplace_back(port.pop());
+    }
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        CHECK(port.getContent(*kept[i]) == static_cast<double>(i + 1));
+}
+
+TEST_CASE("once warm, a waiting consumer gets a value without an allocation but those of decoding") {
+    InputDataPort<std::vector<double>> port;
+    const std::vector<double> values(100, 1.5);
+    std::vector<double> decoded = values;
+    Repeater source(values);
+    port.addSource(&source);
+    for (int i = 0; i < 3; ++i) {
+        CHECK(port.pop() == nullptr); // what the next value needs is allocated here
+        source.ready = true;
+        const long before = allocations();
+        *source.next() >> decoded;
+        const long between = allocations();
+        const std::unique_ptr<opros_any> any(port.pop());
+        const long after = allocations();
+        if (i > 0) CHECK(after - between == between - before);
+        CHECK(port.getContent(*any) == values);
+    }
+}
+
+TEST_CASE("a large value is decoded into what the consumer gets and never copied") {
+    const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO, OPROS_UFIFO);
+    InputDataPort<Picture> port(policy, 4);
+    Camera camera;
+    port.addSource(&camera);
+    Picture::copies = 0;
+    for (unsigned char round = 1; round <= 5; ++round) {
+        for (int i = 0; i < 3; ++i)
+            camera.take(round); // it waits for the first one, and lags behind with the rest
+        std::size_t popped = 0;
+        while (const std::unique_ptr<opros_any> any{port.pop()}) {
+            const auto* picture = port.getContentPointer(*any);
+            REQUIRE(picture);
+            CHECK(picture->pixels == std::vector<unsigned char>(1000, round));
+            ++popped;
+        }
+        CHECK(popped == (policy == OPROS_LAST ? 1 : 3));
+    }
+    CHECK(Picture::copies == 0);
+}
+
+TEST_CASE("pushed values and those of a source meet in one queue") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    double pushed = 7;
+    port.push(pushed);
+    outside.send(8);
+    CHECK(pop(port) == 7);
+    CHECK(pop(port) == 8);
+}
+
+TEST_CASE("a value that cannot be decoded is dropped, reported and costs no other value") {
+    InputDataPort<double> port(OPROS_LAST, 1);
+    Outside outside;
+    port.addSource(&outside);
+    outside.send(5);
+    outside.waiting.push_back("junk");
+    CHECK(pop(port) == 5);
+    CHECK_FALSE(outside.complaint.empty());
+    CHECK(outside.finished == 2);
+}
+
+TEST_CASE("a removed source is not asked any more") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    port.removeSource(&outside);
+    outside.send(1);
+    CHECK(port.getSize() == 0);
+    CHECK(outside.waiting.size() == 1);
+}
+
+TEST_CASE("reset discards what waits in the sources, too") {
+    InputDataPort<double> port;
+    Outside outside;
+    port.addSource(&outside);
+    outside.send(1);
+    port.reset();
+    CHECK(outside.waiting.empty());
+}
+
+TEST_CASE("a port whose type cannot be archived takes no source") {
+    struct Local {
+        int n = 0;
+    };
+    InputDataPort<Local> port;
+    Outside outside;
+    CHECK(port.addSource(&outside) == OPROS_UNSUPPORTED_METHOD);
+    CHECK(port.addSource(nullptr) == OPROS_BAD_INPUT_PARAMETER);
+}
+
+TEST_CASE("a value can be pushed from an archive") {
+    InputDataPort<double> port;
+    BinaryPipe pipe;
+    pipe.out << 2.5;
+    CHECK(static_cast<InputDataPortInterface&>(port).push(pipe.in) == OPROS_SUCCESS);
+    CHECK(pop(port) == 2.5);
+}
+
+namespace {
+/// Its reading throws what is no std::exception.
+struct Moody {
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << mood; }
+    void load(opros::archive::iarchive& ar, const unsigned int) {
+        ar >> mood;
+        if (mood == 0) throw 42;
+    }
+    int mood = 1;
+};
+inline std::string typeName(Moody*) { return "Moody"; }
+} // namespace
+
+TEST_CASE("a value whose reading throws anything at all is dropped and its source goes on") {
+    class Moods : public Outside {
+      public:
+        void send(int mood) {
+            BinaryPipe pipe;
+            Moody value;
+            value.mood = mood;
+            pipe.out << value;
+            waiting.push_back(pipe.bytes.str());
+        }
+    } moods;
+    InputDataPort<Moody> port;
+    REQUIRE(port.addSource(&moods) == OPROS_SUCCESS);
+    for (int mood : {0, 7}) moods.send(mood);
+    const std::unique_ptr<opros_any> any(port.pop());
+    REQUIRE(any);
+    CHECK(port.getContent(*any).mood == 7);
+    CHECK(moods.finished == 2);
+    CHECK(moods.complaint == "an exception of unknown type");
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// One object file that was built against the headers of another Tandem, among those that were not.
+#include "another_number.hpp"
+
+#ifdef ZOO_INIT
+#include <rtm/Manager.h>
+#else
+#include <Component.h>
+#endif
+
+#include "tests/host/plugin/zoo/entry.hpp"
+
+ZOO_ENTRY { return ZOO_RESULT; }

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two types: one of which the destructor hangs, and one that cannot be made.
+#include "tests/host/plugin/zoo/rtc.hpp"
+#include <unistd.h>
+namespace {
+class Endless : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    ~Endless() override {
+        for (;;) pause();
+    }
+};
+} // namespace
+extern "C" void ZOO_INIT(RTC::Manager* manager) {
+    register_type(manager, "Endless",
+                  [](RTC::Manager* owner) -> RTC::RTObject_impl* { return new Endless(owner); });
+    register_type(manager, "Waiter", [](RTC::Manager*) -> RTC::RTObject_impl* {
+        for (;;) pause();
+    });
+}

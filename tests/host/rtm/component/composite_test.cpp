@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Components that share the execution context of a composite.
+#include "tests/host/rtm/fixture.hpp"
+
+using namespace testing;
+
+namespace {
+
+RTC::RTObject_impl& composite(Stage& stage, const std::string& arguments) {
+    return stage.manager().createOrThrow("PeriodicECSharedComposite?" + arguments);
+}
+
+std::vector<std::string> port_names(RTC::RTObject_impl& rtc) {
+    RTC::ComponentProfile_var profile = rtc.get_component_profile();
+    std::vector<std::string> names;
+    for (CORBA::ULong i = 0; i < profile->port_profiles.length(); ++i)
+        names.emplace_back(profile->port_profiles[i].name);
+    return names;
+}
+
+SDOPackage::Organization_ptr organization_of(RTC::RTObject_impl& rtc) {
+    SDOPackage::OrganizationList_var all = rtc.get_owned_organizations();
+    REQUIRE(all->length() == 1);
+    return SDOPackage::Organization::_duplicate(all[0]);
+}
+
+RTC::LifeCycleState state_in(RTC::RTObject_impl& owner, RTC::RTObject_impl& member) {
+    RTC::ExecutionContext_var context = owner.get_context(0);
+    return context->get_component_state(RTC::RTObject_var(member.getObjRef()).in());
+}
+
+} // namespace
+
+TEST_CASE("The members of a composite run in its context one after the other and show their exported ports") {
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    auto& summer = stage.create<Summer>("Summer");
+    stage.connect("Counter0.out?port=Summer0.in");
+    auto& whole = composite(stage, "members=Counter0, Summer0&exported_ports=Counter0.out");
+    CHECK(port_names(whole) == std::vector<std::string>{"Counter0.out"});
+
+    RTC::ExecutionContext_var own = counter.get_context(0);
+    CHECK_FALSE(own->is_running());
+    RTC::ExecutionContextList_var others = counter.get_participating_contexts();
+    CHECK(others->length() == 1);
+
+    REQUIRE(stage.activate(whole) == RTC::RTC_OK);
+    for (int i = 0; i < 11; ++i) stage.step(whole); // the members become active in the first
+    CHECK(counter.value_.data == 11);
+    CHECK(summer.received_ == 11);
+    REQUIRE(whole.deactivate(0) == RTC::RTC_OK);
+    stage.step(whole);
+    CHECK(state_in(whole, counter) == RTC::INACTIVE_STATE);
+    CHECK(counter.value_.data == 11);
+}
+
+TEST_CASE("Members come and go through the organization of the composite") {
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    auto& whole = composite(stage, "exported_ports=Counter0.out");
+    SDOPackage::Organization_var organization = organization_of(whole);
+    CHECK(port_names(whole).empty());
+
+    SDOPackage::SDOList members;
+    members.length(1);
+    members[0] = counter.getObjRef();
+    CHECK(organization->add_members(members));
+    CHECK(port_names(whole) == std::vector<std::string>{"Counter0.out"});
+    SDOPackage::OrganizationList_var of_member = counter.get_organizations();
+    REQUIRE(of_member->length() == 1);
+    CHECK(of_member[0]->_is_equivalent(organization.in()));
+    SDOPackage::SDOSystemElement_var owner = organization->get_owner();
+    CHECK(owner->_is_equivalent(RTC::RTObject_var(whole.getObjRef()).in()));
+
+    stage.activate(whole);
+    stage.step(whole);
+    CHECK(counter.value_.data == 1);
+    CHECK(organization->remove_member("Counter0"));
+    CHECK(port_names(whole).empty());
+    SDOPackage::SDOList_var left = organization->get_members();
+    CHECK(left->length() == 0);
+    RTC::ExecutionContext_var own = counter.get_context(0);
+    CHECK(own->is_running());
+    CHECK_THROWS_AS(organization->remove_member("Counter0"), SDOPackage::InvalidParameter);
+    REQUIRE(stage.activate(counter) == RTC::RTC_OK);
+    stage.step(counter);
+    CHECK(counter.value_.data == 2);
+    counter.deactivate(0);
+    CHECK(organization->set_members(members));
+    CHECK(organization->set_members(SDOPackage::SDOList()));
+    CHECK(own->is_running());
+}
+
+TEST_CASE(
+    "A member that leaves the manager leaves its composite, and a composite that leaves frees its members") {
+    Stage stage;
+    auto& first = stage.create<Counter>("Counter");
+    auto& second = stage.create<Counter>("Counter");
+    auto& whole = composite(stage, "members=Counter0, Counter1");
+    stage.activate(whole);
+    stage.step(whole);
+    CHECK(first.exit() == RTC::RTC_OK);
+    SDOPackage::Organization_var organization = organization_of(whole);
+    SDOPackage::SDOList_var left = organization->get_members();
+    CHECK(left->length() == 1);
+    stage.step(whole);
+    CHECK(second.value_.data == 2);
+    CHECK(whole.exit() == RTC::RTC_OK);
+    stage.manager().cleanupComponents();
+    CHECK(stage.activate(second) == RTC::RTC_OK);
+    stage.step(second);
+    CHECK(second.value_.data == 3);
+}
+
+TEST_CASE("The exported ports follow the configuration") {
+    Stage stage;
+    stage.create<Counter>("Counter");
+    stage.create<Summer>("Summer");
+    auto& whole = composite(stage, "members=Counter0, Summer0&exported_ports=Counter0.out");
+    SDOPackage::Configuration_var configuration = whole.get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
+    coil::Properties change;
+    change.setProperty("exported_ports", "Summer0.in");
+    NVUtil::copyFromProperties(set->configuration_data, change);
+    CHECK(configuration->set_configuration_set_values(set.in()));
+    CHECK(port_names(whole) == std::vector<std::string>{"Summer0.in"});
+}

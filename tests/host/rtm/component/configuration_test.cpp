@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/host/rtm/fixture.hpp"
+#include "host/rtm/runtime/configuration/conf_file.hpp"
+#include <filesystem>
+#include <fstream>
+
+using namespace testing;
+
+TEST_CASE("A change of configuration is seen by onExecute one cycle later, never in the middle") {
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter?conf.fast.step=10");
+    stage.activate(counter);
+    stage.step(counter);
+    CHECK(counter.value_.data == 1);
+
+    SDOPackage::Configuration_var configuration = counter.get_configuration();
+    SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
+    REQUIRE(sets->length() == 2);
+    CHECK(configuration->activate_configuration_set("fast"));
+    CHECK(counter.step_ == 1);
+    stage.step(counter);
+    CHECK(counter.value_.data == 2);
+    CHECK(counter.step_ == 10);
+    stage.step(counter);
+    CHECK(counter.value_.data == 12);
+
+    SDOPackage::ConfigurationSet_var active = configuration->get_active_configuration_set();
+    CHECK(std::string(active->id) == "fast");
+    coil::Properties change;
+    change.setProperty("step", "no number");
+    NVUtil::copyFromProperties(active->configuration_data, change);
+    CHECK(configuration->set_configuration_set_values(active.in()));
+    stage.step(counter);
+    CHECK(counter.step_ == 1); // what cannot be read gives the default
+    CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
+}
+
+TEST_CASE("A parameter that the profile does not mention is listed with its default and can be set") {
+    struct Quiet : Counter {
+        explicit Quiet(RTC::Manager* manager) : Counter(manager) {}
+        RTC::ReturnCode_t onInitialize() override {
+            bindParameter("greeting", greeting, "hello");
+            return Counter::onInitialize();
+        }
+        std::string greeting;
+    };
+    Stage stage;
+    coil::Properties profile;
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Quiet");
+    stage.manager().registerFactory(profile, RTC::Create<Quiet>, RTC::Delete<Quiet>);
+    auto& quiet = stage.create<Quiet>("Quiet");
+    SDOPackage::Configuration_var configuration = quiet.get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
+    coil::Properties listed = NVUtil::toProperties(set->configuration_data);
+    CHECK(listed.getProperty("greeting") == "hello");
+    CHECK(listed.getProperty("step") == "1");
+    stage.activate(quiet);
+    stage.step(quiet);
+    CHECK(quiet.greeting == "hello");
+    CHECK(quiet.value_.data == 1);
+    listed.setProperty("greeting", "bye");
+    NVUtil::copyFromProperties(set->configuration_data, listed);
+    CHECK(configuration->set_configuration_set_values(set.in()));
+    stage.step(quiet);
+    CHECK(quiet.greeting == "bye");
+}
+
+namespace {
+
+struct ConfFile {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("tandem_conf_test." + std::to_string(getpid()));
+    explicit ConfFile(const std::string& text) { std::ofstream(path) << text; }
+    ~ConfFile() { std::filesystem::remove(path); }
+};
+
+} // namespace
+
+TEST_CASE("A configuration file has keys, comments and continued lines") {
+    ConfFile file("# comment\n! comment\n\nmanager.modules.preload: A.so, \\\n  B.so\r\ncorba.nameservers:\n "
+                  " x.y = 3 \n");
+    coil::Properties conf;
+    RTC::read_conf_file(file.path, conf);
+    CHECK(conf.getProperty("manager.modules.preload") == "A.so, B.so");
+    CHECK(conf.getProperty("corba.nameservers").empty());
+    CHECK(conf.getProperty("x.y") == "3");
+}
+
+TEST_CASE("A line that is no setting is named with file and line") {
+    ConfFile file("a: 1\n\nwithout a separator\n");
+    coil::Properties conf;
+    CHECK_THROWS_WITH(RTC::read_conf_file(file.path, conf),
+                      Catch::Contains(file.path.string() + ":3: ") && Catch::Contains("without a separator"));
+    CHECK_THROWS_WITH(RTC::read_conf_file("/no/such/file", conf), Catch::Contains("cannot be read"));
+}
+
+TEST_CASE("A component's own file and the arguments of its creation configure it, the arguments win") {
+    ConfFile file("conf.default.step: 5\nexec_cxt.periodic.rate: 33\n");
+    Stage stage(true, {"test.Counter.config_file:" + file.path.string()});
+    auto& one = stage.create<Counter>("Counter");
+    auto& two = stage.create<Counter>("Counter?step=7");
+    CHECK(one.step_ == 5);
+    CHECK(two.step_ == 7);
+    CHECK(one.getExecutionRate(0) == 33);
+    CHECK_THROWS_WITH(stage.create<Counter>("Counter?step"), Catch::Contains("key=value"));
+    CHECK_THROWS_WITH(stage.create<Counter>("Cuonter"),
+                      Catch::Contains("known: ") && Catch::Contains("Counter"));
+}
+
+TEST_CASE("A component whose own file is not there has its defaults") {
+    Stage stage(true,
+                {"test.Counter.config_file:not_handed_on.conf", "test.Counter0.config_file:nor_this.conf"});
+    CHECK(stage.create<Counter>("Counter").step_ == 1);
+}
+
+TEST_CASE("Properties are a tree with defaults") {
+    const char* const spec[] = {"name", "X", "conf.default.gain", "2", "conf.default.mode", "a.b", ""};
+    coil::Properties p(spec);
+    CHECK(p["name"] == "X");
+    CHECK(p.getProperty("conf.default.gain") == "2");
+    CHECK(p.getProperty("conf.default.none", "other") == "other");
+    CHECK(p.findNode("conf.none") == nullptr);
+    CHECK(p.getNode("conf.default").size() == 2);
+    p["conf.default.gain"] = "3";
+    coil::Properties q;
+    q.setProperty("conf.default.gain", "4");
+    q.setProperty("new", "5");
+    p << q;
+    CHECK(p.getProperty("conf.default.gain") == "4");
+    CHECK(p.getProperty("conf.default.mode") == "a.b");
+    CHECK(p.getProperty("new") == "5");
+    coil::Properties copy(p);
+    p.clear();
+    CHECK(copy.getProperty("conf.default.gain") == "4");
+    std::ostringstream out;
+    copy.store(out, "header");
+    std::istringstream in(out.str());
+    coil::Properties back;
+    back.load(in);
+    CHECK(back.propertyNames() == copy.propertyNames());
+}
+
+TEST_CASE("Strings are split, trimmed and converted as component sources expect") {
+    CHECK(coil::split(" a, b ,,c", ",") == coil::vstring{"a", "b", "", "c"});
+    CHECK(coil::split("a,,c", ",", true) == coil::vstring{"a", "c"});
+    CHECK(coil::split("", ",").empty());
+    CHECK(coil::eraseBothEndsBlank("  x y\t\r") == "x y");
+    CHECK(coil::toBool("yes", "YES", "NO", false));
+    CHECK_FALSE(coil::toBool("no", "YES", "NO", true));
+    CHECK(coil::toBool("?", "YES", "NO", true));
+    CHECK(coil::urlparam2map("x?a=1&b=&c").at("a") == "1");
+    CHECK(coil::parseArgs("a \"b c\" d") == coil::vstring{"a", "b c", "d"});
+    CHECK(coil::replaceString("a%%a", "%", "%%") == "a%%%%a");
+    CHECK(coil::sprintf("%s %03d", "n", 7) == "n 007");
+    double d = 0;
+    CHECK(coil::stringTo(d, "2.5"));
+    CHECK_FALSE(coil::stringTo(d, "two"));
+    std::vector<int> v;
+    CHECK(coil::stringTo(v, "1, 2,3"));
+    CHECK(v == std::vector<int>{1, 2, 3});
+    bool b = false;
+    CHECK((coil::stringTo(b, "ON") && b));
+}
+
+TEST_CASE("The active set is what configuration.active_config says and what describes parameters is passed "
+          "through") {
+    Stage stage;
+    auto& counter =
+        stage.create<Counter>("Counter?conf.fast.step=10&configuration.active_config=fast"
+                              "&conf.__widget__.step=slider.1&conf.__constraints__.step=0<=x<=10");
+    CHECK(counter.step_ == 10);
+    SDOPackage::Configuration_var configuration = counter.get_configuration();
+    SDOPackage::ConfigurationSet_var active = configuration->get_active_configuration_set();
+    CHECK(std::string(active->id) == "fast");
+    SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
+    CHECK(sets->length() == 2);
+    SDOPackage::ConfigurationSet_var widgets = configuration->get_configuration_set("__widget__");
+    CHECK(NVUtil::toString(widgets->configuration_data, "step") == "slider.1");
+    RTC::ComponentProfile_var profile = counter.get_component_profile();
+    CHECK(NVUtil::toString(profile->properties, "conf.__constraints__.step") == "0<=x<=10");
+    CHECK_THROWS_AS(configuration->activate_configuration_set("__widget__"), SDOPackage::InvalidParameter);
+    auto& other = stage.create<Counter>("Counter?configuration.active_config=none");
+    CHECK(other.step_ == 1);
+}
+
+namespace {
+
+struct Heard : RTC::ConfigurationParamListener,
+               RTC::ConfigurationSetListener,
+               RTC::ConfigurationSetNameListener {
+    explicit Heard(std::string& s, const char* w) : story(s), what(w) {}
+    void operator()(const char* set, const char* param) override {
+        story += what + "(" + set + "." + param + ") ";
+    }
+    void operator()(const coil::Properties& set) override { story += what + "(" + set.getName() + ") "; }
+    void operator()(const char* set) override { story += what + "(" + set + ") "; }
+    std::string& story;
+    std::string what;
+};
+
+} // namespace
+
+TEST_CASE("Listeners hear of sets that are added set activated and removed and of parameters that change") {
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    std::string story;
+    Heard changed(story, "changed"), set(story, "set"), added(story, "added"), updated(story, "updated"),
+        removed(story, "removed"), activated(story, "activated");
+    counter.addConfigurationParamListener(RTC::ON_UPDATE_CONFIG_PARAM, &changed, false);
+    counter.addConfigurationSetListener(RTC::ON_SET_CONFIG_SET, &set, false);
+    counter.addConfigurationSetListener(RTC::ON_ADD_CONFIG_SET, &added, false);
+    counter.addConfigurationSetNameListener(RTC::ON_UPDATE_CONFIG_SET, &updated, false);
+    counter.addConfigurationSetNameListener(RTC::ON_REMOVE_CONFIG_SET, &removed, false);
+    counter.addConfigurationSetNameListener(RTC::ON_ACTIVATE_CONFIG_SET, &activated, false);
+    SDOPackage::Configuration_var configuration = counter.get_configuration();
+    SDOPackage::ConfigurationSet fresh;
+    fresh.id = CORBA::string_dup("fresh");
+    coil::Properties values;
+    values.setProperty("step", "3");
+    NVUtil::copyFromProperties(fresh.configuration_data, values);
+    CHECK(configuration->add_configuration_set(fresh));
+    CHECK(configuration->activate_configuration_set("fresh"));
+    CHECK(std::exchange(story, "") == "added(fresh) activated(fresh) ");
+    stage.activate(counter);
+    CHECK(std::exchange(story, "") == "changed(fresh.step) updated(fresh) ");
+    CHECK(configuration->set_configuration_set_values(fresh));
+    stage.step(counter);
+    CHECK(std::exchange(story, "") == "set(fresh) updated(fresh) ");
+    CHECK(configuration->activate_configuration_set("default"));
+    CHECK(configuration->remove_configuration_set("fresh"));
+    CHECK(story == "activated(default) removed(fresh) ");
+}

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// A client that sends broken GIOP to every servant of a host: the host answers its good clients all the time,
+// keeps every connection of others and grows neither in memory nor in descriptors. TANDEM_STRESS=100 makes it
+// 10^6 messages.
+#include "tests/host/rtm/fixture.hpp"
+#include "giop_mutator.hpp"
+#include "tests/host/rtm/other_host.hpp"
+#include <cstdlib>
+#include <rtm/CORBA_RTCUtil.h>
+#include <rtm/NVUtil.h>
+
+using namespace testing;
+
+CATCH_TRANSLATE_EXCEPTION(CORBA::SystemException& e) {
+    const char* minor = e.NP_minorString();
+    return std::string("CORBA exception ") + e._name() + " " + (minor != nullptr ? minor : "");
+}
+
+namespace {
+
+long stress() {
+    const char* factor = std::getenv("TANDEM_STRESS");
+    return factor != nullptr ? std::max(1, std::atoi(factor)) : 1;
+}
+
+SDOPackage::NVList some_properties() {
+    SDOPackage::NVList list;
+    CORBA_SeqUtil::push_back(list, NVUtil::newNV("dataport.dataflow_type", "push"));
+    CORBA_SeqUtil::push_back(list, NVUtil::newNV("dataport.interface_type", "corba_cdr"));
+    CORBA_SeqUtil::push_back(list, NVUtil::newNV("dataport.buffer.length", "4"));
+    CORBA_SeqUtil::push_back(list, NVUtil::newNV("number", CORBA::Long(7)));
+    return list;
+}
+
+/// The components that are there to be broken, and sound calls of everything they and their manager offer.
+class Victims {
+  public:
+    Victims(const OtherHost& host, CORBA::ORB_ptr orb)
+        : orb_(CORBA::ORB::_duplicate(orb)), manager_(host.manager(orb)) {}
+
+    /// Ends and makes anew the components, and lists their calls.
+    std::vector<Call> renewed() {
+        calls_.clear();
+        add_manager();
+        for (const char* type : {"Counter", "Summer", "CalculatorProvider", "CalculatorConsumer"}) {
+            const std::string name = std::string("Victim") + type;
+            manager_->delete_component(name.c_str());
+            REQUIRE(soon([&] {
+                RTC::RTCList_var left = manager_->get_components_by_name(name.c_str());
+                return left->length() == 0;
+            }));
+            RTC::RTObject_var component =
+                manager_->create_component((std::string(type) + "?instance_name=" + name).c_str());
+            REQUIRE_FALSE(CORBA::is_nil(component.in()));
+            add_component(component.in());
+        }
+        return calls_;
+    }
+
+  private:
+    template <class... Arguments>
+    void add(CORBA::Object_ptr object, const char* operation, const Arguments&... arguments) {
+        calls_.push_back(call(object_key(orb_.in(), object), operation, arguments...));
+    }
+    void add_all(CORBA::Object_ptr object, std::initializer_list<const char*> operations) {
+        for (const char* operation : operations) add(object, operation);
+    }
+
+    // Not shutdown, load_module or create_component: it would do what they say.
+    void add_manager() {
+        add_all(manager_.in(),
+                {"get_loadable_modules", "get_loaded_modules", "get_factory_profiles", "get_components",
+                 "get_component_profiles", "get_profile", "get_configuration", "is_master",
+                 "get_master_managers", "get_slave_managers", "fork", "_non_existent", "_interface"});
+        for (const char* operation : {"get_components_by_name", "get_service", "unload_module", "_is_a"})
+            add(manager_.in(), operation, "some.name");
+        add(manager_.in(), "set_configuration", "some.key", "value");
+        for (const char* operation :
+             {"add_master_manager", "add_slave_manager", "remove_slave_manager", "remove_master_manager"})
+            add(manager_.in(), operation, CORBA::Object_ptr(manager_.in()));
+    }
+
+    void add_component(RTC::RTObject_ptr component) {
+        add_all(component,
+                {"get_owned_contexts", "get_participating_contexts", "get_component_profile", "get_ports",
+                 "get_sdo_id", "get_sdo_type", "get_device_profile", "get_service_profiles",
+                 "get_configuration", "get_monitoring", "get_organizations", "get_owned_organizations",
+                 "get_status_list", "initialize", "finalize"});
+        for (const char* operation :
+             {"get_context", "detach_context", "on_startup", "on_shutdown", "on_activated", "on_deactivated",
+              "on_aborting", "on_error", "on_reset", "on_execute", "on_state_update", "on_rate_changed"})
+            add(component, operation, CORBA::Long(0));
+        for (const char* operation : {"get_service_profile", "get_sdo_service", "get_status"})
+            add(component, operation, "name");
+        RTC::ExecutionContextList_var contexts = component->get_owned_contexts();
+        for (const char* operation : {"is_alive", "attach_context", "get_context_handle"})
+            add(component, operation, CORBA::Object_ptr(contexts[0]));
+        add_context(contexts[0], component);
+        SDOPackage::Configuration_var configuration = component->get_configuration();
+        add_configuration(configuration.in());
+        RTC::PortServiceList_var ports = component->get_ports();
+        for (CORBA::ULong i = 0; i < ports->length(); ++i) add_port(ports[i]);
+        if (CORBA_RTCUtil::get_component_profile(component).getProperty("type_name") == "CalculatorConsumer")
+            add_all(component, {"exit"}); // that one does not live long
+    }
+
+    void add_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
+        add_all(context, {"is_running", "get_rate", "get_kind", "get_profile", "start", "stop"});
+        add(context, "set_rate", CORBA::Double(100));
+        for (const char* operation : {"add_component", "remove_component", "activate_component",
+                                      "deactivate_component", "reset_component", "get_component_state"})
+            add(context, operation, CORBA::Object_ptr(component));
+    }
+
+    void add_configuration(SDOPackage::Configuration_ptr configuration) {
+        add_all(configuration, {"get_configuration_parameters", "get_configuration_parameter_values",
+                                "get_configuration_sets", "get_active_configuration_set"});
+        for (const char* operation :
+             {"get_configuration_parameter_value", "get_configuration_set", "remove_configuration_set",
+              "activate_configuration_set", "remove_service_profile", "remove_organization"})
+            add(configuration, operation, "default");
+        SDOPackage::ConfigurationSet set;
+        set.id = CORBA::string_dup("default");
+        set.description = CORBA::string_dup("");
+        set.configuration_data = some_properties();
+        add(configuration, "set_configuration_set_values", set);
+        add(configuration, "add_configuration_set", set);
+        CORBA::Any value;
+        value <<= "2";
+        add(configuration, "set_configuration_parameter", "step", value);
+        SDOPackage::ServiceProfile service;
+        service.id = CORBA::string_dup("id");
+        service.interface_type = CORBA::string_dup("type");
+        service.properties = some_properties();
+        add(configuration, "add_service_profile", service);
+        SDOPackage::DeviceProfile device;
+        for (auto* text : {&device.device_type, &device.manufacturer, &device.model, &device.version})
+            *text = CORBA::string_dup("text");
+        device.properties = some_properties();
+        add(configuration, "set_device_profile", device);
+    }
+
+    void add_port(RTC::PortService_ptr port) {
+        add_all(port, {"get_port_profile", "get_connector_profiles", "disconnect_all"});
+        for (const char* operation : {"get_connector_profile", "disconnect", "notify_disconnect"})
+            add(port, operation, "one");
+        RTC::ConnectorProfile profile;
+        profile.name = CORBA::string_dup("one");
+        profile.connector_id = CORBA::string_dup("");
+        CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(port));
+        profile.properties = some_properties();
+        add(port, "connect", profile);
+        profile.connector_id = CORBA::string_dup("one");
+        add(port, "notify_connect", profile);
+        for (const char* type : {"corba_cdr", "data_service"})
+            for (const char* flow : {"push", "pull"}) {
+                profile.connector_id = CORBA::string_dup((std::string(type) + flow).c_str());
+                profile.properties[0].value <<= flow;
+                profile.properties[1].value <<= type;
+                add_data(port, profile);
+            }
+    }
+
+    // A connection with this port alone: its servants for the data are published in the profile.
+    void add_data(RTC::PortService_ptr port, RTC::ConnectorProfile profile) {
+        if (port->notify_connect(profile) != RTC::RTC_OK) return;
+        OpenRTM::CdrData bytes;
+        bytes.length(12);
+        for (const char* type : {"corba_cdr", "data_service"})
+            for (const char* direction : {"inport", "outport"}) {
+                const std::string key = std::string("dataport.") + type + "." + direction + "_ior";
+                const std::string ior = NVUtil::toString(profile.properties, key.c_str());
+                if (ior.empty()) continue;
+                CORBA::Object_var object = orb_->string_to_object(ior.c_str());
+                add(object.in(), "put", bytes);
+                add(object.in(), "push", bytes);
+                add_all(object.in(), {"get", "pull"});
+            }
+    }
+
+    CORBA::ORB_var orb_;
+    RTM::Manager_var manager_;
+    std::vector<Call> calls_;
+};
+
+/// A client without manners, on one connection after the other.
+class Nuisance {
+  public:
+    Nuisance(std::string port, unsigned seed) : port_(std::move(port)), mutator_(seed) {}
+    ~Nuisance() { hang_up(); }
+
+    void send_one(const std::vector<Call>& calls) {
+        for (const auto& message : mutator_.next(calls)) {
+            if (fd_ < 0) fd_ = connected(port_);
+            REQUIRE(fd_ >= 0);
+            const bool taken = sent(fd_, message);
+            char answer[4096];
+            while (recv(fd_, answer, sizeof answer, MSG_DONTWAIT) > 0) continue;
+            if (!taken) hang_up(); // the host has hung up
+        }
+        if (mutator_.pick(16) == 0) hang_up();
+    }
+
+  private:
+    void hang_up() {
+        if (fd_ >= 0) close(fd_);
+        fd_ = -1;
+    }
+    std::string port_;
+    Mutator mutator_;
+    int fd_ = -1;
+};
+
+} // namespace
+
+TEST_CASE("A host outlives broken GIOP messages to all its servants and serves its good clients meanwhile") {
+    const long messages = 10000L * stress();
+    constexpr long each_round = 1000;
+    // For the host under the address sanitizer: omniORB leaks when a message is broken (below), and the
+    // frames that tell its leaks from ours are missing. What our code leaks, the host's growth shows.
+    setenv("LSAN_OPTIONS", "detect_leaks=0", 1);
+    // References in broken messages may name any address: only those of this machine are called.
+    OtherHost other("Counter", free_port(),
+                    {"manager.components.preactivation:Counter0", "logger.enable:NO",
+                     "corba.args:-ORBclientTransportRule \"127.0.0.1/255.255.255.255 tcp\" "
+                     "-ORBclientTransportRule \"* none\" -ORBclientCallTimeOutPeriod 1000"});
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage(false, {"exec_cxt.periodic.rate:200"});
+    auto* orb = stage.manager().theORB();
+    auto& summer = stage.create<Summer>("Summer");
+    stage.connect("Summer0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out&buffer.length=10000");
+    REQUIRE(Stage::activate(summer) == RTC::RTC_OK);
+    RTC::RTObject_var counter = other.component(orb, "Counter0");
+    REQUIRE(soon([&] { return summer.received_ > 10; }));
+
+    Victims victims(other, orb);
+    victims.renewed();
+    const std::size_t descriptors = other.host.descriptors();
+    const long memory = other.host.memory();
+    for (long round = 0; round < messages / each_round; ++round) {
+        INFO("round " << round << "; the host: " << other.host.errors);
+        const auto calls = victims.renewed();
+        REQUIRE(calls.size() > 200);
+        Nuisance nuisance(other.port, static_cast<unsigned>(20261121 + round));
+        for (long i = 0; i < each_round; ++i) nuisance.send_one(calls);
+        REQUIRE(CORBA_RTCUtil::is_in_active(counter.in()));
+    }
+    const long before = summer.received_;
+    RTC::ConnectorProfileList_var standing = summer.in_.get_connector_profiles();
+    CHECK(standing->length() == 1);
+    CHECK(soon([&] { return summer.received_ > before + 10; }));
+    // 1 + 2 + ... + n: none was lost or changed. The one that is being added may be in one count only.
+    RTC::RTObject_var here = summer.getObjRef();
+    CORBA_RTCUtil::deactivate(here.in());
+    const long n = summer.received_, first = summer.value_.data - n + 1;
+    CHECK(summer.sum_ == n * (first + summer.value_.data) / 2);
+    victims.renewed();
+    // omniORB forgets 3 to 5 of 10^6 connections that end with a broken message: their sockets stay, half
+    // closed, and its scan for idle connections only shuts them down.
+    const auto bound = descriptors + 4 + static_cast<std::size_t>(messages / 100000);
+    const bool flat = soon([&] { return other.host.descriptors() <= bound; });
+    CAPTURE(descriptors, other.host.descriptors());
+    CHECK(flat);
+    INFO("MB before " << memory << ", after " << other.host.memory() << ", peak " << other.host.memory(true));
+    // omniORB never frees the GIOP_S, with its 8 kB buffers, of a connection that ends after its reply was
+    // sent (giopStrand::releaseServer): 130 to 200 B for each of these messages, nearly all that
+    // LeakSanitizer finds. The rest is the allocator's, after messages that took 1 GB while they were
+    // decoded.
+    // The address sanitizer's allocator gives even less back: 660 MB more after 10^6.
+    const long kept = 200 + messages / 4000;
+#ifdef __SANITIZE_ADDRESS__
+    CHECK(other.host.memory() < memory + 2 * kept);
+#else
+    CHECK(other.host.memory() < memory + kept);
+#endif
+    other.host.send(SIGTERM);
+    CHECK(other.host.wait() == 0);
+}

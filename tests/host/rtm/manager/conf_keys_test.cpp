@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/host/rtm/fixture.hpp"
+#include "host/rtm/runtime/configuration/conf_file.hpp"
+#include <filesystem>
+#include <fstream>
+
+using namespace testing;
+
+namespace {
+
+// What check_settings says to a file of these lines.
+std::vector<std::string> checked(const std::string& text, coil::Properties& conf) {
+    const auto file = std::filesystem::temp_directory_path() / ("tandem_keys." + std::to_string(getpid()));
+    std::ofstream(file) << text;
+    RTC::Places places;
+    RTC::read_conf_file(file, conf, &places);
+    std::filesystem::remove(file);
+    return RTC::check_settings(conf, places);
+}
+std::vector<std::string> checked(const std::string& text) {
+    coil::Properties conf;
+    return checked(text, conf);
+}
+
+} // namespace
+
+TEST_CASE("Every known key passes without a word, those of components and unknown sections as well") {
+    std::string text;
+    for (const auto& key : RTC::conf_keys()) {
+        std::string name = key.name;
+        name = coil::replaceString(coil::replaceString(name, "**", "x.y"), "*", "x");
+        const char* const values[] = {"any", "YES", "0.5", "100", "7", "0, 1", "DEBUG", "process_unique"};
+        text += name + ": " + values[key.value] + "\n";
+    }
+    text += "example.ConsoleIn.config_file: a.conf\nmy.ConsoleIn0.conf.default.gain: 3\n";
+    CHECK(checked(text).empty());
+}
+
+TEST_CASE("An unknown key is named with file, line and the nearest known key") {
+    const auto lines =
+        checked("# rtc.conf\nmanager.components.precreat: A\nexec_ctx.periodic.rate: 10\nrate: 5\n");
+    REQUIRE(lines.size() == 3);
+    using Catch::Contains;
+    CHECK_THAT(lines[0], Contains(":3: ") && Contains("did you mean exec_cxt.periodic.rate?"));
+    CHECK_THAT(lines[1], Contains(":2: ") && Contains("did you mean manager.components.precreate?"));
+    CHECK_THAT(lines[2], Contains(":4: there is no key rate"));
+}
+
+TEST_CASE("A value a key cannot have is refused with file, line and what it can be") {
+    using Catch::Contains;
+    CHECK_THROWS_WITH(checked("\nmanager.shutdown_auto: maybe\n"),
+                      Contains(":2: manager.shutdown_auto is maybe, expected YES or NO"));
+    CHECK_THROWS_WITH(checked("exec_cxt.periodic.rate: 0\n"), Contains("expected a rate in Hz above 0"));
+    CHECK_THROWS_WITH(checked("exec_cxt.periodic.rate: 100Hz\n"), Contains("is 100Hz"));
+    CHECK_THROWS_WITH(checked("exec_cxt.transition_timeout: soon\n"), Contains("expected seconds"));
+    CHECK_THROWS_WITH(checked("exec_cxt.cpu_affinity: 0, one\n"), Contains("processors"));
+    CHECK_THROWS_WITH(checked("logger.log_level: LOUD\n"), Contains("LOUD"));
+    CHECK_THROWS_WITH(checked("manager.components.naming_policy: pretty\n"), Contains("process_unique"));
+    CHECK(checked("corba.endpoints:\nmanager.shutdown_auto:\n").empty());
+}
+
+TEST_CASE("Each key refuses each value that it cannot have") {
+    const std::string long_text(1000, 'x');
+    int refused = 0;
+    for (const auto& key : RTC::conf_keys()) {
+        if (key.value == RTC::ConfKey::text) continue;
+        std::string name = coil::replaceString(coil::replaceString(key.name, "**", "x.y"), "*", "x");
+        for (const std::string value : {"-1", "nan", "1e300", "-inf", "0x", "yes no", "\x95\x5c\x82", ";",
+                                        "1,,-2", "99999999999999999999", long_text.c_str()}) {
+            CAPTURE(name, value);
+            const bool fits = (key.value == RTC::ConfKey::whole && value == "-1"); // a number, at least
+            if (fits) continue;
+            CHECK_THROWS_WITH(checked(name + ": " + value + "\n"),
+                              Catch::Contains(":1: " + name + " is ") && Catch::Contains(", expected "));
+            ++refused;
+        }
+    }
+    CHECK(refused > 200);
+}
+
+TEST_CASE("Files that are no configuration are refused in one line and those of other systems are read") {
+    using Catch::Contains;
+    coil::Properties conf;
+    CHECK(
+        checked("\xef\xbb\xbfmanager.name: a\r\n# \x95\x5c\r\nmanager.shutdown_auto: NO\r\n", conf).empty());
+    CHECK(conf.getProperty("manager.name") == "a");
+    CHECK(conf.getProperty("manager.shutdown_auto") == "NO");
+    CHECK(checked("test.A.title: \x83\x65\x83\x58\x83\x67\n").empty()); // Shift-JIS, as it is
+    CHECK(checked("manager.name: no end of line").empty());
+    CHECK_THROWS_WITH(checked(std::string("m\0a\0:\0 \0b\0\n", 9)), Contains("expected `key: value`"));
+    CHECK_THROWS_WITH(checked(std::string(900000, 'x') + "\n"), Contains(":1: expected") && Contains("..."));
+    CHECK_THROWS_WITH(checked(std::string(1100000, '#')), Contains("more than 1 MB"));
+    std::string many;
+    for (int i = 0; i < 10001; ++i) many += "a.b.c" + std::to_string(i) + ": 1\n";
+    CHECK_THROWS_WITH(checked(many), Contains(":10001: more than 10000 settings"));
+    std::string deep = "a";
+    for (int i = 0; i < 400000; ++i) deep += ".a";
+    CHECK(checked(deep + ": 1\n").empty());
+    CHECK_THROWS_WITH(RTC::read_conf_file("/dev/zero", conf), Contains("more than 1 MB"));
+    CHECK_THROWS_WITH(RTC::read_conf_file("/", conf), Contains("it is no file"));
+}
+
+TEST_CASE("Keys that do nothing are in the table of differences with a reason and no others") {
+    std::ifstream in(TANDEM_RTM_FOLDER "/DIFFERENCES.md");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string table = text.substr(text.find("accepted and do nothing"));
+    for (const auto& key : RTC::conf_keys()) {
+        CAPTURE(key.name);
+        CHECK((table.find("`" + std::string(key.name) + "`") != std::string::npos) == !key.used);
+    }
+}
+
+TEST_CASE("Other words for yes and no do what they say") {
+    coil::Properties conf;
+    CHECK(checked("manager.shutdown_auto: false\nmanager.is_master: On\n", conf).empty());
+    CHECK(conf.getProperty("manager.shutdown_auto") == "NO");
+    CHECK(conf.getProperty("manager.is_master") == "YES");
+}
+
+TEST_CASE("The log goes to several files with a level and a date format") {
+    const auto folder = std::filesystem::temp_directory_path() / ("tandem_log." + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    coil::Argv argv(
+        {"test", "-o", "naming.enable:NO", "-o", "logger.log_level:WARN", "-o", "logger.date_format:%Y|%Q|%q",
+         "-o",
+         "logger.file_name:" + (folder / "rtc%p.log").string() + ", " + (folder / "second-%M.log").string(),
+         "-o", "manager.componnents.precreate:A"});
+    auto& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), RTC::Manager::Options());
+    RTC::Logger rtclog("me");
+    RTC_INFO(("not this"));
+    RTC_WARN(("but this"));
+    for (const auto& name : {"rtc" + std::to_string(getpid()) + ".log", std::string("second-manager.log")}) {
+        std::ifstream in(folder / name);
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        CAPTURE(name, text);
+        CHECK(text.find("not this") == std::string::npos);
+        CHECK(text.find("[warn] me: but this\n") != std::string::npos);
+        CHECK(text.find("option -o: there is no key manager.componnents.precreate") != std::string::npos);
+        CHECK(text.find_first_of('|') == 5);
+        CHECK(text.find("] ", 0) == std::string("[2026|123|123456").size());
+    }
+    manager.shutdown();
+    std::filesystem::remove_all(folder);
+}

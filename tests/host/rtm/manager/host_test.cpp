@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// rtm_host as a program: rtc.conf in, signals, exit codes.
+#include "host/rt/step_client.hpp"
+#include "tests/host/rtm/host_process.hpp"
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+using testing::HostProcess;
+
+namespace {
+
+struct Folder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("tandem_rtm." + std::to_string(getpid()));
+    explicit Folder(const std::string& name = "") {
+        if (!name.empty()) path += "." + name;
+        std::filesystem::create_directories(path);
+    }
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::string conf(const std::string& text) const {
+        std::ofstream(path / "rtc.conf") << "manager.modules.load_path: " TANDEM_TEST_PLUGINS "\n" << text;
+        return (path / "rtc.conf").string();
+    }
+};
+
+const char* const pair_conf =
+    "manager.modules.preload: TestComponents.so\n"
+    "manager.components.precreate: Counter, Teller\n"
+    "manager.components.preconnect: Counter0.out?port=Teller0.in&interface_type=corba_cdr&"
+    "dataflow_type=push&subscription_type=flush\n"
+    "manager.components.preactivation: Counter0, Teller0\n"
+    "exec_cxt.periodic.rate: 200\n";
+
+// What rtm_host says to a configuration it cannot use: exactly one line, and exit code 1.
+std::string refusal(const std::vector<std::string>& arguments) {
+    HostProcess host(arguments);
+    REQUIRE(host.wait() == 1);
+    CHECK(host.output.find("ready") == std::string::npos);
+    CHECK(std::count(host.errors.begin(), host.errors.end(), '\n') == 1);
+    return host.errors;
+}
+
+std::string refusal(const std::string& conf) {
+    Folder folder;
+    return refusal(std::vector<std::string>{"-f", folder.conf(conf)});
+}
+
+} // namespace
+
+TEST_CASE("rtm_host runs what rtc.conf names, and a signal ends it in order") {
+    const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+    Folder folder;
+    HostProcess host({"-f", folder.conf(pair_conf)});
+    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.says("received "));
+    host.send(signal);
+    CHECK(host.wait() == 0);
+    CHECK(host.output.find("Teller0 deactivated\nTeller0 finalized\n") != std::string::npos);
+}
+
+TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
+    using Catch::Contains;
+    CHECK_THAT(refusal("manager.modules.preload TestComponents.so\n"),
+               Contains("rtc.conf:2: expected `key: value`"));
+    CHECK_THAT(refusal(std::vector<std::string>{"-f", "/no/such/rtc.conf"}), Contains("/no/such/rtc.conf"));
+    CHECK_THAT(refusal("manager.modules.preload: Missing.so\n"),
+               Contains("rtc.conf") && Contains("Missing.so"));
+    CHECK_THAT(refusal("manager.modules.preload: BadModule.so\n"), Contains("BadModuleInit"));
+    CHECK_THAT(refusal("manager.modules.preload: TestComponents.so(NoSuchInit)\n"), Contains("NoSuchInit"));
+    CHECK_THAT(refusal("manager.modules.preload: "
+                       "TestComponents.so(OnlyTellers)\nmanager.components.precreate: Counter\n"),
+               Contains("Counter") && Contains("known: ") && Contains("Teller"));
+    CHECK_THAT(
+        refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter, Teller\n"
+                "manager.components.preconnect: Counter0.out?port=Teller0.inn\n"),
+        Contains("Teller0 has no port inn (it has: in)"));
+    CHECK_THAT(refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter\n"
+                       "manager.components.preactivation: Counter1\n"),
+               Contains("there is no component Counter1 (there are: Counter0)"));
+    CHECK_THAT(refusal("corba.endpoints: 256.0.0.1:\n"), Contains("256.0.0.1"));
+    CHECK_THAT(refusal("logger.log_level: LOUD\n"), Contains("rtc.conf:2: logger.log_level is LOUD"));
+    CHECK_THAT(refusal(std::vector<std::string>{"-o", "exec_cxt.periodic.rate:-1"}),
+               Contains("option -o: exec_cxt.periodic.rate is -1"));
+    CHECK_THAT(refusal(std::vector<std::string>{"-p", "many"}), Contains("option -p") && Contains("many"));
+}
+
+TEST_CASE("A component that throws goes to the error state, its host lives on") {
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Thrower\n"
+                                        "manager.components.preactivation: Thrower0\n")});
+    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.says("aborting\n"));
+    host.send(SIGTERM);
+    CHECK(host.wait() == 0);
+    CHECK(host.errors.find("Thrower0: onExecute threw: on purpose") != std::string::npos);
+}
+
+TEST_CASE("A component that hangs does not keep its host from leaving") {
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Teller, Hanger\n"
+                                        "manager.components.preactivation: Teller0, Hanger0\n")});
+    REQUIRE(host.says("hanging\n"));
+    REQUIRE(host.says("ready\n"));
+    host.send(SIGTERM);
+    CHECK(host.wait() == 0);
+    CHECK(host.output.find("Teller0 finalized") != std::string::npos);
+}
+
+TEST_CASE("Whichever callback a component does not return from the others end in order and the host leaves") {
+    const std::vector<std::string> callbacks{"initialize",  "startup",  "activated", "execute",
+                                             "update",      "rate",     "aborting",  "error",
+                                             "deactivated", "shutdown", "finalize"};
+    std::vector<std::unique_ptr<Folder>> folders;
+    std::vector<std::unique_ptr<HostProcess>> hosts; // side by side: each takes seconds to give up
+    for (const auto& callback : callbacks) {
+        folders.push_back(std::make_unique<Folder>(callback));
+        hosts.push_back(std::make_unique<HostProcess>(std::vector<std::string>{
+            "-f", folders.back()->conf("manager.modules.preload: TestComponents.so\n"
+                                       "manager.components.precreate: Teller, Sleeper?in=" +
+                                       callback +
+                                       "\n"
+                                       "manager.components.preactivation: Teller0, Sleeper0\n"
+                                       "exec_cxt.periodic.rate: 100\n")}));
+    }
+    for (std::size_t i = 0; i < hosts.size(); ++i) {
+        const bool at_the_end = i >= 8; // these only when the host is told to leave
+        CAPTURE(callbacks[i]);
+        CHECK(hosts[i]->says(at_the_end ? "ready\n" : "asleep\n"));
+        hosts[i]->send(SIGTERM);
+    }
+    for (std::size_t i = 0; i < hosts.size(); ++i) {
+        CAPTURE(callbacks[i], hosts[i]->output, hosts[i]->errors);
+        CHECK(hosts[i]->wait() == 0);
+        CHECK(hosts[i]->output.find("asleep\n") != std::string::npos);
+        CHECK(hosts[i]->output.find("Teller0 finalized") != std::string::npos);
+    }
+}
+
+TEST_CASE("Whatever a component throws and wherever its host says it in one line and lives on") {
+    const std::vector<std::string> callbacks{"Startup", "Activated", "Execute",     "StateUpdate", "Aborting",
+                                             "Error",   "Shutdown",  "Deactivated", "Finalize"};
+    for (const std::string how : {"int", "corba", "std"}) {
+        std::vector<std::unique_ptr<Folder>> folders;
+        std::vector<std::unique_ptr<HostProcess>> hosts;
+        for (const auto& callback : callbacks) {
+            std::string in = callback == "StateUpdate" ? "update" : callback;
+            in[0] = static_cast<char>(std::tolower(in[0]));
+            folders.push_back(std::make_unique<Folder>(callback));
+            hosts.push_back(std::make_unique<HostProcess>(std::vector<std::string>{
+                "-f", folders.back()->conf("manager.modules.preload: TestComponents.so\n"
+                                           "manager.components.precreate: Counter, Teller, Sleeper?how=" +
+                                           how + "&in=" + in +
+                                           "\nmanager.components.preconnect: Counter0.out?port=Teller0.in\n"
+                                           "manager.components.preactivation: Counter0, Teller0, Sleeper0\n"
+                                           "exec_cxt.periodic.rate: 100\n")}));
+        }
+        for (auto& host : hosts) {
+            CHECK(host->says("ready\n"));
+            CHECK(host->says("received ")); // the others go on
+            host->send(SIGTERM);
+        }
+        const std::string said = how == "int"   ? "something that is not"
+                                 : how == "std" ? ": on purpose"
+                                                : "NO_MEMORY";
+        for (std::size_t i = 0; i < hosts.size(); ++i) {
+            CAPTURE(how, callbacks[i], hosts[i]->output, hosts[i]->errors);
+            CHECK(hosts[i]->wait() == 0);
+            const std::string line = "Sleeper0: on" + callbacks[i] + " threw";
+            const std::size_t at = hosts[i]->errors.find(line);
+            REQUIRE(at != std::string::npos);
+            CHECK(hosts[i]->errors.find(said, at) != std::string::npos);
+            CHECK(hosts[i]->errors.find(line, at + 1) == std::string::npos);
+            CHECK(hosts[i]->output.find("Teller0 finalized") != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("A component that throws where it is to initialize does not let its host start") {
+    using Catch::Contains;
+    for (const std::string how : {"int", "corba", "std"}) {
+        Folder folder;
+        HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                            "manager.components.precreate: Sleeper?in=initialize&how=" +
+                                            how + "\n")});
+        CHECK(host.wait() == 1);
+        CHECK_THAT(host.errors, Contains("Sleeper0: onInitialize threw") && Contains("does not start"));
+    }
+}
+
+TEST_CASE("A component that cannot initialize nor be destroyed does not hold its host") {
+    using Catch::Contains;
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Sleeper?in=initialize&how=fail\n")});
+    CHECK(host.wait() == 1);
+    CHECK_THAT(host.errors, Contains("Sleeper0: its destructor does not return") &&
+                                Contains("Sleeper0 does not start: its onInitialize has failed"));
+}
+
+TEST_CASE("A component that ends the process ends it with its own code and in time") {
+    const std::vector<std::string> callbacks{"initialize", "startup",  "activated",   "execute",
+                                             "update",     "shutdown", "deactivated", "finalize"};
+    for (const auto& [how, code] : {std::pair("exit", 7), {"abort", -SIGABRT}})
+        for (const auto& callback : callbacks) {
+            CAPTURE(how, callback);
+            Folder folder;
+            HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                                "manager.components.precreate: Teller, Sleeper?in=" +
+                                                callback + "&how=" + how +
+                                                "\nmanager.components.preactivation: Teller0, Sleeper0\n"
+                                                "exec_cxt.periodic.rate: 100\n")});
+            host.says("ready\n", std::chrono::seconds(2));
+            host.send(SIGTERM);
+            CHECK(host.wait() == code);
+        }
+}
+
+TEST_CASE("Neither a read of stdin nor a static destructor holds the host for ever") {
+    for (const auto& [how, said, code, line] :
+         {std::tuple("stdin", "reads\n", 0, "a component does not stop"),
+          {"static", "is there\n", 1, "does not come back from its static destructors"}}) {
+        CAPTURE(how);
+        Folder folder;
+        HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                            "manager.components.precreate: Teller, Sleeper?in=execute&how=" +
+                                            std::string(how) +
+                                            "\nmanager.components.preactivation: Teller0, Sleeper0\n")});
+        REQUIRE(host.says("ready\n"));
+        REQUIRE(host.says(said));
+        host.send(SIGTERM);
+        CHECK(host.wait() == code);
+        CHECK(host.errors.find(line) != std::string::npos);
+        CHECK(host.output.find("Teller0 deactivated\n") != std::string::npos);
+    }
+}
+
+TEST_CASE("In lock-step components run when they are told to and at no other time") {
+    Folder folder;
+    const std::string socket = (folder.path / "steps").string();
+    HostProcess host({"-f", folder.conf(pair_conf), "--lockstep", socket});
+    REQUIRE(host.says("ready\n"));
+    tandem::rt::StepClient conductor(socket, std::chrono::seconds(10));
+    for (int i = 0; i < 9; ++i) {
+        conductor.step("Counter0");
+        conductor.step("Teller0");
+    }
+    CHECK_FALSE(host.says("received", std::chrono::seconds(0)));
+    conductor.step("Counter0");
+    conductor.step("Teller0");
+    CHECK(host.says("received 10\n", std::chrono::seconds(10)));
+    CHECK_THROWS_WITH(conductor.step("Nobody"), Catch::Contains("there is no component Nobody"));
+    host.send(SIGTERM);
+    CHECK(host.wait() == 0);
+}
+
+TEST_CASE("A manager without components leaves by itself unless it is told to stay") {
+    const std::string soon = "manager.auto_shutdown_duration:0.2";
+    CHECK(HostProcess({"-o", soon}).wait() == 0);
+    CHECK(HostProcess({"-i", "-f", "/no/such/rtc.conf", "-o", soon}).wait() == 0);
+    for (const std::vector<std::string>& stay : {std::vector<std::string>{"-d"},
+                                                 {"-o", "manager.shutdown_auto:NO"},
+                                                 {"-o", "manager.is_master:YES"}}) {
+        auto arguments = stay;
+        arguments.insert(arguments.end(), {"-o", soon});
+        HostProcess host(arguments);
+        REQUIRE(host.says("ready\n"));
+        CHECK(host.wait(std::chrono::seconds(1)) == -1000);
+        host.send(SIGTERM);
+        CHECK(host.wait() == 0);
+    }
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manager as tools use it: modules, components, settings, its end and its return.
+#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/other_host.hpp"
+#include <rtm/CORBA_RTCUtil.h>
+#include <rtm/NVUtil.h>
+
+using namespace testing;
+
+namespace {
+
+std::vector<std::string> listed(const RTM::ModuleProfileList& profiles, const char* key) {
+    std::vector<std::string> values;
+    for (CORBA::ULong i = 0; i < profiles.length(); ++i)
+        values.push_back(NVUtil::toString(profiles[i].properties, key));
+    return values;
+}
+
+bool has(const std::vector<std::string>& all, const std::string& one) {
+    return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+std::size_t components(RTM::Manager_ptr manager, const char* name) {
+    RTC::RTCList_var found = manager->get_components_by_name(name);
+    return found->length();
+}
+
+} // namespace
+
+TEST_CASE("A tool sees which modules there are and loads and unloads them") {
+    OtherHost other("", free_port(), {"manager.is_master:YES", "manager.modules.preload:"});
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    auto loadable = [&] {
+        RTM::ModuleProfileList_var list = manager->get_loadable_modules();
+        return listed(list.in(), "module_file_name");
+    };
+    auto loaded = [&] {
+        RTM::ModuleProfileList_var list = manager->get_loaded_modules();
+        return listed(list.in(), "module_file_name");
+    };
+    auto types = [&] {
+        RTM::ModuleProfileList_var list = manager->get_factory_profiles();
+        return listed(list.in(), "implementation_id");
+    };
+    CHECK(has(loadable(), "TestComponents.so"));
+    CHECK_FALSE(has(loadable(), "BadModule.so")); // no module: it has no such function
+    CHECK_FALSE(has(loadable(), "OldModule.so")); // built against the headers of another Tandem
+    CHECK(loaded().empty());
+    for (const char* wrong : {"BadModule.so", "OldModule.so", "Missing.so", "/dev/null", "", "/"}) {
+        CAPTURE(wrong);
+        CHECK(manager->load_module(wrong, "") == RTC::RTC_ERROR);
+    }
+    CHECK(loaded().empty());
+    for (int life = 0; life < 3; ++life) {
+        REQUIRE(manager->load_module("TestComponents.so", "TestComponentsInit") == RTC::RTC_OK);
+        CHECK(loaded() == std::vector<std::string>{"TestComponents.so"});
+        CHECK(has(types(), "Counter"));
+        RTC::RTObject_var counter = manager->create_component("Counter?instance_name=one");
+        REQUIRE_FALSE(CORBA::is_nil(counter.in()));
+        CHECK(manager->unload_module("TestComponents.so") == RTC::PRECONDITION_NOT_MET);
+        CHECK(manager->delete_component("one") == RTC::RTC_OK);
+        CHECK(soon([&] { return manager->unload_module("TestComponents.so") == RTC::RTC_OK; }));
+        CHECK(manager->unload_module("TestComponents.so") == RTC::BAD_PARAMETER);
+        CHECK(loaded().empty());
+        CHECK_FALSE(has(types(), "Counter"));
+        CHECK(has(types(), "PeriodicECSharedComposite")); // not of a module
+    }
+    other.host.send(SIGTERM);
+    CHECK(other.host.wait() == 0);
+}
+
+TEST_CASE("A tool creates and configures and deletes components and changes settings") {
+    OtherHost other("Counter");
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    RTC::RTObject_var made = manager->create_component("Counter?instance_name=x&step=5&manager_name=manager");
+    REQUIRE_FALSE(CORBA::is_nil(made.in()));
+    CHECK(CORBA_RTCUtil::get_default_rate(made.in()) == 200);
+    CHECK(CORBA_RTCUtil::get_active_configuration(made.in()).getProperty("step") == "5");
+    for (const char* wrong : {"", "?", "NoSuchType", "Counter?instance_name=x", "Counter?=&", "RTC:a:b",
+                              "Counter?manager_name=other", "Counter?manager_address=127.0.0.1:9"}) {
+        CAPTURE(wrong);
+        RTC::RTObject_var none = manager->create_component(wrong);
+        CHECK(CORBA::is_nil(none.in()));
+    }
+    CHECK(components(manager.in(), "*/Counter0") == 1);
+    CHECK(components(manager.in(), "*/x") == 1);
+    CHECK(manager->set_configuration("exec_cxt.periodic.rate", "50") == RTC::RTC_OK);
+    RTC::RTObject_var slower = manager->create_component("Counter");
+    CHECK(CORBA_RTCUtil::get_default_rate(slower.in()) == 50);
+    RTC::ComponentProfileList_var profiles = manager->get_component_profiles();
+    CHECK(profiles->length() == 3);
+    CHECK(manager->delete_component("nobody") == RTC::BAD_PARAMETER);
+    CHECK(manager->delete_component("x") == RTC::RTC_OK);
+    CHECK(components(manager.in(), "x") == 0);
+    CHECK(manager->fork() == RTC::UNSUPPORTED);
+    CHECK(manager->shutdown() == RTC::RTC_OK);
+    CHECK(other.host.wait() == 0);
+}
+
+TEST_CASE("A tool restarts the host which comes back as it was at first") {
+    OtherHost other("Counter");
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    auto* orb = stage.manager().theORB();
+    RTM::Manager_var manager = other.manager(orb);
+    RTC::RTObject_var added = manager->create_component("Teller");
+    CHECK(components(manager.in(), "Teller0") == 1);
+    const std::size_t descriptors = other.host.descriptors();
+    CHECK(manager->restart() == RTC::RTC_OK);
+    REQUIRE(other.host.says("Teller0 finalized\nready\n"));
+    CHECK(soon([&] { // the first call may still go to the connection that was
+        try {
+            return components(manager.in(), "Counter0") == 1;
+        } catch (const CORBA::SystemException&) {
+            return false;
+        }
+    }));
+    CHECK(components(manager.in(), "Teller0") == 0);
+    CHECK(other.host.descriptors() <= descriptors + 1);
+    other.host.send(SIGTERM);
+    CHECK(other.host.wait() == 0);
+}
+
+TEST_CASE("A tool that asks for a component that cannot initialize nor be destroyed gets none") {
+    OtherHost other("Counter");
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    RTC::RTObject_var none = manager->create_component("Sleeper?in=initialize&how=fail&instance_name=never");
+    CHECK(CORBA::is_nil(none.in()));
+    CHECK(components(manager.in(), "never") == 0);
+    RTC::RTObject_var another = manager->create_component("Counter?instance_name=never");
+    CHECK_FALSE(CORBA::is_nil(another.in()));
+    other.host.send(SIGTERM);
+    CHECK(other.host.wait() == 0);
+    CHECK_THAT(other.host.errors, Catch::Contains("never: its destructor does not return"));
+}
+
+TEST_CASE("Only one of many that ask at once gets a component of the name they want") {
+    OtherHost other("Counter");
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    std::atomic<int> made{0};
+    std::vector<std::thread> tools;
+    for (int i = 0; i < 8; ++i)
+        tools.emplace_back([&] {
+            RTC::RTObject_var one = manager->create_component("Summer?instance_name=only");
+            if (!CORBA::is_nil(one.in())) ++made;
+        });
+    for (auto& tool : tools) tool.join();
+    CHECK(made == 1);
+    CHECK(components(manager.in(), "only") == 1);
+}

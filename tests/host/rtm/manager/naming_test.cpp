@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names in CORBA name servers that come later, go, and come back empty.
+#include "host/rtm/runtime/naming/remote_names.hpp"
+#include "tests/host/rtm/other_host.hpp"
+#include <catch2/catch.hpp>
+#include <coil/stringutil.h>
+#include <filesystem>
+
+using namespace testing;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// omniNames with a log of its own, which is gone with it.
+class NameServer {
+  public:
+    explicit NameServer(const std::string& port) {
+        char name[] = "/tmp/tandem-names-XXXXXX";
+        dir_ = mkdtemp(name);
+        pid_ = fork();
+        if (pid_ == 0) {
+            const std::string endpoint = "giop:tcp:127.0.0.1:" + port;
+            close(1);
+            close(2);
+            execlp("omniNames", "omniNames", "-start", port.c_str(), "-ignoreport", "-logdir", dir_.c_str(),
+                   "-ORBendPoint", endpoint.c_str(), nullptr);
+            _exit(127);
+        }
+    }
+    ~NameServer() {
+        kill(pid_, SIGKILL);
+        waitpid(pid_, nullptr, 0);
+        fs::remove_all(dir_);
+    }
+
+  private:
+    std::string dir_;
+    pid_t pid_;
+};
+
+struct Observer {
+    Observer() {
+        coil::Argv argv(coil::vstring{"test", "-ORBclientCallTimeOutPeriod", "5000", "-ORBtraceLevel", "0"});
+        int argc = static_cast<int>(argv.size());
+        orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
+    }
+    ~Observer() { orb->destroy(); }
+    bool sees(const std::string& server, const std::string& path) {
+        try {
+            CosNaming::NamingContext_var root = RTC::name_server(orb.in(), server);
+            CORBA::Object_var object = root->resolve(RTC::to_name(path));
+            return !CORBA::is_nil(object.in()) && !object->_non_existent();
+        } catch (const RTC::NotThere&) {
+            return false;
+        } catch (const CORBA::Exception&) {
+            return false;
+        }
+    }
+    CORBA::ORB_var orb;
+};
+
+} // namespace
+
+TEST_CASE(
+    "Names are bound in a name server that comes later and in one that has lost them and go at the end") {
+    const std::string port = free_port(), server = "127.0.0.1:" + port;
+    OtherHost host("Counter", free_port(),
+                   {"corba.nameservers:" + server, "naming.update.interval:0.1",
+                    "naming.formats:t.host_cxt/%n.rtc", "manager.naming_formats:t.host_cxt/%n.mgr"});
+    REQUIRE(host.host.says("ready\n")); // it does not wait for the server
+    Observer observer;
+    auto both = [&] {
+        return observer.sees(server, "t.host_cxt/Counter0.rtc") &&
+               observer.sees(server, "t.host_cxt/manager.mgr");
+    };
+    {
+        const NameServer names(port);
+        CHECK(soon(both));
+        RTC::RTObject_var counter =
+            RTC::find_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/Counter0", {});
+        CHECK_FALSE(CORBA::is_nil(counter.in()));
+        counter = RTC::find_component(observer.orb.in(), "rtcname://*/*/Counter0", {server});
+        CHECK_FALSE(CORBA::is_nil(counter.in()));
+        CHECK_THROWS_WITH(
+            RTC::find_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/No0", {}),
+            Catch::Contains("has no such entry"));
+    }
+    const NameServer names(port);
+    CHECK(soon(both));
+    host.host.send(SIGTERM);
+    CHECK(host.host.wait() == 0);
+    CosNaming::NamingContext_var root = RTC::name_server(observer.orb.in(), server);
+    for (const char* gone : {"t.host_cxt/Counter0.rtc", "t.host_cxt/manager.mgr"})
+        CHECK_THROWS_AS(root->resolve(RTC::to_name(gone)), CosNaming::NamingContext::NotFound);
+}

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// A host that is killed and started again beside one that lives on: what their rtc.conf connects is connected
+// again, whichever of the two it is that says so, and nothing is left of the connections before.
+#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/other_host.hpp"
+#include <algorithm>
+#include <filesystem>
+#include <rtm/CORBA_RTCUtil.h>
+
+using namespace testing;
+
+namespace {
+
+constexpr int lives = 4;
+const std::string quick_watch = "manager.peer_check_interval:0.05";
+const std::vector<std::string> ways = {"", "&dataflow_type=pull", "&interface_type=data_service"};
+
+std::string at(const std::string& port) { return "rtcloc://127.0.0.1:" + port + "/"; }
+
+std::size_t connections(RTC::PortBase& port) {
+    RTC::ConnectorProfileList_var list = port.get_connector_profiles();
+    return list->length();
+}
+
+std::size_t open_files() {
+    namespace fs = std::filesystem;
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()));
+}
+
+/// The other host lives several times; `works` is to be true in each of its lives, and `left` after each.
+template <class Works, class Left>
+void restart(const std::string& component, const std::string& port, const std::vector<std::string>& settings,
+             Works works, Left left) {
+    std::size_t files = 0;
+    for (int life = 0; life < lives; ++life) {
+        INFO("life " << life);
+        OtherHost other(component, port, settings);
+        REQUIRE(other.host.says("ready\n"));
+        CHECK(works(other));
+        other.host.send(SIGKILL);
+        other.host.wait();
+        CHECK(soon([&] { return left() == 0; }));
+        if (life == 1) files = open_files();
+        if (life > 1) CHECK(open_files() <= files + 2); // an idle connection of the ORB may be open or not
+    }
+}
+
+} // namespace
+
+TEST_CASE("A sender that is killed and started again is read again by push and by pull") {
+    const std::string port = free_port();
+    Stage stage(false, {quick_watch, "exec_cxt.periodic.rate:200"});
+    std::vector<Summer*> summers;
+    for (const auto& way : ways) {
+        summers.push_back(&stage.create<Summer>("Summer"));
+        stage.connect(std::string(summers.back()->getInstanceName()) + ".in?port=" + at(port) +
+                      "Counter0.out" + way);
+    }
+    restart(
+        "Counter", port, {"manager.components.preactivation:Counter0"},
+        [&](OtherHost&) {
+            return std::all_of(summers.begin(), summers.end(), [](Summer* summer) {
+                return soon([&] { return connections(summer->in_) == 1 && summer->in_.read(); });
+            });
+        },
+        [&] {
+            return connections(summers[0]->in_) + connections(summers[1]->in_) + connections(summers[2]->in_);
+        });
+}
+
+TEST_CASE("A receiver that is killed and started again gets data again whoever connects them") {
+    const std::string here = free_port(), port = free_port();
+    Stage stage(false, {quick_watch, "exec_cxt.periodic.rate:200", "corba.endpoints:127.0.0.1:" + here});
+    auto& counter = stage.create<Counter>("Counter");
+    CORBA_RTCUtil::activate(RTC::RTObject_var(counter.getObjRef()).in());
+    const auto left = [&] { return connections(counter.out_); };
+    const std::string activation = "manager.components.preactivation:Teller0";
+    for (const auto& way : ways) {
+        INFO("its own host connects it " << way);
+        const bool tells = way.find("pull") == std::string::npos; // it reads what isNew() announces
+        restart(
+            "Teller", free_port(),
+            {activation, "manager.components.preconnect:Teller0.in?port=" + at(here) + "Counter0.out" + way},
+            [&](OtherHost& other) { return (!tells || other.host.says("received ")) && left() == 1; }, left);
+    }
+    for (const auto& way : ways)
+        stage.connect("Counter0.out?port=" + at(port) + "Teller0.in" + way + "&allow_dup_connection=YES");
+    restart(
+        "Teller", port, {activation},
+        [&](OtherHost& other) {
+            return other.host.says("received ") && soon([&] { return left() == ways.size(); });
+        },
+        left);
+}
+
+TEST_CASE("A service is called again when its process was killed and started again") {
+    const std::string port = free_port(), here = free_port();
+    Stage stage(false, {quick_watch, "corba.endpoints:127.0.0.1:" + here});
+    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    const auto answers = [&](OtherHost&) {
+        Testing::Numbers numbers;
+        numbers.length(2);
+        numbers[0] = 1.5;
+        numbers[1] = 2;
+        return soon([&] {
+            try {
+                return connections(consumer.port_) == 1 && consumer.calculator_->sum(numbers) == 3.5;
+            } catch (const CORBA::SystemException&) {
+                return false; // of the life before, or not active yet
+            }
+        });
+    };
+    const auto left = [&] { return connections(consumer.port_); };
+    const std::string activation = "manager.components.preactivation:CalculatorProvider0";
+    restart("CalculatorProvider", port,
+            {activation, "manager.components.preconnect:CalculatorProvider0.calculator?port=" + at(here) +
+                             "CalculatorConsumer0.calculator"},
+            answers, left);
+    stage.connect("CalculatorConsumer0.calculator?port=" + at(port) + "CalculatorProvider0.calculator");
+    restart("CalculatorProvider", port, {activation}, answers, left);
+}
+
+TEST_CASE("However many of its peers hang a host ends in order") {
+    const std::string port = free_port();
+    std::vector<std::unique_ptr<OtherHost>> peers;
+    std::string lines;
+    for (int i = 0; i < 4; ++i) {
+        peers.push_back(std::make_unique<OtherHost>("Teller"));
+        REQUIRE(peers.back()->host.says("ready\n"));
+        lines += (i > 0 ? "," : "") + ("Counter0.out?port=" + at(peers.back()->port)) + "Teller0.in";
+    }
+    OtherHost host("Counter", port, {quick_watch, "manager.components.preconnect:" + lines});
+    REQUIRE(host.host.says("ready\n"));
+    for (auto& peer : peers) REQUIRE(peer->host.freeze());
+    host.host.send(SIGTERM);
+    CHECK(host.host.wait() == 0);
+    CHECK_THAT(host.host.errors, !Catch::Contains("does not return")); // each component has 4 s for its end
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Components with every kind of port come, are connected, work and go again, many times: nothing of them
+// stays. TANDEM_STRESS=10 makes it 1000 lives.
+#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/other_host.hpp"
+#include <cstdlib>
+#include <rtm/CORBA_RTCUtil.h>
+
+using namespace testing;
+
+namespace {
+
+int lives() {
+    const char* factor = std::getenv("TANDEM_STRESS");
+    return 100 * (factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
+}
+
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+constexpr long quarantine = 16384; // kB that the sanitizer keeps: freed memory (ASAN_OPTIONS of its preset) or shadows
+#else
+constexpr long quarantine = 0;
+#endif
+
+long kilobytes(const char* pid) {
+    std::ifstream status("/proc/" + std::string(pid) + "/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.compare(0, 6, "VmRSS:") == 0) return std::stol(line.substr(6));
+    return -1;
+}
+
+std::size_t descriptors() {
+    const std::filesystem::directory_iterator all("/proc/self/fd");
+    return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+RTC::ReturnCode_t joined(RTC::RTObject_ptr a, const char* port_a, RTC::RTObject_ptr b, const char* port_b) {
+    RTC::PortService_var first = CORBA_RTCUtil::get_port_by_name(a, port_a),
+                         second = CORBA_RTCUtil::get_port_by_name(b, port_b);
+    return CORBA_RTCUtil::connect("c", coil::Properties(), first.in(), second.in());
+}
+
+const char* const types[] = {"Counter", "Summer", "CalculatorProvider", "CalculatorConsumer"};
+
+} // namespace
+
+TEST_CASE("Nothing stays of components that come and are connected and go") {
+    Stage stage(false, {"exec_cxt.periodic.rate:1000"});
+    auto life = [&](int number) {
+        const char* const flow = number % 2 == 0 ? "push" : "pull";
+        const char* const type = number % 3 == 0 ? "direct" : "corba_cdr";
+        auto& counter = stage.create<Counter>("Counter");
+        auto& summer = stage.create<Summer>("Summer");
+        auto& provider = stage.create<CalculatorProvider>("CalculatorProvider");
+        auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+        stage.connect(std::string("Counter0.out?port=Summer0.in&dataflow_type=") + flow +
+                      "&interface_type=" + type);
+        stage.connect("CalculatorConsumer0.calculator?port=CalculatorProvider0.calculator");
+        const std::vector<RTC::RTObject_impl*> all{&counter, &summer, &provider, &consumer};
+        for (auto* one : all) REQUIRE(Stage::activate(*one) == RTC::RTC_OK);
+        REQUIRE(soon([&] { return summer.received_ > 0; }));
+        for (auto* one : all) REQUIRE(one->deactivate(0) == RTC::RTC_OK);
+        for (auto* one : all) REQUIRE(one->exit() == RTC::RTC_OK);
+        stage.manager().cleanupComponents();
+    };
+    for (int i = 0; i < 30; ++i) life(i); // what is made once
+    const std::size_t open = descriptors();
+    const long memory = kilobytes("self");
+    const int n = lives();
+    for (int i = 0; i < n; ++i) life(i);
+    INFO("kB before " << memory << ", after " << kilobytes("self"));
+    CHECK(soon([&] { return descriptors() == open; })); // a tool that looks for managers here comes and goes
+    CHECK(kilobytes("self") < memory + 1000 + 2 * n + quarantine);
+}
+
+TEST_CASE("Nothing stays of components that a tool makes and deletes") {
+    OtherHost other("Counter", free_port(), {"exec_cxt.periodic.rate:1000"});
+    REQUIRE(other.host.says("ready\n"));
+    Stage stage;
+    auto* orb = stage.manager().theORB();
+    RTM::Manager_var manager = other.manager(orb);
+    auto life = [&](int number) {
+        std::vector<RTC::RTObject_var> all;
+        for (const char* type : types) {
+            const std::string arguments = std::string(type) + "?instance_name=a" + type;
+            all.emplace_back(manager->create_component(arguments.c_str()));
+            REQUIRE_FALSE(CORBA::is_nil(all.back().in()));
+        }
+        REQUIRE(joined(all[0].in(), "out", all[1].in(), "in") == RTC::RTC_OK);
+        REQUIRE(joined(all[2].in(), "calculator", all[3].in(), "calculator") == RTC::RTC_OK);
+        for (auto& one : all) REQUIRE(CORBA_RTCUtil::activate(one.in()) == RTC::RTC_OK);
+        for (auto& one : all) REQUIRE(CORBA_RTCUtil::deactivate(one.in()) == RTC::RTC_OK);
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            if (number % 2 == 0)
+                REQUIRE(all[i]->exit() == RTC::RTC_OK);
+            else
+                REQUIRE(manager->delete_component((std::string("a") + types[i]).c_str()) == RTC::RTC_OK);
+        }
+    };
+    const std::string pid = std::to_string(other.host.pid());
+    for (int i = 0; i < 30; ++i) life(i);
+    const std::size_t open = other.host.descriptors();
+    const long memory = kilobytes(pid.c_str());
+    const int n = lives();
+    for (int i = 0; i < n; ++i) life(i);
+    RTC::RTCList_var left = manager->get_components();
+    CHECK(left->length() == 1);
+    INFO("kB before " << memory << ", after " << kilobytes(pid.c_str()));
+    CHECK(soon([&] { return other.host.descriptors() <= open + 1; }));
+    CHECK(kilobytes(pid.c_str()) < memory + 2000 + 2 * n + quarantine);
+}
+
+TEST_CASE("Components are made and ended by many threads at once") {
+    Stage stage(false, {"exec_cxt.periodic.rate:1000"});
+    std::atomic<int> done{0};
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 8; ++t)
+        threads.emplace_back([&, t] {
+            for (int i = 0; i < 25; ++i) {
+                const std::string number = std::to_string(t) + "_" + std::to_string(i);
+                auto* counter = stage.manager().createComponent(("Counter?instance_name=c" + number).c_str());
+                auto* summer = stage.manager().createComponent("Summer");
+                if (counter == nullptr || summer == nullptr) return;
+                RTC::RTObject_var a = counter->getObjRef(), b = summer->getObjRef();
+                const bool well = joined(a.in(), "out", b.in(), "in") == RTC::RTC_OK &&
+                                  CORBA_RTCUtil::activate(a.in()) == RTC::RTC_OK &&
+                                  CORBA_RTCUtil::activate(b.in()) == RTC::RTC_OK &&
+                                  a->exit() == RTC::RTC_OK && b->exit() == RTC::RTC_OK;
+                if (well) ++done;
+            }
+        });
+    for (auto& thread : threads) thread.join();
+    CHECK(done == 8 * 25);
+    stage.manager().cleanupComponents();
+    CHECK(stage.manager().getComponents().empty());
+}

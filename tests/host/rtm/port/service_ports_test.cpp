@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/host/rtm/fixture.hpp"
+
+using namespace testing;
+
+namespace {
+
+double sum_of(CalculatorConsumer& consumer, std::initializer_list<double> values) {
+    Testing::Numbers numbers;
+    for (double v : values) CORBA_SeqUtil::push_back(numbers, v);
+    return consumer.calculator_->sum(numbers);
+}
+
+} // namespace
+
+TEST_CASE("A consumer calls the provider of the same type and instance while it is active") {
+    Stage stage;
+    auto& provider = stage.create<CalculatorProvider>("CalculatorProvider");
+    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    CHECK_THROWS_AS(sum_of(consumer, {1}), CORBA::SystemException);
+    stage.connect("CalculatorConsumer0.calculator?port=CalculatorProvider0.calculator");
+    CHECK_THROWS_AS(sum_of(consumer, {1}), CORBA::OBJECT_NOT_EXIST);
+
+    stage.activate(provider);
+    CHECK(sum_of(consumer, {1, 2, 3.5}) == 6.5);
+    CORBA::Long rest = 0;
+    CHECK(consumer.calculator_->divide(17, 5, rest) == 3);
+    CHECK(rest == 2);
+    provider.deactivate(0);
+    CHECK_THROWS_AS(sum_of(consumer, {1}), CORBA::OBJECT_NOT_EXIST);
+    provider.activate(0);
+    CHECK(sum_of(consumer, {4}) == 4);
+
+    consumer.port_.disconnect_all();
+    CHECK(CORBA::is_nil(consumer.calculator_._ptr()));
+}
+
+TEST_CASE("A strict connection without a matching provider is refused, a lenient one is not") {
+    Stage stage;
+    stage.create<CalculatorConsumer>("CalculatorConsumer");
+    stage.create<CalculatorConsumer>("CalculatorConsumer");
+    CHECK_THROWS_WITH(stage.connect("CalculatorConsumer0.calculator?port=CalculatorConsumer1.calculator&port."
+                                    "connection.strictness=strict"),
+                      Catch::Contains("no provider for Testing::Calculator"));
+    CHECK_NOTHROW(stage.connect("CalculatorConsumer0.calculator?port=CalculatorConsumer1.calculator"));
+}
+
+namespace {
+
+/// Any interface, without generated code: what a bridge registers.
+class AnyServant : public PortableServer::DynamicImplementation {
+  public:
+    void invoke(CORBA::ServerRequest_ptr request) override {
+        operation = request->operation();
+        CORBA::ORB_ptr orb = RTC::Manager::instance().theORB();
+        CORBA::NVList_ptr list;
+        orb->create_list(0, list);
+        CORBA::Any numbers;
+        numbers.replace(Testing::_tc_Numbers, nullptr);
+        list->add_value("values", numbers, CORBA::ARG_IN);
+        request->arguments(list);
+        CORBA::Any result;
+        result <<= 99.0;
+        request->set_result(result);
+    }
+    char* _primary_interface(const PortableServer::ObjectId&, PortableServer::POA_ptr) override {
+        return CORBA::string_dup("IDL:Testing/Calculator:1.0");
+    }
+    const char* _mostDerivedRepoId() override { return "IDL:Testing/Calculator:1.0"; }
+    CORBA::Boolean _is_a(const char* id) override { return std::string(id) == "IDL:Testing/Calculator:1.0"; }
+    std::string operation;
+};
+
+} // namespace
+
+TEST_CASE("A provider may be a servant of an interface known at run time") {
+    Stage stage;
+    auto& provider = stage.create<Recorder>("Recorder");
+    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    AnyServant servant;
+    RTC::CorbaPort port("calculator");
+    REQUIRE(port.registerProvider("calc", "Testing::Calculator", servant));
+    CHECK_FALSE(port.registerProvider("calc", "Testing::Calculator", servant));
+    provider.addPort(port);
+    stage.connect("CalculatorConsumer0.calculator?port=Recorder0.calculator");
+    stage.activate(provider);
+    CHECK(sum_of(consumer, {1, 2}) == 99);
+    CHECK(servant.operation == "sum");
+    provider.deactivate(0);
+    provider.removePort(port);
+}
+
+TEST_CASE(
+    "An explicit mapping chooses the provider whatever its instance name and nil leaves the consumer empty") {
+    Stage stage;
+    auto& first = stage.create<CalculatorProvider>("CalculatorProvider");
+    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    Calculator other;
+    REQUIRE(first.port_.registerProvider("other", "Testing::Calculator", other));
+    stage.activate(first);
+    const std::string required = "CalculatorConsumer0.port.calculator.required.Testing::Calculator.calc";
+    const std::string provided = "CalculatorProvider0.port.calculator.provided.Testing::Calculator.other";
+    auto connect = [&](const std::string& to) {
+        RTC::ConnectorProfile profile;
+        profile.name = CORBA::string_dup("mapped");
+        profile.ports.length(2);
+        profile.ports[0] = first.port_.getPortRef();
+        profile.ports[1] = consumer.port_.getPortRef();
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(required.c_str(), to.c_str()));
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV("port.connection.strictness", "strict"));
+        return first.port_.connect(profile);
+    };
+    REQUIRE(connect(provided) == RTC::RTC_OK);
+    CHECK(sum_of(consumer, {1, 2}) == 3);
+    CHECK(other.calls() == 1);
+    consumer.port_.disconnect_all();
+    CHECK(CORBA::is_nil(consumer.calculator_._ptr()));
+    REQUIRE(connect("nil") == RTC::RTC_OK);
+    CHECK(CORBA::is_nil(consumer.calculator_._ptr()));
+    consumer.port_.disconnect_all();
+    first.deactivate(0);
+}

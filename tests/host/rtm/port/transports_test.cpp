@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interface types that libraries register: their consumers and providers carry the data, and nobody else.
+#include "tests/host/rtm/fixture.hpp"
+#include <map>
+#include <rtm/InPortConsumer.h>
+#include <rtm/InPortProvider.h>
+#include <rtm/OutPortConsumer.h>
+#include <rtm/OutPortProvider.h>
+
+using namespace testing;
+
+namespace {
+
+// The wire of this transport: who listens under an address.
+std::map<std::string, RTC::InPortConnector*> listening;
+std::map<std::string, std::function<RTC::BufferStatus(RTC::ByteData&)>> waiting;
+std::function<void(RTC::ByteData&)> received;
+int live_ends = 0;
+std::string settings_seen;
+
+struct Counted {
+    Counted() { ++live_ends; }
+    ~Counted() { --live_ends; }
+};
+
+struct PostIn : RTC::InPortProvider, Counted {
+    PostIn() { setInterfaceType("post"); }
+    ~PostIn() override { listening.erase("box"); }
+    void init(coil::Properties& prop) override { settings_seen = prop.getProperty("post.colour"); }
+    void setBuffer(RTC::BufferBase<RTC::ByteData>*) override {}
+    void setListener(RTC::ConnectorInfo& info, RTC::ConnectorListenersBase* listeners) override {
+        received = [told = info, listeners](RTC::ByteData& data) mutable {
+            listeners->notifyIn(RTC::ConnectorDataListenerType::ON_RECEIVED, told, data);
+        };
+    }
+    void setConnector(RTC::InPortConnector* connector) override {
+        listening["box"] = connector;
+        CORBA_SeqUtil::push_back(m_properties, NVUtil::newNV("dataport.post.address", "box"));
+    }
+};
+
+struct PostOut : RTC::InPortConsumer, Counted {
+    void init(coil::Properties&) override {}
+    RTC::DataPortStatus put(RTC::ByteData& data) override {
+        const auto found = listening.find(address);
+        if (found == listening.end()) return RTC::DataPortStatus::CONNECTION_LOST;
+        received(data);
+        return found->second->write(data) == RTC::BufferStatus::OK ? RTC::DataPortStatus::PORT_OK
+                                                                   : RTC::DataPortStatus::BUFFER_ERROR;
+    }
+    void publishInterfaceProfile(SDOPackage::NVList&) override {}
+    bool subscribeInterface(const SDOPackage::NVList& properties) override {
+        if (NVUtil::find_index(properties, "dataport.post.address") < 0) return false;
+        address = NVUtil::toString(properties, "dataport.post.address");
+        return true;
+    }
+    void unsubscribeInterface(const SDOPackage::NVList&) override { address.clear(); }
+    std::string address;
+};
+
+struct FetchOut : RTC::OutPortProvider, Counted {
+    FetchOut() { setInterfaceType("post"); }
+    ~FetchOut() override { waiting.erase("shelf"); }
+    void setBuffer(RTC::CdrBufferBase*) override {}
+    void setListener(RTC::ConnectorInfo& info, RTC::ConnectorListenersBase* listeners) override {
+        info_ = info;
+        listeners_ = listeners;
+    }
+    void setConnector(RTC::OutPortConnector* connector) override {
+        waiting["shelf"] = [this, connector](RTC::ByteData& data) {
+            const auto status = connector->read(data);
+            if (status == RTC::BufferStatus::OK)
+                listeners_->notifyOut(RTC::ConnectorDataListenerType::ON_SEND, info_, data);
+            return status;
+        };
+    }
+    RTC::ConnectorInfo info_;
+    RTC::ConnectorListenersBase* listeners_ = nullptr;
+};
+
+struct FetchIn : RTC::OutPortConsumer, Counted {
+    void init(coil::Properties&) override {}
+    void setBuffer(RTC::CdrBufferBase*) override {}
+    void setListener(RTC::ConnectorInfo&, RTC::ConnectorListenersBase*) override {}
+    RTC::DataPortStatus get(RTC::ByteData& data) override {
+        return waiting.at("shelf")(data) == RTC::BufferStatus::OK ? RTC::DataPortStatus::PORT_OK
+                                                                  : RTC::DataPortStatus::BUFFER_EMPTY;
+    }
+    bool subscribeInterface(const SDOPackage::NVList&) override { return waiting.count("shelf") == 1; }
+    void unsubscribeInterface(const SDOPackage::NVList&) override {}
+};
+
+struct Heard : RTC::ConnectorDataListenerT<RTC::TimedLong> {
+    USE_CONNLISTENER_STATUS;
+    explicit Heard(std::vector<int>& heard) : values(heard) {}
+    ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong& value) override {
+        values.push_back(static_cast<int>(value.data));
+        return NO_CHANGE;
+    }
+    std::vector<int>& values;
+};
+
+template <class Base, class Made>
+void add() {
+    coil::GlobalFactory<Base>::instance().addFactory("post", coil::Creator<Base, Made>,
+                                                     coil::Destructor<Base, Made>);
+}
+
+std::string interface_types(RTC::PortBase& port) {
+    RTC::PortProfile_var profile = port.get_port_profile();
+    return NVUtil::toString(profile->properties, "dataport.interface_type");
+}
+
+} // namespace
+
+TEST_CASE("a registered push transport carries the data of connections that ask for it") {
+    add<RTC::InPortProvider, PostIn>();
+    add<RTC::InPortConsumer, PostOut>();
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    auto& summer = stage.create<Summer>("Summer");
+    CHECK_THAT(interface_types(counter.out_), Catch::Contains("post"));
+    CHECK_THAT(interface_types(summer.in_), Catch::Contains("post"));
+    CHECK_THAT(interface_types(summer.in_), Catch::Contains("corba_cdr"));
+
+    stage.connect("Counter0.out?port=Summer0.in&interface_type=post&post.colour=red");
+    std::vector<int> heard;
+    summer.in_.addConnectorDataListener(RTC::ON_RECEIVED, new Heard(heard));
+    CHECK(settings_seen == "red");
+    CHECK(live_ends == 2);
+    stage.activate(counter);
+    stage.activate(summer);
+    for (int i = 0; i < 4; ++i) {
+        stage.step(counter);
+        stage.step(summer);
+    }
+    CHECK(summer.received_ == 4);
+    CHECK(summer.sum_ == 10);
+    CHECK(heard == std::vector<int>{1, 2, 3, 4}); // from the provider
+
+    listening.clear(); // nothing takes another way
+    stage.step(counter);
+    stage.step(summer);
+    CHECK(summer.received_ == 4);
+    counter.out_.disconnect_all();
+    CHECK(live_ends == 0);
+}
+
+TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
+    add<RTC::OutPortProvider, FetchOut>();
+    add<RTC::OutPortConsumer, FetchIn>();
+    Stage stage;
+    auto& counter = stage.create<Counter>("Counter");
+    auto& summer = stage.create<Summer>("Summer");
+    stage.connect("Counter0.out?port=Summer0.in&interface_type=post&dataflow_type=pull");
+    std::vector<int> sent;
+    counter.out_.addConnectorDataListener(RTC::ON_SEND, new Heard(sent));
+    stage.activate(counter);
+    for (int i = 0; i < 3; ++i) stage.step(counter);
+    for (int i = 0; i < 3; ++i) {
+        REQUIRE(summer.in_.read());
+        CHECK(summer.value_.data == i + 1);
+    }
+    CHECK(sent == std::vector<int>{1, 2, 3});
+    counter.out_.disconnect_all();
+    CHECK(live_ends == 0);
+}
+
+TEST_CASE("a transport of which one end is missing refuses the connection and says which") {
+    add<RTC::InPortConsumer, PostOut>();
+    Stage stage;
+    stage.create<Counter>("Counter");
+    stage.create<Summer>("Summer");
+    CHECK_THROWS_WITH(stage.connect("Counter0.out?port=Summer0.in&interface_type=post"),
+                      Catch::Contains("post has no InPortProvider"));
+    CHECK(live_ends == 0);
+}

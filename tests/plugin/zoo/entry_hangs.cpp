@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "entry.hpp"
-namespace {
-volatile bool forever = true;
-}
-ZOO_ENTRY {
-    while (forever) continue;
-    return ZOO_RESULT;
-}

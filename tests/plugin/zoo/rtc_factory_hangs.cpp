@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "rtc.hpp"
-#include <unistd.h>
-extern "C" void ZOO_INIT(RTC::Manager* manager) {
-    register_type(manager, "Waiter", [](RTC::Manager*) -> RTC::RTObject_impl* {
-        for (;;) pause();
-    });
-}

@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "entry.hpp"
-namespace {
-int* volatile nowhere = nullptr;
-struct Writer {
-    Writer() { *nowhere = 1; }
-} writer;
-} // namespace
-ZOO_ENTRY { return ZOO_RESULT; }

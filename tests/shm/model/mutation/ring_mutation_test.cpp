@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Would the model check of the ring notice? Every access of the shipping code is weakened or broken, one at a
+// time.
+#include "tests/shm/model/mutation/mutation_check.hpp"
+#include "tests/shm/model/scenarios/ring_scenarios.hpp"
+
+namespace tandem::shm::model {
+namespace {
+
+constexpr auto order = Damage::weaker_order, failure = Damage::weaker_failure, no_store = Damage::no_store;
+constexpr const char* consumer = "ring_consumer.hpp";
+constexpr const char* producer = "ring_producer.hpp";
+
+constexpr const char* second_line = "the compare-exchanges on the tail alone tell a torn copy: one that "
+                                    "succeeds has read the newest tail, and its "
+                                    "release and the writer's acquire order the copy before what overwrites "
+                                    "it. The order of each word says the same "
+                                    "once more, by happens-before only, and is free on x86-64";
+constexpr const char* hint = "only whether there is something; whoever reads looks again";
+constexpr const char* start = "before the first look at a record, which has an acquire of its own";
+
+const std::vector<Spared> spared{
+    {consumer, "A::copy_out(", order, {}, second_line},
+    {consumer, "std::uint64_t stamp = A::load(", order, {}, second_line},
+    {consumer, "stamp_ = A::load(", order, {}, second_line},
+    {producer, "A::copy_in(", order, {}, second_line},
+    {producer, "stamp, std::memory_order_release", order, {}, "the commit word behind it publishes both"},
+    {producer, "A::store(*ring_.cell(end), 0,", order, {}, "the commit word behind it publishes both"},
+    {consumer, "A::load(*ring_.cell(end), std::memory_order_acquire) != 0", order, {}, hint},
+    {consumer, "A::load(*ring_.cell(position_), std::memory_order_acquire) != 0", order, {}, hint},
+    {consumer,
+     "word = A::load(*ring_.cell(at), std::memory_order_acquire);",
+     order,
+     {},
+     "behind padding: the padding's word was stored after this one, and its load has acquired it"},
+    {consumer,
+     "Commit::of(A::load(*ring_.cell(tail)",
+     order,
+     {},
+     "the tail was acquired, and this word was stored before the tail came to it"},
+    {consumer, "tail.compare_exchange_strong(from, to,", order, Order::release,
+     "what was copied was acquired with the commit word"},
+    {consumer,
+     "tail.compare_exchange_strong(from, to,",
+     failure,
+     {},
+     "everything is read anew, with acquire"},
+    {consumer, "position_ = shared.tail.load(", order, {}, start},
+    {producer, "shared.head.load(", order, {}, "written by this side itself"},
+    {producer, "const bool dropped =", order, Order::release,
+     "the tail it finds was acquired when it was read"},
+    {producer, "shared.head.store(", order, {}, "for observers, and for the next writer of this side"},
+    {"futex.hpp", "word.store(0, std::memory_order_relaxed)", no_store, {}, "costs a needless wake-up only"},
+    {"futex.hpp", "word.exchange", no_store, {}, "costs needless wake-ups only"},
+    {"futex.hpp",
+     "word.exchange(0,",
+     order,
+     {},
+     "the load before it is the one that must not miss the sleeper"},
+};
+
+TEST_CASE("Each weakened order or removed step of the ring is caught or has a reason not to be") {
+    check_mutations(ring_cases(), spared, 150, 2000);
+}
+
+} // namespace
+} // namespace tandem::shm::model

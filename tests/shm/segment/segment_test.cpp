@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/shm/fixture.hpp"
+
+#include <fcntl.h>
+#include <grp.h>
+#include <sys/stat.h>
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+using Catch::Matchers::Contains;
+
+TEST_CASE("the first to join creates a file of mode 0600 and the last to leave removes it") {
+    Link link;
+    auto first = join(link, Side::first);
+    REQUIRE(link.files().size() == 1);
+    struct stat file {};
+    REQUIRE(stat(first->path().c_str(), &file) == 0);
+    CHECK((file.st_mode & 07777) == 0600);
+    CHECK(file.st_blocks * 512 >= file.st_size); // reserved in full
+    auto second = join(link, Side::second);
+    CHECK(second->generation() == first->generation());
+    first.reset();
+    CHECK(link.files().size() == 1);
+    second.reset();
+    CHECK(link.files().empty());
+}
+
+TEST_CASE("each side sees the other absent then alive then late then dead") {
+    Link link;
+    auto options = small();
+    options.late_after = 50ms;
+    auto first = join(link, Side::first, options);
+    CHECK(first->peer() == PeerState::absent);
+    auto second = join(link, Side::second, options);
+    second->heartbeat();
+    CHECK(first->peer() != PeerState::dead);
+    CHECK(eventually([&] {
+        second->heartbeat();
+        return first->peer() == PeerState::alive;
+    }));
+    CHECK(eventually([&] { return first->peer() == PeerState::late; }));
+    second.reset();
+    CHECK(first->peer() == PeerState::dead);
+}
+
+TEST_CASE("a side that is held by somebody alive is refused") {
+    Pair pair;
+    CHECK_THROWS_AS(join(pair.link, Side::first), SideTaken);
+    CHECK_THROWS_WITH(join(pair.link, Side::second), Contains("side second is held by a living process"));
+    CHECK(pair.link.files().size() == 1);
+}
+
+TEST_CASE("link names that could not be file names are refused") {
+    for (const auto* name : {"", "a/b", "..", "a.1", "a b", "\n"})
+        CHECK_THROWS_AS(Segment::join(name, Side::first), Error);
+    CHECK_THROWS_AS(Segment::join(std::string(65, 'x'), Side::first), Error);
+    CHECK_THROWS_AS(remove_dead("../x"), Error);
+}
+
+TEST_CASE("too little room in /dev/shm is an error that names needed and available bytes") {
+    Link link;
+    auto options = small(std::size_t{1} << 45);
+    CHECK_THROWS_WITH(join(link, Side::first, options),
+                      Contains("bytes needed") && Contains("available in /dev/shm"));
+    CHECK(link.files().empty());
+}
+
+TEST_CASE("another contract version is refused with both versions in the message") {
+    Link link;
+    auto options = small();
+    options.contract = 7;
+    auto first = join(link, Side::first, options);
+    options.contract = 8;
+    CHECK_THROWS_WITH(join(link, Side::second, options), Contains("version 7") && Contains("has 8"));
+}
+
+TEST_CASE("another layout version is refused with both versions in the message") {
+    Link link;
+    auto first = join(link, Side::first);
+    const std::uint32_t version = layout::layout_version + 41;
+    const FileDescriptor file(open(first->path().c_str(), O_RDWR | O_CLOEXEC));
+    REQUIRE(pwrite(file.get(), &version, sizeof version, offsetof(layout::SegmentHeader, layout_version)) ==
+            4);
+    CHECK_THROWS_WITH(join(link, Side::second),
+                      Contains("layout version " + std::to_string(version)) &&
+                          Contains("has " + std::to_string(layout::layout_version)));
+}
+
+TEST_CASE("a segment of another mode is refused while somebody lives in it") {
+    Link link;
+    auto first = join(link, Side::first);
+    REQUIRE(chmod(first->path().c_str(), 0666) == 0);
+    CHECK_THROWS_WITH(join(link, Side::second),
+                      Contains("mode 0666") && Contains("expected") && Contains("0600"));
+}
+
+TEST_CASE("a segment of another owner is refused and left alone") {
+    if (geteuid() != 0) return; // only root can give files away
+    Link link;
+    const std::string path = segment_path(link.name, 3);
+    const FileDescriptor file(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600));
+    REQUIRE(fchown(file.get(), 12345, 12345) == 0);
+    CHECK_THROWS_WITH(join(link, Side::first), Contains("owner 12345"));
+    remove_dead(link.name);
+    CHECK(link.files().size() == 1);
+}
+
+TEST_CASE("a named group gets mode 0660 and an unknown group is refused") {
+    Link link;
+    auto options = small();
+    options.group = "no-such-group-here";
+    CHECK_THROWS_WITH(join(link, Side::first, options), Contains("no-such-group-here"));
+    if (geteuid() != 0) return; // the rest needs a group this user is a member of; root may name any
+    options.group = "daemon";
+    auto first = join(link, Side::first, options);
+    struct stat file {};
+    REQUIRE(stat(first->path().c_str(), &file) == 0);
+    CHECK((file.st_mode & 07777) == 0660);
+    CHECK(join(link, Side::second, options)->generation() == first->generation());
+}
+
+TEST_CASE("a group that this process is not in is refused and nothing is left behind") {
+    Link link;
+    Child outsider([&] {
+        if (geteuid() == 0 && (setgroups(0, nullptr) != 0 || setgid(65534) != 0 || setuid(65534) != 0))
+            return 1;
+        JoinOptions options = small();
+        options.group = "root";
+        try {
+            join(link, Side::first, options);
+        } catch (const Error& refused) {
+            return std::string(refused.what()).find("cannot be given to group 0 (") != std::string::npos ? 42
+                                                                                                         : 2;
+        }
+        return 3;
+    });
+    CHECK(outsider.wait() == 42);
+    CHECK(link.files().empty());
+}
+
+TEST_CASE("more than the address space holds is refused in one line and nothing is left behind") {
+    Link link;
+    JoinOptions options = small();
+    options.sparse = true; // so that it is not the memory which is missing
+    options.loan_bytes = std::size_t{1} << 50;
+    CHECK_THROWS_WITH(join(link, Side::first, options),
+                      Contains(link.name) && Contains("bytes cannot be mapped"));
+    CHECK(link.files().empty());
+}
+
+TEST_CASE("a symbolic link or a directory under a segment name is refused") {
+    Link link;
+    const std::string path = segment_path(link.name, 1);
+    REQUIRE(symlink("/etc/passwd", path.c_str()) == 0);
+    CHECK_THROWS_AS(join(link, Side::first), Error);
+    std::filesystem::remove(path);
+    std::filesystem::create_directory(path);
+    CHECK_THROWS_AS(join(link, Side::first), Error);
+}
+
+TEST_CASE("garbage under a segment name is cleared away when nobody lives in it") {
+    Link link;
+    const FileDescriptor file(open(segment_path(link.name, 4).c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600));
+    auto first = join(link, Side::first);
+    CHECK(link.files().size() == 1);
+    CHECK(link.files()[0] == first->path());
+}
+
+TEST_CASE("a side that has left may be taken again while old objects still use the memory") {
+    Pair pair;
+    RingWriter writer(pair.first->add_ring("r", {}));
+    pair.first->leave();
+    CHECK(pair.second->peer() == PeerState::dead);
+    auto again = join(pair.link, Side::first);
+    CHECK(again->generation() == pair.second->generation() + 1);
+    CHECK(writer.write(bytes_of("into the void"), 0, 0));
+    pair.first->leave();
+    pair.second->leave();
+    CHECK(pair.link.files().size() == 1);
+}
+
+TEST_CASE("a fork()ed child that destroys its copy of a segment does not end its parent's life") {
+    Pair pair;
+    Child child([&] {
+        pair.first.reset();
+        return 0;
+    });
+    CHECK(child.wait() == 0);
+    CHECK(pair.second->peer() != PeerState::dead);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Segments whose chunks take memory when they are first used.
+#include "tests/shm/fixture.hpp"
+
+#include <sys/stat.h>
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+
+namespace {
+
+constexpr std::size_t mib = std::size_t{1} << 20, large = 4 * mib;
+constexpr std::uint32_t chunks = 4;
+
+JoinOptions sparse(std::size_t loan_bytes) {
+    JoinOptions options = small();
+    options.loan_bytes = loan_bytes;
+    options.sparse = true;
+    return options;
+}
+
+/// The first side has room for loans, as a half that knows its ports; the second asks for none.
+struct SparsePair {
+    SparsePair()
+        : first(join(link, Side::first, sparse(chunks * large + mib))),
+          second(join(link, Side::second, sparse(0))),
+          writer(first->add_ring("r", {.max_record = 1000, .chunk_bytes = large, .chunks = chunks})),
+          reader((first->publish(), *second->find_ring(Side::first, "r"))) {}
+    std::uint64_t memory() const {
+        struct stat file {};
+        REQUIRE(stat(first->path().c_str(), &file) == 0);
+        return static_cast<std::uint64_t>(file.st_blocks) * 512;
+    }
+    Link link;
+    std::unique_ptr<Segment> first, second;
+    RingWriter writer;
+    RingReader reader;
+};
+
+} // namespace
+
+TEST_CASE("a sparse segment takes memory for what is in it and for the chunks that are used") {
+    SparsePair pair;
+    const std::uint64_t without = pair.memory();
+    CHECK(without < layout::arenas_begin + mib); // the ring of 256 KiB, and no chunk
+    const std::string image(mib + 1, 'i');
+    REQUIRE(pair.writer.write(bytes_of(image), 0, 0));
+    CHECK(pair.memory() - without >= image.size());
+    CHECK(pair.memory() - without <= 2 * mib + layout::page); // of one chunk, as much as is needed
+    CHECK(text_of(pair.reader.read()->bytes) == image);
+    for (int i = 0; i < 20; ++i) {
+        REQUIRE(pair.writer.write(bytes_of(image), 0, 0));
+        REQUIRE(pair.reader.read());
+    }
+    const std::uint64_t warm = pair.memory();
+    CHECK(warm - without <= chunks * (2 * mib + layout::page));
+    for (int i = 0; i < 20; ++i) pair.writer.write(bytes_of(image), 0, 0);
+    CHECK(pair.memory() == warm);
+    const auto c = pair.writer.counters();
+    CHECK(c.refused == 0);
+    CHECK(c.sent == 41);
+    CHECK(c.received == 21);
+    CHECK(c.waiting() <= chunks);
+}
+
+TEST_CASE("payloads that grow in a chunk of a sparse segment stay whole") {
+    SparsePair pair;
+    for (std::size_t bytes = 2000; bytes <= large; bytes = bytes * 3 / 2) {
+        const std::string text(bytes, static_cast<char>('a' + bytes % 26));
+        REQUIRE(pair.writer.write(bytes_of(text), 0, 0));
+        const auto record = pair.reader.read();
+        REQUIRE(record);
+        CHECK(text_of(record->bytes) == text);
+    }
+}
+
+TEST_CASE("a side that comes to or back to a sparse segment gives no memory to what has none") {
+    SparsePair pair;
+    const std::uint64_t before = pair.memory();
+    CHECK(pair.second->generation() == pair.first->generation());
+    pair.second.reset();
+    // Its side was taken before, so it makes the next generation, which has room for what the first side
+    // wants.
+    const auto again = join(pair.link, Side::second, sparse(0));
+    struct stat file {};
+    REQUIRE(stat(again->path().c_str(), &file) == 0);
+    CHECK(static_cast<std::size_t>(file.st_size) > chunks * large);
+    CHECK(static_cast<std::uint64_t>(file.st_blocks) * 512 <= before);
+}
+
+TEST_CASE("a side that wants more room for loans than there is makes the next generation") {
+    Link link;
+    const auto first = join(link, Side::first, sparse(0));
+    const auto second = join(link, Side::second, sparse(chunks * large + mib));
+    CHECK(second->generation() == first->generation() + 1);
+    CHECK(first->superseded());
+    CHECK_NOTHROW(second->add_ring("r", {.max_record = 1000, .chunk_bytes = large, .chunks = chunks}));
+}

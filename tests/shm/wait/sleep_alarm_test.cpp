@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/shm/fixture.hpp"
+
+#include "shm/os/sleep_alarm.hpp"
+
+#include <csignal>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+using namespace tandem::shm;
+using namespace tandem::shm::test;
+
+namespace {
+
+/// Sleeps out a whole wait on a word that nobody wakes. In nanoseconds, what it took.
+std::uint64_t sleep_out(std::chrono::nanoseconds bound) {
+    std::atomic<std::uint32_t> word{1};
+    const std::uint64_t start = now_ns();
+    BoundedSleep sleep(bound);
+    while (sleep.on(word, 1)) {
+    }
+    return now_ns() - start;
+}
+
+constexpr std::uint64_t coarse_tick = 10'000'000; // of the coarse clock, at 100 Hz
+
+} // namespace
+
+TEST_CASE("a sleep without a timer of its own ends at its bound and not before") {
+    for (const auto bound : {15ms, 25ms, 60ms})
+        CHECK(sleep_out(bound) + coarse_tick >= static_cast<std::uint64_t>(bound.count()) * 1'000'000);
+}
+
+TEST_CASE("a short sleep ends while a long one that began before goes on") {
+    std::atomic<std::uint32_t> word{1};
+    std::atomic<bool> ended{false};
+    std::thread sleeper([&] {
+        while (word == 1) futex_wait(word, 1, deadline_after(1h));
+        ended = true;
+    });
+    std::this_thread::sleep_for(20ms); // most likely it sleeps by now
+    sleep_out(15ms);
+    sleep_out(30ms);
+    CHECK_FALSE(ended);
+    word = 0;
+    futex_wake(word, 1);
+    sleeper.join();
+    CHECK(ended);
+}
+
+TEST_CASE("sleepers beyond the slots of the alarm set timers of their own and all end") {
+    std::vector<std::thread> sleepers;
+    std::atomic<int> ended{0};
+    for (int i = 0; i < 150; ++i)
+        sleepers.emplace_back([&, i] {
+            sleep_out(std::chrono::milliseconds(10 + i % 40));
+            ++ended;
+        });
+    for (auto& sleeper : sleepers) sleeper.join();
+    CHECK(ended == 150);
+}
+
+TEST_CASE("sleepers that come and go under the alarm all end") {
+    std::vector<std::thread> sleepers;
+    std::atomic<int> sleeps{0};
+    for (int i = 0; i < 6; ++i)
+        sleepers.emplace_back([&, i] {
+            for (int turn = 0; turn < 15; ++turn, ++sleeps)
+                sleep_out(std::chrono::microseconds(10'000 + 377 * ((i + turn) % 11)));
+        });
+    for (auto& sleeper : sleepers) sleeper.join();
+    CHECK(sleeps == 90);
+}
+
+TEST_CASE("a sleep ends at its bound though the file behind its word was truncated meanwhile") {
+    const int file = memfd_create("word", MFD_CLOEXEC);
+    REQUIRE(ftruncate(file, 4096) == 0);
+    void* const page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    REQUIRE(page != MAP_FAILED);
+    auto& word = *new (page) std::atomic<std::uint32_t>(1);
+    std::atomic<bool> ended{false};
+    std::thread sleeper([&] {
+        futex_wait(word, 1, deadline_after(200ms));
+        ended = true;
+    });
+    std::this_thread::sleep_for(20ms); // most likely it sleeps by now
+    CHECK(ftruncate(file, 0) == 0);
+    CHECK(eventually([&] { return ended.load(); }));
+    sleeper.join();
+    munmap(page, 4096);
+    close(file);
+}
+
+TEST_CASE("a thread that has blocked all signals sleeps no longer than its bound") {
+    std::atomic<bool> ended{false};
+    std::atomic<std::uint32_t> word{1};
+    std::thread sleeper([&] {
+        sleep_out(15ms); // the alarm knows the thread
+        sigset_t all;
+        sigfillset(&all);
+        pthread_sigmask(SIG_SETMASK, &all, nullptr);
+        futex_wait(word, 1, deadline_after(30ms));
+        ended = true;
+    });
+    CHECK(eventually([&] { return ended.load(); }, 5s));
+    word = 0; // if it has failed
+    futex_wake(word, 1);
+    sleeper.join();
+}
+
+#ifndef __SANITIZE_THREAD__ // which lets no forked child start a thread
+TEST_CASE("a forked child has an alarm of its own") {
+    sleep_out(15ms); // the parent's runs
+    const pid_t child = fork();
+    if (child == 0) {
+        sleep_out(15ms);
+        _exit(7);
+    }
+    REQUIRE(child > 0);
+    int status = 0;
+    REQUIRE(eventually([&] { return waitpid(child, &status, WNOHANG) == child; }));
+    CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 7));
+}
+#endif
