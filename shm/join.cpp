@@ -11,9 +11,9 @@
 // One of the two lists is later than both names. Its owner sees both files: if the other is newer, it gives
 // up its own; if the other is older, it marks that one superseded, and its holder leaves and joins again.
 #include "shm/os/clock.hpp"
-#include "shm/segment/liveness.hpp"
-#include "shm/segment.hpp"
 #include "shm/os/shared_copy.hpp"
+#include "shm/segment.hpp"
+#include "shm/segment/liveness.hpp"
 
 namespace tandem::shm {
 

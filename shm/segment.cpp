@@ -2,8 +2,8 @@
 #include "shm/segment.hpp"
 
 #include "shm/os/clock.hpp"
-#include "shm/segment/liveness.hpp"
 #include "shm/os/shared_copy.hpp"
+#include "shm/segment/liveness.hpp"
 
 namespace tandem::shm {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "shm/call/call_queue.hpp"
-#include "shm/segment/directory.hpp"
-#include "shm/wait/doorbell.hpp"
 #include "shm/os/error.hpp"
 #include "shm/ring/ring.hpp"
+#include "shm/segment/directory.hpp"
 #include "shm/segment/segment_file.hpp"
+#include "shm/wait/doorbell.hpp"
 
 namespace tandem::shm {
 

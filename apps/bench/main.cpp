@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/options.hpp"
 #include "apps/bench/report/compare.hpp"
 #include "apps/bench/report/html.hpp"
-#include "apps/bench/options.hpp"
 #include "apps/bench/report/table.hpp"
 
 #include <fmt/format.h>

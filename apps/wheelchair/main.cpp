@@ -7,8 +7,8 @@
 #include <exception>
 #include <filesystem>
 
-#include "apps/wheelchair/report/figure.hpp"
 #include "apps/wheelchair/options.hpp"
+#include "apps/wheelchair/report/figure.hpp"
 #include "apps/wheelchair/report/report.hpp"
 #include "apps/wheelchair/run/supervisor.hpp"
 

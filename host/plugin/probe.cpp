@@ -78,8 +78,8 @@ std::string probe(const Probe& how, const std::string& task, const std::filesyst
     try {
         end = run_bounded(command, how.bound);
     } catch (const std::system_error& error) {
-        throw Error(Reason::failed_probe,
-                    how.subject + " " + library.string() + " cannot be tried in a child process: " + error.what());
+        throw Error(Reason::failed_probe, how.subject + " " + library.string() +
+                                              " cannot be tried in a child process: " + error.what());
     }
     const Report report = read_report(end.report);
     if (report.done && !end.timed_out) return report.result;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call/call_client.hpp"
 
-#include "shm/wait/adaptive_spin.hpp"
 #include "shm/call/call_caller.hpp"
 #include "shm/os/error.hpp"
 #include "shm/os/recent_clock.hpp"
+#include "shm/wait/adaptive_spin.hpp"
 
 namespace tandem::shm {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call/call_server.hpp"
 
-#include "shm/os/error.hpp"
 #include "shm/call/incoming_call.hpp"
+#include "shm/os/error.hpp"
 
 namespace tandem::shm {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inside of the serving end; users include call_server.hpp.
 #pragma once
-#include "shm/wait/adaptive_spin.hpp"
 #include "shm/call/call_server.hpp"
 #include "shm/call/call_worker.hpp"
+#include "shm/wait/adaptive_spin.hpp"
 
 namespace tandem::shm {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/inspect/observer.hpp"
 
+#include "shm/inspect/quiet_file.hpp"
 #include "shm/os/clock.hpp"
 #include "shm/os/error.hpp"
 #include "shm/segment/liveness.hpp"
-#include "shm/inspect/quiet_file.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -2,9 +2,9 @@
 // Messages from one thread of one side to one thread of the other: variable length, in order, never blocking
 // unless asked to. Always, for every policy: sent = received + dropped + waiting (RingCounters).
 #pragma once
-#include "shm/segment/mapping.hpp"
 #include "shm/ring/ring_consumer.hpp"
 #include "shm/ring/ring_producer.hpp"
+#include "shm/segment/mapping.hpp"
 
 #include <memory>
 

@@ -2,8 +2,8 @@
 #include "shm/segment/directory.hpp"
 
 #include "shm/os/error.hpp"
-#include "shm/segment/segment_file.hpp"
 #include "shm/os/shared_copy.hpp"
+#include "shm/segment/segment_file.hpp"
 
 namespace tandem::shm {
 

@@ -2,8 +2,8 @@
 // Inside of Doorbell: what both sides do with its words; a template over the atomics policy, so that what
 // ships is what tests/shm/model runs.
 #pragma once
-#include "shm/wait/adaptive_spin.hpp"
 #include "shm/os/futex.hpp"
+#include "shm/wait/adaptive_spin.hpp"
 #include "shm/wait/ready_bits.hpp"
 
 namespace tandem::shm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "shm/wait/basic_doorbell.hpp"
 #include "shm/segment/mapping.hpp"
+#include "shm/wait/basic_doorbell.hpp"
 
 #include <memory>
 

@@ -4,8 +4,8 @@
 // in one thread, so every finding can be repeated.
 #pragma once
 #include "shm/os/futex.hpp"
-#include "shm/segment/layout.hpp"
 #include "shm/ring/ring_view.hpp"
+#include "shm/segment/layout.hpp"
 
 #include <span>
 

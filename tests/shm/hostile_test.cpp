@@ -212,7 +212,8 @@ TEST_CASE("a submitted call whose slot is damaged is taken within bounds or not 
 }
 
 TEST_CASE("while a stranger scribbles over everything nothing crashes hangs or leaves its bounds") {
-#if defined(__SANITIZE_THREAD__) // lossless payloads are written in place, by plain stores: the stranger
+#if defined(                                                                                                 \
+    __SANITIZE_THREAD__) // lossless payloads are written in place, by plain stores: the stranger    \
                                  // races with them
     const auto policy = GENERATE(RingPolicy::drop_oldest, RingPolicy::latest_only);
 #else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The minimal ring: 64-byte slots, one way, in pairs for calls, and as fast as it goes.
-#include "apps/bench/harness/cases.hpp"
 #include "apps/bench/baseline/index_ring.hpp"
+#include "apps/bench/harness/cases.hpp"
 
 #include <cstring>
 

@@ -52,7 +52,8 @@ class TickRecord {
     const std::vector<std::int64_t>& lateness_ns() const { return lateness_ns_; }
     /// From the first tick to the last, in ns more or less than so many whole periods.
     double mean_drift_ns() const {
-        const std::int64_t periods = (last_ns_ - origin_ns_) / period_ns_ - (first_ns_ - origin_ns_) / period_ns_;
+        const std::int64_t periods =
+            (last_ns_ - origin_ns_) / period_ns_ - (first_ns_ - origin_ns_) / period_ns_;
         if (periods == 0) return 0;
         return static_cast<double>(last_ns_ - first_ns_) / static_cast<double>(periods) -
                static_cast<double>(period_ns_);

@@ -55,7 +55,8 @@ void write_rtm(const Session& session, const fs::path& folder) {
 std::vector<std::string> command(const Session& session, const fs::path& folder) {
     const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
     if (session.is_a())
-        return {(programs / "opros_host").string(), (folder / "app.xml").string(), "--strict", "--parent-death"};
+        return {(programs / "opros_host").string(), (folder / "app.xml").string(), "--strict",
+                "--parent-death"};
     return {(programs / "rtm_host").string(), "-f", (folder / "rtc.conf").string(), "--parent-death"};
 }
 

@@ -2,10 +2,10 @@
 // What OPRoS components of one process cost each other: pushes, calls, events, and a 1 ms period, as the
 // engine connects and runs them. Each has a minimal hand-written counterpart in floor_loop.cpp.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/tandem/opros/BenchParts.hpp"
 #include "apps/bench/harness/regime.hpp"
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/harness/time_each.hpp"
+#include "apps/bench/tandem/opros/BenchParts.hpp"
 
 #include "host/opros/engine/application.hpp"
 #include "host/rt/periodic_tick.hpp"

@@ -4,8 +4,8 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/type_faults.hpp"
 #include "apps/tandem/text.hpp"
-#include "host/opros/engine/profile/composite.hpp"
 #include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/profile/composite.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 
 #include <fmt/format.h>

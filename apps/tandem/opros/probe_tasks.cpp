@@ -2,10 +2,10 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 
 #include "apps/tandem/opros/description.hpp"
-#include "host/opros/engine/execute/component_host.hpp"
-#include "host/opros/engine/profile/composite.hpp"
 #include "host/opros/engine/connect/connect.hpp"
+#include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/profile/composite.hpp"
 
 #include <algorithm>
 #include <chrono>

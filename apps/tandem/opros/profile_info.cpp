@@ -4,8 +4,8 @@
 #include "apps/tandem/opros/ports_text.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/text.hpp"
-#include "host/opros/engine/profile/composite.hpp"
 #include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/profile/composite.hpp"
 #include "host/opros/engine/profile/type_profile.hpp"
 
 #include <fmt/format.h>

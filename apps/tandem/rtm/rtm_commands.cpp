@@ -47,7 +47,8 @@ void add_build(CLI::App& rtm, Run& chosen) {
 } // namespace
 
 void add_rtm(CLI::App& tandem, Run& chosen) {
-    CLI::App* rtm = tandem.add_subcommand("rtm", "RT-Components: make and build them, look at and control those that run");
+    CLI::App* rtm = tandem.add_subcommand(
+        "rtm", "RT-Components: make and build them, look at and control those that run");
     rtm->require_subcommand(1);
     add_new(*rtm, chosen);
     add_build(*rtm, chosen);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/wheelchair/report/acceptance.hpp"
 #include "apps/wheelchair/options.hpp"
+#include "apps/wheelchair/report/acceptance.hpp"
 #include "apps/wheelchair/run/run.hpp"
 
 namespace tandem::wheelchair {

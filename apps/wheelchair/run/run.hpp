@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/wheelchair/run/incident.hpp"
-#include "apps/wheelchair/report/latency.hpp"
 #include "apps/wheelchair/options.hpp"
+#include "apps/wheelchair/report/latency.hpp"
+#include "apps/wheelchair/run/incident.hpp"
 #include "plugins/wheelchair/core/record/rows.hpp"
 
 namespace tandem::wheelchair {

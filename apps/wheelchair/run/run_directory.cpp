@@ -132,7 +132,8 @@ RunDirectory::RunDirectory(const Options& options, Configuration configuration, 
     for (const char* part : {"trace", "log"}) fs::create_directories(path() / part);
     if (!opros_members(configuration).empty()) {
         write_opros(options, configuration);
-        add_host(options, "opros_host", programs, {(path() / "opros" / "wheelchair.xml").string(), "--strict"});
+        add_host(options, "opros_host", programs,
+                 {(path() / "opros" / "wheelchair.xml").string(), "--strict"});
     }
     if (!rtm_members(configuration).empty()) {
         write_rtm(options, configuration);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/application.hpp"
 
+#include "host/opros/engine/connect/connect.hpp"
 #include "host/opros/engine/execute/bounded.hpp"
 #include "host/opros/engine/profile/composite.hpp"
-#include "host/opros/engine/connect/connect.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // An OPRoS application in this process, from its profile to its orderly end.
 #pragma once
 
+#include "host/opros/engine/connect/link.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/executor.hpp"
-#include "host/opros/engine/connect/link.hpp"
 #include "host/opros/engine/execute/worker_pool.hpp"
 #include "host/rt/step_server.hpp"
 

@@ -10,9 +10,18 @@ namespace opros {
 namespace boost_names {
 
 typedef ::opros_any any;
-template <typename T> T* unsafe_any_cast(any* operand) { return unsafe_opros_any_cast<T>(operand); }
-template <typename T> T* any_cast(any* operand) { return opros_any_cast<T>(operand); }
-template <typename T> T any_cast(any& operand) { return opros_any_cast<T>(operand); }
+template <typename T>
+T* unsafe_any_cast(any* operand) {
+    return unsafe_opros_any_cast<T>(operand);
+}
+template <typename T>
+T* any_cast(any* operand) {
+    return opros_any_cast<T>(operand);
+}
+template <typename T>
+T any_cast(any& operand) {
+    return opros_any_cast<T>(operand);
+}
 
 } // namespace boost_names
 } // namespace opros

@@ -23,15 +23,21 @@ namespace opros {
 namespace detail {
 
 // The four forms a handler may have.
-template <typename T, typename Call> void handle(Event* event, Call call, void (*)(Event*)) { call(event); }
-template <typename T, typename Call> void handle(Event* event, Call call, void (*)(EventData<T>*)) {
+template <typename T, typename Call>
+void handle(Event* event, Call call, void (*)(Event*)) {
+    call(event);
+}
+template <typename T, typename Call>
+void handle(Event* event, Call call, void (*)(EventData<T>*)) {
     call(static_cast<EventData<T>*>(event));
 }
 template <typename T, typename Call>
 void handle(Event* event, Call call, void (*)(const std::string&, const T&)) {
-    if (const T* content = static_cast<EventData<T>*>(event)->getContentData()) call(event->getId(), *content);
+    if (const T* content = static_cast<EventData<T>*>(event)->getContentData())
+        call(event->getId(), *content);
 }
-template <typename T, typename Call> void handle(Event* event, Call call, void (*)(const T&)) {
+template <typename T, typename Call>
+void handle(Event* event, Call call, void (*)(const T&)) {
     if (const T* content = static_cast<EventData<T>*>(event)->getContentData()) call(*content);
 }
 
@@ -40,7 +46,8 @@ struct event_relay {
     ReturnType push(Event* event) { return callback.onEvent(event); }
 };
 
-template <typename T> class typed_callback : public EventCallBack {
+template <typename T>
+class typed_callback : public EventCallBack {
   public:
     virtual ReturnType onEvent(archive::iarchive& in) {
         event_relay relay = {*this};
@@ -49,7 +56,8 @@ template <typename T> class typed_callback : public EventCallBack {
     virtual ReturnType onEvent(Event* p) = 0;
 };
 
-template <typename T, typename C, typename... P> class member_callback : public typed_callback<T> {
+template <typename T, typename C, typename... P>
+class member_callback : public typed_callback<T> {
   public:
     member_callback(void (C::*function)(P...), C* object) : m_call{function, object} {}
     virtual ReturnType onEvent(Event* p) {
@@ -68,7 +76,8 @@ template <typename T, typename C, typename... P> class member_callback : public 
     call m_call;
 };
 
-template <typename T, typename... P> class function_callback : public typed_callback<T> {
+template <typename T, typename... P>
+class function_callback : public typed_callback<T> {
   public:
     explicit function_callback(void (*function)(P...)) : m_function(function) {}
     virtual ReturnType onEvent(Event* p) {
@@ -87,14 +96,16 @@ template <typename T, typename C, typename... P>
 EventCallBack* make_EventCallBack(void (C::*function)(P...), C* object) {
     return new opros::detail::member_callback<T, C, P...>(function, object);
 }
-template <typename T, typename... P> EventCallBack* make_EventCallBack(void (*function)(P...)) {
+template <typename T, typename... P>
+EventCallBack* make_EventCallBack(void (*function)(P...)) {
     return new opros::detail::function_callback<T, P...>(function);
 }
 
 namespace opros {
 namespace detail {
 
-template <typename T> class owned_callback : public typed_callback<T> {
+template <typename T>
+class owned_callback : public typed_callback<T> {
   public:
     explicit owned_callback(EventCallBack* call) : m_call(call) {}
     using typed_callback<T>::onEvent;
@@ -108,13 +119,15 @@ template <typename T> class owned_callback : public typed_callback<T> {
 } // namespace opros
 
 /// For InputEventPort::setOwner(): a member function of C, or without C a function.
-template <typename T, typename C> class EventCallBackMethod : public opros::detail::owned_callback<T> {
+template <typename T, typename C>
+class EventCallBackMethod : public opros::detail::owned_callback<T> {
   public:
     template <typename... P>
     EventCallBackMethod(void (C::*function)(P...), C* object)
         : opros::detail::owned_callback<T>(make_EventCallBack<T>(function, object)) {}
 };
-template <typename T> class EventCallBackMethod<T, void> : public opros::detail::owned_callback<T> {
+template <typename T>
+class EventCallBackMethod<T, void> : public opros::detail::owned_callback<T> {
   public:
     template <typename... P>
     explicit EventCallBackMethod(void (*function)(P...))

@@ -9,8 +9,10 @@
 namespace opros {
 namespace detail {
 
-template <typename T, bool serializable = archive::is_serializable<T>::value> struct event_codec {
-    template <typename Port> static ReturnType push(Port& port, archive::iarchive& in) {
+template <typename T, bool serializable = archive::is_serializable<T>::value>
+struct event_codec {
+    template <typename Port>
+    static ReturnType push(Port& port, archive::iarchive& in) {
         EventData<T> event;
         in >> event;
         return port.push(&event);
@@ -24,8 +26,12 @@ template <typename T, bool serializable = archive::is_serializable<T>::value> st
         return OPROS_SUCCESS;
     }
 };
-template <typename T> struct event_codec<T, false> {
-    template <typename Port> static ReturnType push(Port&, archive::iarchive&) { return OPROS_UNSUPPORTED_METHOD; }
+template <typename T>
+struct event_codec<T, false> {
+    template <typename Port>
+    static ReturnType push(Port&, archive::iarchive&) {
+        return OPROS_UNSUPPORTED_METHOD;
+    }
     static ReturnType marshal(ArchiveFactory&, Event*, std::string&) { return OPROS_UNSUPPORTED_METHOD; }
 };
 

@@ -8,7 +8,8 @@
 #include <ostream>
 
 /// An event with a content of one type.
-template <typename dataType> class EventData : public Event {
+template <typename dataType>
+class EventData : public Event {
   public:
     virtual bool checkContentType(opros_any& data) { return data.holds<dataType>(); }
     /// NULL when no content has been set.
@@ -43,6 +44,9 @@ void load_this(opros::archive::iarchive& ar, EventData<T>& t) {
     ar >> content;
     t.setContentData(content);
 }
-template <class T> std::string typeName(EventData<T>*) { return "EventData<" + getTypeName<T>() + ">"; }
+template <class T>
+std::string typeName(EventData<T>*) {
+    return "EventData<" + getTypeName<T>() + ">";
+}
 
 #endif

@@ -6,7 +6,8 @@
 
 #include <typeinfo>
 
-template <typename dataType> class InputDataPort : public InputDataPortInterface {
+template <typename dataType>
+class InputDataPort : public InputDataPortInterface {
   public:
     InputDataPort() {}
     InputDataPort(DataPortPolicy data_policy, unsigned int queue_limit)
@@ -37,7 +38,8 @@ template <typename dataType> class InputDataPort : public InputDataPortInterface
     }
     virtual ReturnType pushData(unsigned char* data, int size) {
         if (!m_arc) return OPROS_UNSUPPORTED_METHOD;
-        std::stringstream bytes(std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)));
+        std::stringstream bytes(
+            std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)));
         opros::archive::iarchive* archive = m_arc->getInputArchive(&bytes);
         const ReturnType result = push(*archive);
         m_arc->release(archive);

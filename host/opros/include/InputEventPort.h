@@ -7,9 +7,11 @@
 #include <EventData.h>
 #include <InputEventPortInterface.h>
 
-template <typename dataType, int ModType = EVENT_OPROS> class InputEventPort {};
+template <typename dataType, int ModType = EVENT_OPROS>
+class InputEventPort {};
 
-template <typename dataType> class InputEventPort<dataType, EVENT_OPROS> : public InputEventPortInterface {
+template <typename dataType>
+class InputEventPort<dataType, EVENT_OPROS> : public InputEventPortInterface {
   public:
     InputEventPort() {}
     InputEventPort(const std::string& name) : InputEventPortInterface(name) {}

@@ -27,7 +27,8 @@ class opros_any {
     };
 
     opros_any() : content(0) {}
-    template <typename dataType> opros_any(const dataType& value) : content(new holder<dataType>(value)) {}
+    template <typename dataType>
+    opros_any(const dataType& value) : content(new holder<dataType>(value)) {}
     opros_any(const opros_any& other) : content(other.content ? other.content->clone() : 0) {}
     virtual ~opros_any() { delete content; }
 
@@ -35,7 +36,8 @@ class opros_any {
         std::swap(content, other.content);
         return *this;
     }
-    template <typename dataType> opros_any& operator=(const dataType& value) {
+    template <typename dataType>
+    opros_any& operator=(const dataType& value) {
         opros_any(value).swap(*this);
         return *this;
     }
@@ -63,17 +65,20 @@ class opros_any {
     }
 
     /// Whether it holds a dataType: the same C++ type, or one of the same name on ports.
-    template <typename dataType> bool holds() const {
+    template <typename dataType>
+    bool holds() const {
         if (!content) return false;
         return content->rtti() == typeid(dataType) || content->type() == getTypeName<dataType>();
     }
 
   protected:
-    template <typename dataType> class holder;
+    template <typename dataType>
+    class holder;
     explicit opros_any(holder_base* taken, int) : content(taken) {}
     holder_base* content;
 
-    template <typename dataType> friend dataType* unsafe_opros_any_cast(opros_any*);
+    template <typename dataType>
+    friend dataType* unsafe_opros_any_cast(opros_any*);
     friend class opros_any_view;
 };
 
@@ -81,17 +86,20 @@ namespace opros {
 namespace detail {
 
 // Types that cannot be archived are still good for ports inside one host.
-template <typename T, bool serializable> struct codec {
+template <typename T, bool serializable>
+struct codec {
     static void encode(archive::oarchive& ar, const T& value) { ar << value; }
     static void decode(archive::iarchive& ar, T& value) { ar >> value; }
 };
-template <typename T> struct codec<T, false> {
+template <typename T>
+struct codec<T, false> {
     static void encode(archive::oarchive&, const T&) { throw archive::archive_type_exception(); }
     static void decode(archive::iarchive&, T&) { throw archive::archive_type_exception(); }
 };
 
 /// The part of a holder that depends on the type only, whether it has the value or refers to it.
-template <typename T> class typed_holder : public opros_any::holder_base {
+template <typename T>
+class typed_holder : public opros_any::holder_base {
   public:
     static const bool can_cross = archive::is_serializable<T>::value;
     virtual const std::type_info& rtti() const { return typeid(T); }
@@ -114,7 +122,8 @@ template <typename T> class typed_holder : public opros_any::holder_base {
 } // namespace detail
 } // namespace opros
 
-template <typename dataType> class opros_any::holder : public opros::detail::typed_holder<dataType> {
+template <typename dataType>
+class opros_any::holder : public opros::detail::typed_holder<dataType> {
   public:
     explicit holder(const dataType& value) : m_value(value) {}
     virtual const void* address() const { return &m_value; }
@@ -127,7 +136,8 @@ template <typename dataType> class opros_any::holder : public opros::detail::typ
 /// An any that refers to a value of the caller's for the time of one call: pushing costs no copy and no allocation.
 class opros_any_view {
   public:
-    template <typename dataType> class of : public opros_any {
+    template <typename dataType>
+    class of : public opros_any {
       public:
         explicit of(const dataType& value) : opros_any(), m_reference(value) { content = &m_reference; }
         ~of() { content = 0; }
@@ -139,7 +149,9 @@ class opros_any_view {
           public:
             explicit reference(const dataType& value) : m_value(&value) {}
             virtual const void* address() const { return m_value; }
-            virtual opros_any::holder_base* clone() const { return new opros_any::holder<dataType>(*m_value); }
+            virtual opros_any::holder_base* clone() const {
+                return new opros_any::holder<dataType>(*m_value);
+            }
 
           private:
             const dataType* m_value;
@@ -148,21 +160,26 @@ class opros_any_view {
     };
 };
 
-template <typename dataType> dataType* unsafe_opros_any_cast(opros_any* operand) {
+template <typename dataType>
+dataType* unsafe_opros_any_cast(opros_any* operand) {
     return static_cast<dataType*>(const_cast<void*>(operand->content->address()));
 }
-template <typename dataType> const dataType* unsafe_opros_any_cast(const opros_any* operand) {
+template <typename dataType>
+const dataType* unsafe_opros_any_cast(const opros_any* operand) {
     return unsafe_opros_any_cast<dataType>(const_cast<opros_any*>(operand));
 }
 /// NULL unless the operand holds a dataType.
-template <typename dataType> dataType* opros_any_cast(opros_any* operand) {
+template <typename dataType>
+dataType* opros_any_cast(opros_any* operand) {
     return operand && operand->holds<dataType>() ? unsafe_opros_any_cast<dataType>(operand) : 0;
 }
-template <typename dataType> const dataType* opros_any_cast(const opros_any* operand) {
+template <typename dataType>
+const dataType* opros_any_cast(const opros_any* operand) {
     return opros_any_cast<dataType>(const_cast<opros_any*>(operand));
 }
 /// Throws std::bad_cast unless the operand holds a dataType.
-template <typename dataType> dataType opros_any_cast(opros_any& operand) {
+template <typename dataType>
+dataType opros_any_cast(opros_any& operand) {
     dataType* value = opros_any_cast<dataType>(&operand);
     if (!value) throw std::bad_cast();
     return *value;

@@ -44,11 +44,13 @@ typedef enum { OPROS_SERVICE_PORT_REQUIRED, OPROS_SERVICE_PORT_PROVIDED } Servic
 class opros_params : public opros_any {
   public:
     opros_params() {}
-    template <typename dataType> opros_params(const dataType& value) : opros_any(value) {}
+    template <typename dataType>
+    opros_params(const dataType& value) : opros_any(value) {}
     opros_params(const opros_params& other) : opros_any(static_cast<const opros_any&>(other)) {}
 
     using opros_any::operator=;
-    template <typename dataType> opros_params& operator=(const dataType& value) {
+    template <typename dataType>
+    opros_params& operator=(const dataType& value) {
         opros_any::operator=(value);
         return *this;
     }
@@ -57,21 +59,26 @@ class opros_params : public opros_any {
         return *this;
     }
     /// Becomes a default-constructed value of the type, unless it has a value already.
-    template <typename dataType> void setType(const dataType*) {
+    template <typename dataType>
+    void setType(const dataType*) {
         if (empty()) opros_any::operator=(dataType());
     }
 };
 
-template <typename dataType> dataType* opros_params_cast(opros_params* operand) {
+template <typename dataType>
+dataType* opros_params_cast(opros_params* operand) {
     return opros_any_cast<dataType>(static_cast<opros_any*>(operand));
 }
-template <typename dataType> const dataType* opros_params_cast(const opros_params* operand) {
+template <typename dataType>
+const dataType* opros_params_cast(const opros_params* operand) {
     return opros_any_cast<dataType>(static_cast<const opros_any*>(operand));
 }
-template <typename dataType> dataType opros_params_cast(opros_params& operand) {
+template <typename dataType>
+dataType opros_params_cast(opros_params& operand) {
     return opros_any_cast<dataType>(static_cast<opros_any&>(operand));
 }
-template <typename dataType> dataType* unsafe_opros_params_cast(opros_params* operand) {
+template <typename dataType>
+dataType* unsafe_opros_params_cast(opros_params* operand) {
     return unsafe_opros_any_cast<dataType>(static_cast<opros_any*>(operand));
 }
 

@@ -4,7 +4,8 @@
 
 #include <OutputDataPortInterface.h>
 
-template <typename dataType> class OutputDataPort : public OutputDataPortInterface {
+template <typename dataType>
+class OutputDataPort : public OutputDataPortInterface {
   public:
     OutputDataPort() {}
     OutputDataPort(const std::string& name) : OutputDataPortInterface(name) {}
@@ -22,7 +23,8 @@ template <typename dataType> class OutputDataPort : public OutputDataPortInterfa
     }
     virtual ReturnType pushData(unsigned char* data, int size) {
         if (!m_arc) return OPROS_UNSUPPORTED_METHOD;
-        std::stringstream bytes(std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)));
+        std::stringstream bytes(
+            std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)));
         opros::archive::iarchive* archive = m_arc->getInputArchive(&bytes);
         const ReturnType result = push(*archive);
         m_arc->release(archive);

@@ -6,9 +6,11 @@
 #include <EventData.h>
 #include <OutputEventPortInterface.h>
 
-template <typename dataType, int ModType = EVENT_OPROS> class OutputEventPort {};
+template <typename dataType, int ModType = EVENT_OPROS>
+class OutputEventPort {};
 
-template <typename dataType> class OutputEventPort<dataType, EVENT_OPROS> : public OutputEventPortInterface {
+template <typename dataType>
+class OutputEventPort<dataType, EVENT_OPROS> : public OutputEventPortInterface {
   public:
     OutputEventPort() {}
     OutputEventPort(const std::string& name) : OutputEventPortInterface(name) {}

@@ -12,7 +12,8 @@
 #include <cstddef>
 
 /// A provided method of which only the type of the result is known.
-template <typename RetType> class ProvidedMethod : public ProvidedMethodInterface {
+template <typename RetType>
+class ProvidedMethod : public ProvidedMethodInterface {
   public:
     ProvidedMethod(int argNum, int callType)
         : m_returnType(getTypeName<RetType>()), m_arity(argNum), m_callType(callType) {}
@@ -22,7 +23,8 @@ template <typename RetType> class ProvidedMethod : public ProvidedMethodInterfac
 
     /// Calls the method. The arguments must have exactly the types that it declares, apart from const and
     /// reference: ArgumentNumberException or MethodInvokeException otherwise.
-    template <typename... P> RetType operator()(const P&... arguments) {
+    template <typename... P>
+    RetType operator()(const P&... arguments) {
         const std::type_info* const types[] = {&typeid(P)..., 0};
         const void* const values[] = {static_cast<const void*>(&arguments)..., 0};
         return invoke(types, values, static_cast<int>(sizeof...(P)));
@@ -41,7 +43,8 @@ namespace opros {
 namespace detail {
 
 /// A provided method whose types are all known, and the function it calls.
-template <typename Function, typename R, typename... P> class bound_method : public ProvidedMethod<R> {
+template <typename Function, typename R, typename... P>
+class bound_method : public ProvidedMethod<R> {
   public:
     bound_method(const Function& function, const char* name, int callType)
         : ProvidedMethod<R>(static_cast<int>(sizeof...(P)), callType), m_function(function) {
@@ -51,8 +54,8 @@ template <typename Function, typename R, typename... P> class bound_method : pub
     virtual R invoke(const std::type_info* const* types, const void* const* values, int count) {
         if (count != this->m_arity) throw ArgumentNumberException(__LINE__, this->m_arity);
         if (!traits::match(types, count))
-            throw MethodInvokeException("call of " + this->m_name + " with other types than it has: " +
-                                        this->signature());
+            throw MethodInvokeException("call of " + this->m_name +
+                                        " with other types than it has: " + this->signature());
         return apply(values, std::index_sequence_for<P...>());
     }
     virtual ReturnType call(archive::iarchive& in, archive::oarchive& out) {
@@ -69,7 +72,8 @@ template <typename Function, typename R, typename... P> class bound_method : pub
   private:
     typedef method_types<R, P...> traits;
 
-    template <std::size_t... I> R apply(const void* const* values, std::index_sequence<I...>) {
+    template <std::size_t... I>
+    R apply(const void* const* values, std::index_sequence<I...>) {
         static_cast<void>(values);
         return m_function(argument<P>(values[I]).get()...);
     }
@@ -90,7 +94,8 @@ template <typename Function, typename R, typename... P> class bound_method : pub
         const int in_order[] = {0, (in >> std::get<I>(arguments), 0)...};
         static_cast<void>(in_order);
     }
-    template <std::size_t... I> R apply_tuple(typename traits::arguments& arguments, std::index_sequence<I...>) {
+    template <std::size_t... I>
+    R apply_tuple(typename traits::arguments& arguments, std::index_sequence<I...>) {
         static_cast<void>(arguments);
         const void* const values[] = {static_cast<const void*>(&std::get<I>(arguments))..., 0};
         return apply(values, std::index_sequence_for<P...>());
@@ -105,7 +110,8 @@ template <typename Function, typename R, typename... P> class bound_method : pub
     template <std::size_t... I>
     ReturnType call_with(std::vector<opros_params>& params, opros_params& result, std::index_sequence<I...>) {
         if (params.size() != sizeof...(P)) return OPROS_BAD_INPUT_PARAMETER;
-        const void* const values[] = {static_cast<const void*>(opros_params_cast<bare<P>>(&params[I]))..., &params};
+        const void* const values[] = {static_cast<const void*>(opros_params_cast<bare<P>>(&params[I]))...,
+                                      &params};
         for (const void* value : values)
             if (!value) return OPROS_BAD_INPUT_PARAMETER;
         store_result(values, result, std::is_void<R>());
@@ -121,12 +127,14 @@ template <typename Function, typename R, typename... P> class bound_method : pub
     Function m_function;
 };
 
-template <typename R, typename C, typename Pointer, typename... P> struct member_call {
+template <typename R, typename C, typename Pointer, typename... P>
+struct member_call {
     Pointer function;
     C* object;
     R operator()(P... p) const { return (object->*function)(std::forward<P>(p)...); }
 };
-template <typename R, typename... P> struct free_call {
+template <typename R, typename... P>
+struct free_call {
     R (*function)(P...);
     R operator()(P... p) const { return function(std::forward<P>(p)...); }
 };

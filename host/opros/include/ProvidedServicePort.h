@@ -13,9 +13,11 @@ class ProvidedServicePort : public ServicePortInterface {
 
     /// Calls the method with encoded arguments. OPROS_UNSUPPORTED_METHOD: no such method, or a type that cannot be
     /// archived. What the method throws passes through.
-    virtual ReturnType callService(std::string& name, opros::archive::iarchive& in, opros::archive::oarchive& out);
+    virtual ReturnType callService(std::string& name, opros::archive::iarchive& in,
+                                   opros::archive::oarchive& out);
     /// The same with values. OPROS_BAD_INPUT_PARAMETER: not the method's number or types of arguments.
-    virtual ReturnType callService(std::string& name, std::vector<opros_params>& params, opros_params& result);
+    virtual ReturnType callService(std::string& name, std::vector<opros_params>& params,
+                                   opros_params& result);
     /// Dynamic ports only: at connection, for each method of the required port. A text is a refusal (ours).
     virtual std::string bindMethod(Method* required);
 };

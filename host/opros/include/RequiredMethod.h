@@ -10,7 +10,8 @@
 #include <ProvidedMethod.h>
 #include <RequiredMethodInterface.h>
 
-template <typename RetType> class RequiredMethod : public RequiredMethodInterface {
+template <typename RetType>
+class RequiredMethod : public RequiredMethodInterface {
   public:
     RequiredMethod(const std::string& name, int arity, int callType)
         : RequiredMethodInterface(name), m_peer(0), m_con(0), m_arity(arity), m_callType(callType),
@@ -38,7 +39,8 @@ template <typename RetType> class RequiredMethod : public RequiredMethodInterfac
 
     /// Calls the peer in this thread, or asks the connector to. Throws MethodInvokeException without a peer, when
     /// the connection fails, or when the arguments are not exactly of the peer's types.
-    template <typename... P> RetType operator()(const P&... arguments) {
+    template <typename... P>
+    RetType operator()(const P&... arguments) {
         if (m_peer) return (*m_peer)(arguments...);
         if (!m_con) throw MethodInvokeException("required method " + m_name + " is not connected");
         return request(std::is_void<RetType>(), arguments...);
@@ -64,10 +66,12 @@ template <typename RetType> class RequiredMethod : public RequiredMethodInterfac
         return true;
     }
 
-    template <typename... P> void send(opros_params& result, const P&... arguments) {
+    template <typename... P>
+    void send(opros_params& result, const P&... arguments) {
         const std::type_info* const types[] = {&typeid(P)..., 0};
         if (!accepts(types, static_cast<int>(sizeof...(P))))
-            throw MethodInvokeException("call of " + m_name + " with other types than it has: " + signature());
+            throw MethodInvokeException("call of " + m_name +
+                                        " with other types than it has: " + signature());
         std::vector<opros_params> params;
         params.reserve(sizeof...(P));
         const int in_order[] = {0, (params.emplace_back(arguments), 0)...};
@@ -76,16 +80,19 @@ template <typename RetType> class RequiredMethod : public RequiredMethodInterfac
         if (code != OPROS_SUCCESS)
             throw MethodInvokeException("call of " + m_name + " failed with code " + std::to_string(code));
     }
-    template <typename... P> RetType request(std::true_type, const P&... arguments) {
+    template <typename... P>
+    RetType request(std::true_type, const P&... arguments) {
         opros_params none;
         send(none, arguments...);
     }
-    template <typename... P> RetType request(std::false_type, const P&... arguments) {
+    template <typename... P>
+    RetType request(std::false_type, const P&... arguments) {
         opros_params result;
         result.setType(static_cast<RetType*>(0));
         send(result, arguments...);
         RetType* value = opros_params_cast<RetType>(&result);
-        if (!value) throw MethodInvokeException("call of " + m_name + " came back with a result of another type");
+        if (!value)
+            throw MethodInvokeException("call of " + m_name + " came back with a result of another type");
         return *value;
     }
 };
@@ -94,7 +101,8 @@ namespace opros {
 namespace detail {
 
 /// A required method whose types are all known.
-template <typename R, typename... P> class typed_required_method : public RequiredMethod<R> {
+template <typename R, typename... P>
+class typed_required_method : public RequiredMethod<R> {
   public:
     typed_required_method(const char* name, int callType)
         : RequiredMethod<R>(name, static_cast<int>(sizeof...(P)), callType) {}

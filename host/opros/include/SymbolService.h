@@ -24,7 +24,8 @@ class SymbolObject {
     virtual void setValue(opros::archive::iarchive& ar) = 0;
 };
 
-template <typename T> class SymbolAccessObject : public SymbolObject {
+template <typename T>
+class SymbolAccessObject : public SymbolObject {
   public:
     explicit SymbolAccessObject(T* p) : m_p(p) {}
     virtual void getValue(opros::archive::oarchive& ar) { ar << *m_p; }
@@ -34,7 +35,10 @@ template <typename T> class SymbolAccessObject : public SymbolObject {
     T* m_p;
 };
 
-template <typename T> SymbolObject* makeSymbolObject(T* p) { return new SymbolAccessObject<T>(p); }
+template <typename T>
+SymbolObject* makeSymbolObject(T* p) {
+    return new SymbolAccessObject<T>(p);
+}
 
 /// Shows the variable under this name on the component's provided port "opros.symbol", which the first one creates.
 /// Takes the object.

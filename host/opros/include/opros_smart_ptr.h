@@ -16,7 +16,8 @@
 
 namespace opros {
 
-template <typename T> class smart_ptr {
+template <typename T>
+class smart_ptr {
   public:
     typedef T element_type;
     typedef T value_type;
@@ -30,7 +31,8 @@ template <typename T> class smart_ptr {
         m_shared = other.m_shared;
         return *this;
     }
-    template <typename Y> smart_ptr& operator=(const smart_ptr<Y>& other) {
+    template <typename Y>
+    smart_ptr& operator=(const smart_ptr<Y>& other) {
         m_shared = std::static_pointer_cast<T>(other.m_shared);
         return *this;
     }
@@ -49,7 +51,8 @@ template <typename T> class smart_ptr {
     }
 
   private:
-    template <typename Y> friend class smart_ptr;
+    template <typename Y>
+    friend class smart_ptr;
     std::shared_ptr<T> m_shared;
 };
 

@@ -2,9 +2,9 @@
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/execute/bounded.hpp"
-#include "host/opros/program/ending.hpp"
 #include "host/opros/engine/load/plugin_path.hpp"
 #include "host/opros/engine/load/probe_component.hpp"
+#include "host/opros/program/ending.hpp"
 #include "host/plugin/probe_switches.hpp"
 #include "host/rt/leave.hpp"
 #include "host/rt/switches.hpp"

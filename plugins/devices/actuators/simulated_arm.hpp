@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plugins/devices/simulated_device.hpp"
 #include "plugins/devices/actuators/simulated_joint.hpp"
+#include "plugins/devices/simulated_device.hpp"
 
 #include <vector>
 

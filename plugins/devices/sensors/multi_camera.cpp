@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plugins/devices/simulated_device.hpp"
 #include "plugins/devices/sensors/test_picture.hpp"
+#include "plugins/devices/simulated_device.hpp"
 
 #include <device/MultiCamera.h>
 #include <string>

@@ -162,7 +162,8 @@ TEST_CASE("when the segment is truncated the motors stop until the hosts have jo
     CHECK(result["complete"] == true);
     for (const auto* host : {"opros_host", "rtm_host"}) {
         INFO(run.host_log(host));
-        CHECK_THAT(run.host_log(host), Catch::Contains(run.truncated() + " was truncated by another process"));
+        CHECK_THAT(run.host_log(host),
+                   Catch::Contains(run.truncated() + " was truncated by another process"));
     }
     const auto hw = run.hw();
     const auto down = [](const HWRecord& r) { return r.voltage_sequence > 0 && r.link_up == 0.0; };

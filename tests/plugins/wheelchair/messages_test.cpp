@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "plugins/wheelchair/core/law/limits.hpp"
 #include "plugins/wheelchair/core/body/ports.hpp"
+#include "plugins/wheelchair/core/law/limits.hpp"
 
 using namespace tandem::wheelchair;
 

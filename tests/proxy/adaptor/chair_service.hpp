@@ -27,7 +27,8 @@ class ChairProvided : public ProvidedServicePort, public IChair {
     std::string name() override { return (*method<std::string>("name"))(); }
 
   private:
-    template <class R> ProvidedMethod<R>* method(const char* name) {
+    template <class R>
+    ProvidedMethod<R>* method(const char* name) {
         return reinterpret_cast<ProvidedMethod<R>*>(getMethod(name));
     }
 };
@@ -42,7 +43,8 @@ class ChairRequired : public RequiredServicePort {
     std::string name() { return (*method<std::string>("name"))(); }
 
   private:
-    template <class R> RequiredMethod<R>* method(const char* name) {
+    template <class R>
+    RequiredMethod<R>* method(const char* name) {
         return reinterpret_cast<RequiredMethod<R>*>(getMethod(name));
     }
 };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/inspect/observer.hpp"
 
-#include "tests/shm/fixture.hpp"
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 #include "shm/segment/watcher.hpp"
+#include "tests/shm/fixture.hpp"
 
 #include <fstream>
 #include <sys/stat.h>

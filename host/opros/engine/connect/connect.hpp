@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/connect/link.hpp"
+#include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/worker_pool.hpp"
 
 #include <memory>

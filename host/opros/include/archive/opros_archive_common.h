@@ -63,7 +63,10 @@ class archive_format_exception : public std::exception {
     virtual const char* what() const noexcept { return "archive format error"; }
 };
 
-template <typename T> inline char type_code(T*) { return CLASS_CODE; }
+template <typename T>
+inline char type_code(T*) {
+    return CLASS_CODE;
+}
 inline char type_code(bool*) { return BOOL_CODE; }
 inline char type_code(short*) { return SHORT_CODE; }
 inline char type_code(unsigned short*) { return UNSIGNED_SHORT_CODE; }
@@ -86,7 +89,8 @@ inline char type_code(wchar_t*) { return WCHAR_T_CODE; }
 class nvp_base {};
 
 /// A value with the name it has in its class: only archives that keep names look at the name.
-template <typename Type> class nvp : public nvp_base {
+template <typename Type>
+class nvp : public nvp_base {
   public:
     nvp(const char* name, Type& data) : m_name(name), m_data(&data) {}
     std::string getName() const { return m_name; }
@@ -97,7 +101,10 @@ template <typename Type> class nvp : public nvp_base {
     Type* m_data;
 };
 
-template <typename T> inline nvp<T> makenvp(const char* name, T& value) { return nvp<T>(name, value); }
+template <typename T>
+inline nvp<T> makenvp(const char* name, T& value) {
+    return nvp<T>(name, value);
+}
 
 } // namespace opros
 

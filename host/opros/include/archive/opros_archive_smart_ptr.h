@@ -9,7 +9,10 @@
 
 namespace opros {
 
-template <typename T> std::string typeName(smart_ptr<T>*) { return getTypeName<T>(); }
+template <typename T>
+std::string typeName(smart_ptr<T>*) {
+    return getTypeName<T>();
+}
 
 template <typename T, typename = archive::if_serializable<T>>
 void save_this(archive::oarchive& ar, smart_ptr<T>& t) {

@@ -30,8 +30,10 @@ class binary_iarchive : public iarchive {
     virtual bool keeps_names() const { return true; }
 
   private:
-    template <typename T> iarchive& get(char code, T& value);
-    template <typename T> T get_bytes();
+    template <typename T>
+    iarchive& get(char code, T& value);
+    template <typename T>
+    T get_bytes();
     void expect(char code);
     void get_blob(std::string& bytes);
 

@@ -31,8 +31,10 @@ class binary_oarchive : public oarchive {
     virtual bool keeps_names() const { return true; }
 
   private:
-    template <typename T> oarchive& put(char code, T value);
-    template <typename T> void put_bytes(T value);
+    template <typename T>
+    oarchive& put(char code, T value);
+    template <typename T>
+    void put_bytes(T value);
 
     std::ostream* m_os;
     bool m_bare; // inside an array, elements carry no code of their own

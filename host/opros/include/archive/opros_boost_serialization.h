@@ -67,13 +67,17 @@ struct knows_boost_access {
 };
 
 /// Whether the name stands for one function or variable that can be had: then it is not the template looked for.
-template <typename T> struct has_plain_serialize {
-    template <typename U> static auto test(int) -> decltype(&U::serialize, std::true_type());
-    template <typename U> static std::false_type test(long);
+template <typename T>
+struct has_plain_serialize {
+    template <typename U>
+    static auto test(int) -> decltype(&U::serialize, std::true_type());
+    template <typename U>
+    static std::false_type test(long);
     static const bool value = decltype(test<T>(0))::value;
 };
 
-template <typename T> struct has_private_serialize {
+template <typename T>
+struct has_private_serialize {
     static const bool derivable = std::is_class<T>::value && !std::is_final<T>::value;
     static const bool value = has_serialize_name<T, derivable>::value && !has_plain_serialize<T>::value &&
                               knows_boost_access<T, boost::serialization::access>::value;

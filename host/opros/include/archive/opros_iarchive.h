@@ -40,11 +40,16 @@ class iarchive : public archive {
     virtual iarchive& read_end_tag(const std::string&) { return *this; }
     virtual bool keeps_names() const { return false; }
 
-    template <typename T> iarchive& load(T& value);
-    template <typename T> iarchive& load(const opros::nvp<T>& pair);
-    template <typename T, std::size_t N> iarchive& load(T (&values)[N]);
-    template <typename T> iarchive& load(T** p, long& size);
-    template <typename T> iarchive& load(T** p, const long& size) {
+    template <typename T>
+    iarchive& load(T& value);
+    template <typename T>
+    iarchive& load(const opros::nvp<T>& pair);
+    template <typename T, std::size_t N>
+    iarchive& load(T (&values)[N]);
+    template <typename T>
+    iarchive& load(T** p, long& size);
+    template <typename T>
+    iarchive& load(T** p, const long& size) {
         long given = size;
         return load(p, given);
     }
@@ -55,31 +60,46 @@ class iarchive : public archive {
 
 namespace detail {
 
-template <typename T> iarchive& load_elements(iarchive& ar, T* p, long size, by_primitive) {
+template <typename T>
+iarchive& load_elements(iarchive& ar, T* p, long size, by_primitive) {
     return ar.load_array(p, size);
 }
-template <typename T, typename Way> iarchive& load_elements(iarchive& ar, T* p, long size, Way) {
+template <typename T, typename Way>
+iarchive& load_elements(iarchive& ar, T* p, long size, Way) {
     for (long i = 0; i < size; ++i) ar.load(p[i]);
     return ar;
 }
 
-template <typename T> void load_class(iarchive& ar, T& value, by_members) { access::load(ar, value); }
-template <typename T> void load_class(iarchive& ar, T& value, by_free_functions) { load_this(ar, value); }
-template <typename T> void load_class(iarchive& ar, T& value, by_serialize how) { serialize_class(ar, value, how); }
-template <typename T> void load_class(iarchive& ar, T& value, by_private_serialize how) {
+template <typename T>
+void load_class(iarchive& ar, T& value, by_members) {
+    access::load(ar, value);
+}
+template <typename T>
+void load_class(iarchive& ar, T& value, by_free_functions) {
+    load_this(ar, value);
+}
+template <typename T>
+void load_class(iarchive& ar, T& value, by_serialize how) {
     serialize_class(ar, value, how);
 }
-template <typename T> void load_class(iarchive&, T&, by_nothing) {
+template <typename T>
+void load_class(iarchive& ar, T& value, by_private_serialize how) {
+    serialize_class(ar, value, how);
+}
+template <typename T>
+void load_class(iarchive&, T&, by_nothing) {
     static_assert(is_serializable<T>::value,
                   "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
 }
 
-template <typename T> void load_value(iarchive& ar, T& value, by_enumeration) {
+template <typename T>
+void load_value(iarchive& ar, T& value, by_enumeration) {
     int number = 0;
     ar.load(number);
     value = static_cast<T>(number);
 }
-template <typename T, typename Way> void load_value(iarchive& ar, T& value, Way how) {
+template <typename T, typename Way>
+void load_value(iarchive& ar, T& value, Way how) {
     const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
     if (!is_container<T>::value)
         ar.read_class_head(name);
@@ -91,26 +111,30 @@ template <typename T, typename Way> void load_value(iarchive& ar, T& value, Way 
 
 } // namespace detail
 
-template <typename T> iarchive& iarchive::load(T& value) {
+template <typename T>
+iarchive& iarchive::load(T& value) {
     detail::load_value(*this, value, typename detail::way<T>::type());
     return *this;
 }
 
-template <typename T> iarchive& iarchive::load(const opros::nvp<T>& pair) {
+template <typename T>
+iarchive& iarchive::load(const opros::nvp<T>& pair) {
     if (!keeps_names()) return load(pair.getData());
     read_start_tag(pair.getName());
     load(pair.getData());
     return read_end_tag(pair.getName());
 }
 
-template <typename T, std::size_t N> iarchive& iarchive::load(T (&values)[N]) {
+template <typename T, std::size_t N>
+iarchive& iarchive::load(T (&values)[N]) {
     const char code = type_code(static_cast<T*>(0));
     const long wanted = read_array_head(N, code, sizeof(T));
     detail::load_elements(*this, values, wanted, typename detail::way<T>::type());
     return read_array_end(N, code, sizeof(T));
 }
 
-template <typename T> iarchive& iarchive::load(T** p, long& size) {
+template <typename T>
+iarchive& iarchive::load(T** p, long& size) {
     const long count = static_cast<long>(read_sequence_head());
     if (*p == 0)
         *p = new T[static_cast<std::size_t>(count)];
@@ -121,15 +145,29 @@ template <typename T> iarchive& iarchive::load(T** p, long& size) {
     return read_sequence_end();
 }
 
-template <typename T> iarchive& operator>>(iarchive& ar, T& value) { return ar.load(value); }
-template <typename T> iarchive& operator>>(iarchive& ar, const opros::nvp<T>& pair) { return ar.load(pair); }
-template <typename T> iarchive& operator&(iarchive& ar, T& value) { return ar.load(value); }
-template <typename T> iarchive& operator&(iarchive& ar, const opros::nvp<T>& pair) { return ar.load(pair); }
+template <typename T>
+iarchive& operator>>(iarchive& ar, T& value) {
+    return ar.load(value);
+}
+template <typename T>
+iarchive& operator>>(iarchive& ar, const opros::nvp<T>& pair) {
+    return ar.load(pair);
+}
+template <typename T>
+iarchive& operator&(iarchive& ar, T& value) {
+    return ar.load(value);
+}
+template <typename T>
+iarchive& operator&(iarchive& ar, const opros::nvp<T>& pair) {
+    return ar.load(pair);
+}
 
-template <typename T> iarchive& operator>>(iarchive& ar, const boost::serialization::nvp<T>& pair) {
+template <typename T>
+iarchive& operator>>(iarchive& ar, const boost::serialization::nvp<T>& pair) {
     return ar.load(makenvp(pair.name(), pair.value()));
 }
-template <typename T> iarchive& operator&(iarchive& ar, const boost::serialization::nvp<T>& pair) {
+template <typename T>
+iarchive& operator&(iarchive& ar, const boost::serialization::nvp<T>& pair) {
     return ar >> pair;
 }
 

@@ -10,13 +10,15 @@ namespace opros {
 namespace archive {
 
 inline void load_this(iarchive& ar, std::string& t) { ar.load(t); }
-template <typename Traits, typename A> void load_this(iarchive& ar, std::basic_string<wchar_t, Traits, A>& t) {
+template <typename Traits, typename A>
+void load_this(iarchive& ar, std::basic_string<wchar_t, Traits, A>& t) {
     ar.load(t);
 }
 
 namespace detail {
 
-template <typename T, typename Take> void load_each(iarchive& ar, Take take) {
+template <typename T, typename Take>
+void load_each(iarchive& ar, Take take) {
     const std::size_t count = ar.read_sequence_head();
     for (std::size_t i = 0; i < count; ++i) {
         T element = T();
@@ -26,15 +28,18 @@ template <typename T, typename Take> void load_each(iarchive& ar, Take take) {
     ar.read_sequence_end();
 }
 
-template <typename T, typename Container> void load_list(iarchive& ar, Container& t) {
+template <typename T, typename Container>
+void load_list(iarchive& ar, Container& t) {
     t.clear();
     load_each<T>(ar, [&t](T&& element) { t.push_back(std::move(element)); });
 }
-template <typename T, typename Container> void load_set(iarchive& ar, Container& t) {
+template <typename T, typename Container>
+void load_set(iarchive& ar, Container& t) {
     t.clear();
     load_each<T>(ar, [&t](T&& element) { t.insert(t.end(), std::move(element)); });
 }
-template <typename K, typename T, typename Container> void load_map(iarchive& ar, Container& t) {
+template <typename K, typename T, typename Container>
+void load_map(iarchive& ar, Container& t) {
     t.clear();
     load_each<std::pair<K, T>>(ar, [&t](std::pair<K, T>&& entry) { t.insert(std::move(entry)); });
 }
@@ -47,10 +52,12 @@ void load_this(iarchive& ar, std::vector<T, A>& t) {
     detail::load_elements(ar, t.data(), static_cast<long>(t.size()), typename detail::way<T>::type());
     ar.read_sequence_end();
 }
-template <typename A> void load_this(iarchive& ar, std::vector<bool, A>& t) {
+template <typename A>
+void load_this(iarchive& ar, std::vector<bool, A>& t) {
     detail::load_list<bool>(ar, t);
 }
-template <typename T, typename = if_serializable<T>> void load_this(iarchive& ar, std::valarray<T>& t) {
+template <typename T, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::valarray<T>& t) {
     const std::size_t count = ar.read_sequence_head();
     if (t.size() != count) t.resize(count);
     if (count != 0)
@@ -90,7 +97,8 @@ void load_this(iarchive& ar, std::priority_queue<T, C, L>& t) {
     t = std::priority_queue<T, C, L>();
     detail::load_each<T>(ar, [&t](T&& element) { t.push(std::move(element)); });
 }
-template <typename T, typename = if_serializable<T>> void load_this(iarchive& ar, std::complex<T>& t) {
+template <typename T, typename = if_serializable<T>>
+void load_this(iarchive& ar, std::complex<T>& t) {
     T real = T(), imaginary = T();
     ar.load(real);
     ar.load(imaginary);

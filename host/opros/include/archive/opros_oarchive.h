@@ -54,10 +54,14 @@ class oarchive : public archive {
     /// Names of classes and members are made and handed over only if this says so.
     virtual bool keeps_names() const { return false; }
 
-    template <typename T> oarchive& save(const T& value);
-    template <typename T> oarchive& save(const opros::nvp<T>& pair);
-    template <typename T, std::size_t N> oarchive& save(const T (&values)[N]);
-    template <typename T> oarchive& save(const T* p, long size);
+    template <typename T>
+    oarchive& save(const T& value);
+    template <typename T>
+    oarchive& save(const opros::nvp<T>& pair);
+    template <typename T, std::size_t N>
+    oarchive& save(const T (&values)[N]);
+    template <typename T>
+    oarchive& save(const T* p, long size);
     oarchive& save(const char* p, long size) { return save_binary(p, size); }
     oarchive& save(const unsigned char* p, long size) {
         return save_binary(reinterpret_cast<const char*>(p), size);
@@ -69,29 +73,44 @@ class oarchive : public archive {
 
 namespace detail {
 
-template <typename T> oarchive& save_elements(oarchive& ar, const T* p, long size, by_primitive) {
+template <typename T>
+oarchive& save_elements(oarchive& ar, const T* p, long size, by_primitive) {
     return ar.save_array(p, size);
 }
-template <typename T, typename Way> oarchive& save_elements(oarchive& ar, const T* p, long size, Way) {
+template <typename T, typename Way>
+oarchive& save_elements(oarchive& ar, const T* p, long size, Way) {
     for (long i = 0; i < size; ++i) ar.save(p[i]);
     return ar;
 }
 
-template <typename T> void save_class(oarchive& ar, T& value, by_members) { access::save(ar, value); }
-template <typename T> void save_class(oarchive& ar, T& value, by_free_functions) { save_this(ar, value); }
-template <typename T> void save_class(oarchive& ar, T& value, by_serialize how) { serialize_class(ar, value, how); }
-template <typename T> void save_class(oarchive& ar, T& value, by_private_serialize how) {
+template <typename T>
+void save_class(oarchive& ar, T& value, by_members) {
+    access::save(ar, value);
+}
+template <typename T>
+void save_class(oarchive& ar, T& value, by_free_functions) {
+    save_this(ar, value);
+}
+template <typename T>
+void save_class(oarchive& ar, T& value, by_serialize how) {
     serialize_class(ar, value, how);
 }
-template <typename T> void save_class(oarchive&, T&, by_nothing) {
+template <typename T>
+void save_class(oarchive& ar, T& value, by_private_serialize how) {
+    serialize_class(ar, value, how);
+}
+template <typename T>
+void save_class(oarchive&, T&, by_nothing) {
     static_assert(is_serializable<T>::value,
                   "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
 }
 
-template <typename T> void save_value(oarchive& ar, const T& value, by_enumeration) {
+template <typename T>
+void save_value(oarchive& ar, const T& value, by_enumeration) {
     ar.save(static_cast<int>(value));
 }
-template <typename T, typename Way> void save_value(oarchive& ar, const T& value, Way how) {
+template <typename T, typename Way>
+void save_value(oarchive& ar, const T& value, Way how) {
     const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
     if (!is_container<T>::value)
         ar.write_class_head(name);
@@ -103,39 +122,51 @@ template <typename T, typename Way> void save_value(oarchive& ar, const T& value
 
 } // namespace detail
 
-template <typename T> oarchive& oarchive::save(const T& value) {
+template <typename T>
+oarchive& oarchive::save(const T& value) {
     detail::save_value(*this, value, typename detail::way<T>::type());
     return *this;
 }
 
-template <typename T> oarchive& oarchive::save(const opros::nvp<T>& pair) {
+template <typename T>
+oarchive& oarchive::save(const opros::nvp<T>& pair) {
     if (!keeps_names()) return save(pair.getData());
     write_start_tag(pair.getName());
     save(pair.getData());
     return write_end_tag(pair.getName());
 }
 
-template <typename T, std::size_t N> oarchive& oarchive::save(const T (&values)[N]) {
+template <typename T, std::size_t N>
+oarchive& oarchive::save(const T (&values)[N]) {
     const char code = type_code(static_cast<T*>(0));
     write_array_head(N, code, sizeof(T));
     detail::save_elements(*this, values, N, typename detail::way<T>::type());
     return write_array_end(N, code, sizeof(T));
 }
 
-template <typename T> oarchive& oarchive::save(const T* p, long size) {
+template <typename T>
+oarchive& oarchive::save(const T* p, long size) {
     write_sequence_head(static_cast<std::size_t>(size));
     detail::save_elements(*this, p, size, typename detail::way<T>::type());
     return write_sequence_end();
 }
 
-template <typename T> oarchive& operator<<(oarchive& ar, const T& value) { return ar.save(value); }
-template <typename T> oarchive& operator<<(oarchive& ar, const boost::serialization::nvp<T>& pair) {
+template <typename T>
+oarchive& operator<<(oarchive& ar, const T& value) {
+    return ar.save(value);
+}
+template <typename T>
+oarchive& operator<<(oarchive& ar, const boost::serialization::nvp<T>& pair) {
     return ar.save(makenvp(pair.name(), pair.value()));
 }
-template <typename T> oarchive& operator&(oarchive& ar, const boost::serialization::nvp<T>& pair) {
+template <typename T>
+oarchive& operator&(oarchive& ar, const boost::serialization::nvp<T>& pair) {
     return ar << pair;
 }
-template <typename T> oarchive& operator&(oarchive& ar, const T& value) { return ar.save(value); }
+template <typename T>
+oarchive& operator&(oarchive& ar, const T& value) {
+    return ar.save(value);
+}
 
 } // namespace archive
 } // namespace opros

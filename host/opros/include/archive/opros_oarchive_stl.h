@@ -8,7 +8,8 @@
 namespace opros {
 namespace archive {
 
-template <typename T> using if_serializable = typename std::enable_if<is_serializable<T>::value>::type;
+template <typename T>
+using if_serializable = typename std::enable_if<is_serializable<T>::value>::type;
 
 inline void save_this(oarchive& ar, const std::string& t) { ar.save(t); }
 template <typename Traits, typename A> // see typeName()
@@ -18,19 +19,22 @@ void save_this(oarchive& ar, const std::basic_string<wchar_t, Traits, A>& t) {
 
 namespace detail {
 
-template <typename Container> void save_each(oarchive& ar, const Container& container, std::size_t count) {
+template <typename Container>
+void save_each(oarchive& ar, const Container& container, std::size_t count) {
     ar.write_sequence_head(count);
     for (typename Container::const_iterator it = container.begin(); it != container.end(); ++it) ar.save(*it);
     ar.write_sequence_end();
 }
 
 // Containers that show only one end are copied and taken apart.
-template <typename Queue> void save_fronts(oarchive& ar, Queue copy) {
+template <typename Queue>
+void save_fronts(oarchive& ar, Queue copy) {
     ar.write_sequence_head(copy.size());
     for (; !copy.empty(); copy.pop()) ar.save(copy.front());
     ar.write_sequence_end();
 }
-template <typename Stack> void save_tops(oarchive& ar, Stack copy) {
+template <typename Stack>
+void save_tops(oarchive& ar, Stack copy) {
     ar.write_sequence_head(copy.size());
     for (; !copy.empty(); copy.pop()) ar.save(copy.top());
     ar.write_sequence_end();
@@ -44,12 +48,14 @@ void save_this(oarchive& ar, const std::vector<T, A>& t) {
     detail::save_elements(ar, t.data(), static_cast<long>(t.size()), typename detail::way<T>::type());
     ar.write_sequence_end();
 }
-template <typename A> void save_this(oarchive& ar, const std::vector<bool, A>& t) {
+template <typename A>
+void save_this(oarchive& ar, const std::vector<bool, A>& t) {
     ar.write_sequence_head(t.size());
     for (std::size_t i = 0; i < t.size(); ++i) ar.save(static_cast<bool>(t[i]));
     ar.write_sequence_end();
 }
-template <typename T, typename = if_serializable<T>> void save_this(oarchive& ar, const std::valarray<T>& t) {
+template <typename T, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::valarray<T>& t) {
     ar.write_sequence_head(t.size());
     if (t.size() != 0)
         detail::save_elements(ar, &t[0], static_cast<long>(t.size()), typename detail::way<T>::type());
@@ -83,7 +89,8 @@ template <typename T, typename C, typename L, typename = if_serializable<T>>
 void save_this(oarchive& ar, const std::priority_queue<T, C, L>& t) {
     detail::save_tops(ar, t);
 }
-template <typename T, typename = if_serializable<T>> void save_this(oarchive& ar, const std::complex<T>& t) {
+template <typename T, typename = if_serializable<T>>
+void save_this(oarchive& ar, const std::complex<T>& t) {
     ar.save(t.real());
     ar.save(t.imag());
 }

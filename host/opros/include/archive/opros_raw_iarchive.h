@@ -26,7 +26,8 @@ class raw_iarchive : public iarchive {
     virtual std::size_t read_sequence_head();
 
   private:
-    template <typename T> iarchive& get(T& value);
+    template <typename T>
+    iarchive& get(T& value);
     void get_blob(std::string& bytes);
 
     std::istream* m_is;

@@ -27,7 +27,8 @@ class raw_oarchive : public oarchive {
     virtual oarchive& write_sequence_head(std::size_t count);
 
   private:
-    template <typename T> oarchive& put(T value);
+    template <typename T>
+    oarchive& put(T value);
 
     std::ostream* m_os;
 };

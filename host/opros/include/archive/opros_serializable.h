@@ -23,15 +23,24 @@ namespace archive {
 namespace detail {
 
 /// The standard containers: archives see them as sequences, not as classes.
-template <typename T> struct is_container : std::false_type {};
-template <typename T, typename A> struct is_container<std::vector<T, A>> : std::true_type {};
-template <typename T, typename A> struct is_container<std::deque<T, A>> : std::true_type {};
-template <typename T, typename A> struct is_container<std::list<T, A>> : std::true_type {};
-template <typename T> struct is_container<std::valarray<T>> : std::true_type {};
-template <typename T, typename C, typename A> struct is_container<std::set<T, C, A>> : std::true_type {};
-template <typename T, typename C, typename A> struct is_container<std::multiset<T, C, A>> : std::true_type {};
-template <typename T, typename C> struct is_container<std::queue<T, C>> : std::true_type {};
-template <typename T, typename C> struct is_container<std::stack<T, C>> : std::true_type {};
+template <typename T>
+struct is_container : std::false_type {};
+template <typename T, typename A>
+struct is_container<std::vector<T, A>> : std::true_type {};
+template <typename T, typename A>
+struct is_container<std::deque<T, A>> : std::true_type {};
+template <typename T, typename A>
+struct is_container<std::list<T, A>> : std::true_type {};
+template <typename T>
+struct is_container<std::valarray<T>> : std::true_type {};
+template <typename T, typename C, typename A>
+struct is_container<std::set<T, C, A>> : std::true_type {};
+template <typename T, typename C, typename A>
+struct is_container<std::multiset<T, C, A>> : std::true_type {};
+template <typename T, typename C>
+struct is_container<std::queue<T, C>> : std::true_type {};
+template <typename T, typename C>
+struct is_container<std::stack<T, C>> : std::true_type {};
 template <typename T, typename C, typename L>
 struct is_container<std::priority_queue<T, C, L>> : std::true_type {};
 template <typename K, typename T, typename C, typename A>
@@ -39,20 +48,25 @@ struct is_container<std::map<K, T, C, A>> : std::true_type {};
 template <typename K, typename T, typename C, typename A>
 struct is_container<std::multimap<K, T, C, A>> : std::true_type {};
 
-template <typename T> struct has_members {
+template <typename T>
+struct has_members {
     template <typename U>
-    static auto test(int) -> decltype(access::save(std::declval<oarchive&>(), std::declval<U&>()),
-                                      access::load(std::declval<iarchive&>(), std::declval<U&>()),
-                                      std::true_type());
-    template <typename U> static std::false_type test(long);
+    static auto test(int)
+        -> decltype(access::save(std::declval<oarchive&>(), std::declval<U&>()),
+                    access::load(std::declval<iarchive&>(), std::declval<U&>()), std::true_type());
+    template <typename U>
+    static std::false_type test(long);
     static const bool value = decltype(test<T>(0))::value;
 };
 
-template <typename T> struct has_free_functions {
+template <typename T>
+struct has_free_functions {
     template <typename U>
-    static auto test(int) -> decltype(save_this(std::declval<oarchive&>(), std::declval<U&>()),
-                                      load_this(std::declval<iarchive&>(), std::declval<U&>()), std::true_type());
-    template <typename U> static std::false_type test(long);
+    static auto test(int)
+        -> decltype(save_this(std::declval<oarchive&>(), std::declval<U&>()),
+                    load_this(std::declval<iarchive&>(), std::declval<U&>()), std::true_type());
+    template <typename U>
+    static std::false_type test(long);
     static const bool value = decltype(test<T>(0))::value;
 };
 
@@ -63,40 +77,48 @@ struct by_members {};
 struct by_free_functions {};
 struct by_nothing {};
 
-template <bool condition, typename Yes, typename No> using choose = typename std::conditional<condition, Yes, No>::type;
+template <bool condition, typename Yes, typename No>
+using choose = typename std::conditional<condition, Yes, No>::type;
 
 // Lazy, so that the free functions are looked for only in types that have no save() and load() of their own.
-template <typename T, bool members> struct class_way {
+template <typename T, bool members>
+struct class_way {
     typedef by_members type;
 };
-template <typename T> struct class_way<T, false> {
+template <typename T>
+struct class_way<T, false> {
     typedef choose<has_free_functions<T>::value, by_free_functions,
                    choose<has_public_serialize<T>::value, by_serialize,
                           choose<has_private_serialize<T>::value, by_private_serialize, by_nothing>>>
         type;
 };
-template <typename T> struct way {
-    typedef choose<std::is_arithmetic<T>::value, by_primitive,
-                   choose<std::is_enum<T>::value, by_enumeration,
-                          choose<std::is_array<T>::value, by_array,
-                                 typename class_way<T, has_members<T>::value>::type>>>
+template <typename T>
+struct way {
+    typedef choose<
+        std::is_arithmetic<T>::value, by_primitive,
+        choose<std::is_enum<T>::value, by_enumeration,
+               choose<std::is_array<T>::value, by_array, typename class_way<T, has_members<T>::value>::type>>>
         type;
 };
 
 } // namespace detail
 
 /// Whether T can be saved and loaded.
-template <typename T> struct is_serializable {
+template <typename T>
+struct is_serializable {
     typedef typename std::remove_cv<typename std::remove_all_extents<T>::type>::type element;
     static const bool value = !std::is_same<typename detail::way<element>::type, detail::by_nothing>::value;
 };
-template <> struct is_serializable<std::string> {
+template <>
+struct is_serializable<std::string> {
     static const bool value = true;
 };
-template <> struct is_serializable<std::wstring> {
+template <>
+struct is_serializable<std::wstring> {
     static const bool value = true;
 };
-template <> struct is_serializable<void> {
+template <>
+struct is_serializable<void> {
     static const bool value = true;
 };
 
@@ -104,7 +126,8 @@ template <> struct is_serializable<void> {
 } // namespace opros
 
 /// Whether the type has its own save() and load().
-template <typename Type> class has_opros_serialization {
+template <typename Type>
+class has_opros_serialization {
   public:
     static bool const value = opros::archive::detail::has_members<typename std::remove_cv<
         typename std::remove_pointer<typename std::remove_reference<Type>::type>::type>::type>::value;

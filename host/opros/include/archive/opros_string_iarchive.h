@@ -33,7 +33,8 @@ class string_iarchive : public iarchive {
     virtual bool keeps_names() const { return true; }
 
   private:
-    template <typename T> iarchive& get(char code, T& value);
+    template <typename T>
+    iarchive& get(char code, T& value);
     void expect(char code);
     std::string up_to(char end);
     void get_blob(std::string& bytes);

@@ -36,11 +36,12 @@ class string_oarchive : public oarchive {
     virtual bool keeps_names() const { return true; }
 
   private:
-    template <typename T> oarchive& put(char code, T value);
+    template <typename T>
+    oarchive& put(char code, T value);
 
     std::ostream* m_os;
     bool m_hexadecimal;
-    bool m_named;              // the sequence that begins next is a container
+    bool m_named;               // the sequence that begins next is a container
     std::vector<bool> m_inside; // of the sequences that are open: whether it is one
 };
 

@@ -21,7 +21,8 @@
 #include <valarray>
 #include <vector>
 
-template <typename T> std::string getTypeName(T* unused = 0);
+template <typename T>
+std::string getTypeName(T* unused = 0);
 
 namespace opros {
 /// "std::vector<Point>" for the implementation's name of the type.
@@ -46,16 +47,19 @@ inline std::string typeName(unsigned char*) { return "unsigned char"; }
 inline std::string typeName(wchar_t*) { return "w_char_t"; }
 inline std::string typeName(std::string*) { return "std::string"; }
 // A template, because components have defined the function themselves when upstream did not.
-template <typename Traits, typename A> std::string typeName(std::basic_string<wchar_t, Traits, A>*) {
+template <typename Traits, typename A>
+std::string typeName(std::basic_string<wchar_t, Traits, A>*) {
     return "std::wstring";
 }
 
 #define OPROS_TYPE_NAME_OF_1(container)                                                                      \
-    template <typename T> std::string typeName(std::container<T>*) {                                         \
+    template <typename T>                                                                                    \
+    std::string typeName(std::container<T>*) {                                                               \
         return "std::" #container "<" + getTypeName<T>() + ">";                                              \
     }
 #define OPROS_TYPE_NAME_OF_2(container)                                                                      \
-    template <typename K, typename T> std::string typeName(std::container<K, T>*) {                          \
+    template <typename K, typename T>                                                                        \
+    std::string typeName(std::container<K, T>*) {                                                            \
         return "std::" #container "<" + getTypeName<K>() + "," + getTypeName<T>() + ">";                     \
     }
 OPROS_TYPE_NAME_OF_1(vector)
@@ -74,7 +78,10 @@ OPROS_TYPE_NAME_OF_2(pair)
 #undef OPROS_TYPE_NAME_OF_1
 #undef OPROS_TYPE_NAME_OF_2
 
-template <typename T> std::string typeName(T**) { return getTypeName<T>() + "*"; }
+template <typename T>
+std::string typeName(T**) {
+    return getTypeName<T>() + "*";
+}
 
 #define DEFINE_CLASS_TYPE_NAME(a)                                                                            \
     inline std::string typeName(a*) { return std::string(#a); }
@@ -83,23 +90,33 @@ namespace opros {
 namespace detail {
 
 // Overload rank: a typeName() that exists wins over the readable C++ name.
-template <typename T> auto name_of(T* p, int) -> decltype(std::string(typeName(p))) { return typeName(p); }
-template <typename T> std::string name_of(T*, long) { return readable_name(typeid(T)); }
+template <typename T>
+auto name_of(T* p, int) -> decltype(std::string(typeName(p))) {
+    return typeName(p);
+}
+template <typename T>
+std::string name_of(T*, long) {
+    return readable_name(typeid(T));
+}
 
-template <typename T, bool is_enumeration> struct name_selector {
+template <typename T, bool is_enumeration>
+struct name_selector {
     static std::string name() { return name_of(static_cast<T*>(0), 0); }
 };
-template <> struct name_selector<void, false> {
+template <>
+struct name_selector<void, false> {
     static std::string name() { return "void"; }
 };
-template <typename T> struct name_selector<T, true> {
+template <typename T>
+struct name_selector<T, true> {
     static std::string name() { return "Enum"; }
 };
 
 } // namespace detail
 } // namespace opros
 
-template <typename T> std::string getTypeName(T*) {
+template <typename T>
+std::string getTypeName(T*) {
     typedef typename std::remove_cv<T>::type type;
     return opros::detail::name_selector<type, std::is_enum<type>::value>::name();
 }

@@ -9,32 +9,41 @@
 
 namespace opros {
 
-template <typename T> struct is_primitive {
+template <typename T>
+struct is_primitive {
     enum { value = std::is_arithmetic<T>::value };
 };
-template <typename T> struct is_array {
+template <typename T>
+struct is_array {
     enum { value = std::is_array<T>::value };
 };
-template <typename T> struct is_pointer {
+template <typename T>
+struct is_pointer {
     enum { value = std::is_pointer<T>::value };
 };
-template <typename T> struct is_class {
+template <typename T>
+struct is_class {
     enum { value = std::is_class<T>::value || std::is_union<T>::value };
 };
-template <typename T> struct is_enum {
+template <typename T>
+struct is_enum {
     enum { value = std::is_enum<T>::value };
 };
 
-template <typename T> struct remove_const {
+template <typename T>
+struct remove_const {
     typedef typename std::remove_const<T>::type type;
 };
-template <typename T> struct add_const {
+template <typename T>
+struct add_const {
     typedef typename std::add_const<T>::type type;
 };
-template <typename T> struct remove_reference {
+template <typename T>
+struct remove_reference {
     typedef typename std::remove_reference<T>::type type;
 };
-template <typename T> struct remove_pointer {
+template <typename T>
+struct remove_pointer {
     typedef typename std::remove_pointer<T>::type type;
 };
 

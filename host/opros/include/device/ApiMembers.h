@@ -10,8 +10,10 @@
 namespace opros {
 namespace detail {
 
-template <typename Archive> void archive_all(Archive&) {}
-template <typename Archive, typename T, typename... Rest> void archive_all(Archive& ar, T& first, Rest&... rest) {
+template <typename Archive>
+void archive_all(Archive&) {}
+template <typename Archive, typename T, typename... Rest>
+void archive_all(Archive& ar, T& first, Rest&... rest) {
     ar& first;
     archive_all(ar, rest...);
 }
@@ -22,8 +24,12 @@ template <typename Archive, typename T, typename... Rest> void archive_all(Archi
 /// save() and load() of these members in this order.
 #define OPROS_API_MEMBERS(...)                                                                               \
     friend class opros::archive::access;                                                                     \
-    void save(opros::archive::oarchive& ar, const unsigned int) { opros::detail::archive_all(ar, __VA_ARGS__); } \
-    void load(opros::archive::iarchive& ar, const unsigned int) { opros::detail::archive_all(ar, __VA_ARGS__); }
+    void save(opros::archive::oarchive& ar, const unsigned int) {                                            \
+        opros::detail::archive_all(ar, __VA_ARGS__);                                                         \
+    }                                                                                                        \
+    void load(opros::archive::iarchive& ar, const unsigned int) {                                            \
+        opros::detail::archive_all(ar, __VA_ARGS__);                                                         \
+    }
 
 #define OPROS_API_TYPE_NAME(type)                                                                            \
     inline std::string typeName(type*) { return #type; }

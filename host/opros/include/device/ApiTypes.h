@@ -70,10 +70,18 @@ class ObjectRotation {
     ObjectRotation& operator=(const ObjectRotation&) = default;
     virtual ~ObjectRotation() {}
     OPROS_API_MEMBERS(roll, pitch, yaw)
-    ObjectRotation operator+(const ObjectRotation& o) { return *this = {roll + o.roll, pitch + o.pitch, yaw + o.yaw}; }
-    ObjectRotation operator-(const ObjectRotation& o) { return *this = {roll - o.roll, pitch - o.pitch, yaw - o.yaw}; }
-    ObjectRotation operator*(const ObjectRotation& o) { return *this = {roll * o.roll, pitch * o.pitch, yaw * o.yaw}; }
-    ObjectRotation operator/(const ObjectRotation& o) { return *this = {roll / o.roll, pitch / o.pitch, yaw / o.yaw}; }
+    ObjectRotation operator+(const ObjectRotation& o) {
+        return *this = {roll + o.roll, pitch + o.pitch, yaw + o.yaw};
+    }
+    ObjectRotation operator-(const ObjectRotation& o) {
+        return *this = {roll - o.roll, pitch - o.pitch, yaw - o.yaw};
+    }
+    ObjectRotation operator*(const ObjectRotation& o) {
+        return *this = {roll * o.roll, pitch * o.pitch, yaw * o.yaw};
+    }
+    ObjectRotation operator/(const ObjectRotation& o) {
+        return *this = {roll / o.roll, pitch / o.pitch, yaw / o.yaw};
+    }
 };
 OPROS_API_TYPE_NAME(ObjectRotation)
 
@@ -95,7 +103,8 @@ class ObjectLocation {
   public:
     double x, y, theta;
     ObjectLocation() : x(0), y(0), theta(0) {}
-    ObjectLocation(double length, double angle) : x(length * cos(angle)), y(length * sin(angle)), theta(angle) {}
+    ObjectLocation(double length, double angle)
+        : x(length * cos(angle)), y(length * sin(angle)), theta(angle) {}
     ObjectLocation(double x_, double y_, double theta_) : x(x_), y(y_), theta(theta_) {}
     OPROS_API_MEMBERS(x, y, theta)
 
@@ -154,7 +163,8 @@ OPROS_API_TYPE_NAME(GpsData)
 class VisionRecognitionResult {
   public:
     std::string name;
-    int point1X = 0, point1Y = 0, point2X = 0, point2Y = 0, point3X = 0, point3Y = 0, point4X = 0, point4Y = 0;
+    int point1X = 0, point1Y = 0, point2X = 0, point2Y = 0, point3X = 0, point3Y = 0, point4X = 0,
+        point4Y = 0;
     OPROS_API_MEMBERS(name, point1X, point1Y, point2X, point2Y, point3X, point3Y, point4X, point4Y)
 };
 OPROS_API_TYPE_NAME(VisionRecognitionResult)

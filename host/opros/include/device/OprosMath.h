@@ -35,12 +35,22 @@ const double NaN = std::numeric_limits<double>::quiet_NaN();
 inline double RAD2DEG(double x) { return x * _RAD2DEG; }
 inline double DEG2RAD(double x) { return x * _DEG2RAD; }
 
-template <typename T> inline T min_val(T v1, T v2) { return v1 < v2 ? v1 : v2; }
-template <typename T> inline T max_val(T v1, T v2) { return v1 > v2 ? v1 : v2; }
+template <typename T>
+inline T min_val(T v1, T v2) {
+    return v1 < v2 ? v1 : v2;
+}
+template <typename T>
+inline T max_val(T v1, T v2) {
+    return v1 > v2 ? v1 : v2;
+}
 /// x, held between the two.
 inline double Limit(double x, double lo, double hi) { return x < lo ? lo : (x > hi ? hi : x); }
-template <typename T> inline T bound(T x, T l, T u) { return x <= l ? l : (x >= u ? u : x); }
-template <typename T> inline void Swap(T& v1, T& v2) {
+template <typename T>
+inline T bound(T x, T l, T u) {
+    return x <= l ? l : (x >= u ? u : x);
+}
+template <typename T>
+inline void Swap(T& v1, T& v2) {
     const T first = v1;
     v1 = v2;
     v2 = first;

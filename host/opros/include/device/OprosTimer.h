@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 /// Sleeps this many milliseconds.
-#define OprosSleep(X) usleep((X) * 1000)
+#define OprosSleep(X) usleep((X)*1000)
 
 /// A stop watch in milliseconds, and another one in microseconds.
 class OprosTimer {
@@ -21,7 +21,8 @@ class OprosTimer {
 
   private:
     typedef std::chrono::steady_clock clock;
-    template <typename Unit> static unsigned long since(clock::time_point start) {
+    template <typename Unit>
+    static unsigned long since(clock::time_point start) {
         return static_cast<unsigned long>(std::chrono::duration_cast<Unit>(clock::now() - start).count());
     }
     clock::time_point m_start, m_startMicro;

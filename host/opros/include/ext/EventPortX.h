@@ -10,7 +10,8 @@
 inline void eventFetch() {}
 
 template <typename T, int n, typename C, typename D, typename... P>
-void setTopicCallBack(InputEventPort<T, n>& port, void (C::*function)(P...), D* object, const std::string& topic) {
+void setTopicCallBack(InputEventPort<T, n>& port, void (C::*function)(P...), D* object,
+                      const std::string& topic) {
     port.setTopic(topic);
     setEventCallBack(port, function, object);
 }

@@ -18,8 +18,10 @@ class SymbolPort : public ProvidedServicePort {
         addMethod("getSymbolValue", makeProvidedMethod(&SymbolPort::getSymbolValue, this, "getSymbolValue"));
         addMethod("setSymbolvalue", makeProvidedMethod(&SymbolPort::setSymbolvalue, this, "setSymbolvalue"));
         addMethod("addSymbol", makeProvidedMethod(&SymbolPort::addSymbol, this, "addSymbol"));
-        addMethod("setEncodingRule", makeProvidedMethod(&SymbolPort::setEncodingRule, this, "setEncodingRule"));
-        addMethod("getEncodingRule", makeProvidedMethod(&SymbolPort::getEncodingRule, this, "getEncodingRule"));
+        addMethod("setEncodingRule",
+                  makeProvidedMethod(&SymbolPort::setEncodingRule, this, "setEncodingRule"));
+        addMethod("getEncodingRule",
+                  makeProvidedMethod(&SymbolPort::getEncodingRule, this, "getEncodingRule"));
     }
 
     /// Takes the object.

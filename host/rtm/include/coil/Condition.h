@@ -10,7 +10,7 @@ namespace coil {
 /// The caller holds the mutex around wait().
 template <class MutexType>
 class Condition {
-public:
+  public:
     explicit Condition(MutexType& mutex) : mutex_(mutex) {}
     void signal() { condition_.notify_one(); }
     void broadcast() { condition_.notify_all(); }
@@ -23,7 +23,7 @@ public:
         return condition_.wait_for(mutex_, bound) == std::cv_status::no_timeout;
     }
 
-private:
+  private:
     MutexType& mutex_;
     std::condition_variable_any condition_;
 };

@@ -12,7 +12,14 @@
 
 namespace coil {
 
-enum class FactoryReturn : std::uint8_t { OK, FACTORY_ERROR, ALREADY_EXISTS, NOT_FOUND, INVALID_ARG, UNKNOWN_ERROR };
+enum class FactoryReturn : std::uint8_t {
+    OK,
+    FACTORY_ERROR,
+    ALREADY_EXISTS,
+    NOT_FOUND,
+    INVALID_ARG,
+    UNKNOWN_ERROR
+};
 
 template <class AbstractClass, class ConcreteClass>
 AbstractClass* Creator() {
@@ -36,7 +43,7 @@ class Factory {
         Properties properties;
     };
 
-public:
+  public:
     bool hasFactory(const Identifier& id) {
         std::lock_guard<std::mutex> lock(mutex_);
         return creators_.count(id) != 0;
@@ -106,7 +113,7 @@ public:
         return FactoryReturn::OK;
     }
 
-private:
+  private:
     std::map<Identifier, Entry, Compare> creators_;
     std::map<AbstractClass*, Entry> objects_;
     std::mutex mutex_;
@@ -116,7 +123,7 @@ private:
 template <class AbstractClass, typename Identifier = std::string, typename Compare = std::less<Identifier>,
           typename Creator = AbstractClass* (*)(), typename Destructor = void (*)(AbstractClass*&)>
 class GlobalFactory : public Factory<AbstractClass, Identifier, Compare, Creator, Destructor> {
-public:
+  public:
     // Never destroyed: objects may be returned to it while the process exits.
     static GlobalFactory& instance() {
         static GlobalFactory* the_instance = new GlobalFactory();
@@ -125,7 +132,7 @@ public:
     GlobalFactory(const GlobalFactory&) = delete;
     GlobalFactory& operator=(const GlobalFactory&) = delete;
 
-private:
+  private:
     GlobalFactory() = default;
 };
 

@@ -7,13 +7,13 @@ namespace coil {
 
 template <class MutexType>
 class Guard {
-public:
+  public:
     explicit Guard(MutexType& mutex) : mutex_(mutex) { mutex_.lock(); }
     ~Guard() { mutex_.unlock(); }
     Guard(const Guard&) = delete;
     Guard& operator=(const Guard&) = delete;
 
-private:
+  private:
     MutexType& mutex_;
 };
 

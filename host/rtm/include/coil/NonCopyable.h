@@ -5,11 +5,11 @@
 namespace coil {
 
 class NonCopyable {
-protected:
+  protected:
     NonCopyable() = default;
     ~NonCopyable() = default;
 
-private:
+  private:
     NonCopyable(const NonCopyable&) = delete;
     NonCopyable& operator=(const NonCopyable&) = delete;
 };

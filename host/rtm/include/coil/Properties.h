@@ -14,11 +14,12 @@ namespace coil {
 /// A tree of strings addressed by dotted keys (`a.b.c`); each node has a value and a default.
 /// Not synchronised: the owner guards it.
 class Properties {
-public:
+  public:
     explicit Properties(const char* key = "", const char* value = "", bool set_value = false);
     explicit Properties(std::map<std::string, std::string>& defaults);
     /// key, value, key, value, ... up to an empty key (or `num` strings): the form of a component's spec.
-    explicit Properties(const char* const defaults[], std::size_t num = std::numeric_limits<std::size_t>::max());
+    explicit Properties(const char* const defaults[],
+                        std::size_t num = std::numeric_limits<std::size_t>::max());
     explicit Properties(const char* defaults[], std::size_t num = std::numeric_limits<std::size_t>::max());
     Properties(const Properties& other);
     Properties& operator=(const Properties& other);
@@ -42,8 +43,7 @@ public:
     /// Sets a value and returns the former one.
     std::string setProperty(const std::string& key, const std::string& value);
     std::string setDefault(const std::string& key, const std::string& value);
-    void setDefaults(const char* const defaults[],
-                     std::size_t num = std::numeric_limits<std::size_t>::max());
+    void setDefaults(const char* const defaults[], std::size_t num = std::numeric_limits<std::size_t>::max());
 
     void list(std::ostream& out);
     /// Reads `key: value` or `key = value` lines; `#` and `!` comment, `\` at the end continues.
@@ -63,7 +63,7 @@ public:
     Properties& operator<<(const Properties& prop);
     operator std::vector<std::string>() const;
 
-private:
+  private:
     const Properties* find(const std::string& key) const;
     void names(const std::string& prefix, std::vector<std::string>& out) const;
     void dump(std::ostream& out, std::size_t depth) const;

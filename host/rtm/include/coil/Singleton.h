@@ -7,7 +7,7 @@ namespace coil {
 /// One instance per process, made at first use.
 template <class T>
 class Singleton {
-public:
+  public:
     static T& instance() {
         static T the_instance;
         return the_instance;
@@ -15,7 +15,7 @@ public:
     Singleton(const Singleton&) = delete;
     Singleton& operator=(const Singleton&) = delete;
 
-protected:
+  protected:
     Singleton() = default;
     ~Singleton() = default;
 };

@@ -7,16 +7,16 @@
 namespace coil {
 
 class UUID {
-public:
+  public:
     explicit UUID(std::string text = std::string()) : text_(std::move(text)) {}
     const char* to_string() const { return text_.c_str(); }
 
-private:
+  private:
     std::string text_;
 };
 
 class UUID_Generator {
-public:
+  public:
     void init() {}
     /// A random (version 4) UUID; the arguments are those of OpenRTM-aist and mean nothing here.
     std::unique_ptr<UUID> generateUUID(int number = 1, int flags = 1);

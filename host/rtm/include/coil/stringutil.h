@@ -115,7 +115,7 @@ char** toArgv(const vstring& args);
 
 /// Owns what an `argv` points to.
 class Argv {
-public:
+  public:
     Argv() = default;
     explicit Argv(const vstring& args);
     Argv(const Argv&) = delete;
@@ -125,7 +125,7 @@ public:
     char** get() noexcept { return args_.empty() ? nullptr : argv_.data(); }
     std::size_t size() const noexcept { return args_.size(); }
 
-private:
+  private:
     std::vector<std::vector<char>> args_;
     std::vector<char*> argv_;
 };

@@ -12,7 +12,7 @@ namespace RTC {
 /// both may happen at the same time in different threads.
 template <class DataType>
 class BufferBase {
-public:
+  public:
     virtual ~BufferBase() = default;
     /// Called once, with the connector's properties below `buffer.`.
     virtual void init(const coil::Properties& prop) = 0;

@@ -8,7 +8,7 @@ class ByteDataStreamBase;
 /// Owned bytes of one serialized message and their byte order. Memory is kept and reused: assigning or
 /// writing allocates only when a message is longer than any before.
 class ByteData {
-public:
+  public:
     ByteData();
     ~ByteData();
     ByteData(const ByteData& other);
@@ -26,7 +26,7 @@ public:
     void isLittleEndian(bool little_endian) { m_little_endian = little_endian; }
     bool getEndian() const { return m_little_endian; }
 
-private:
+  private:
     void reserve(unsigned long length);
 
     unsigned char* m_buf = nullptr;

@@ -12,7 +12,7 @@ namespace RTC {
 
 /// Serialized bytes as a connector handles them: writeData() puts bytes in, readData() takes them out.
 class ByteDataStreamBase {
-public:
+  public:
     ByteDataStreamBase() = default;
     virtual ~ByteDataStreamBase();
     virtual void init(const coil::Properties& prop);
@@ -25,7 +25,7 @@ public:
 /// Values of one type to bytes and back.
 template <typename DataType>
 class ByteDataStream : public ByteDataStreamBase {
-public:
+  public:
     virtual bool serialize(const DataType& data) = 0;
     virtual bool deserialize(DataType& data) = 0;
 };

@@ -13,7 +13,7 @@ namespace RTC {
 
 /// CDR of one message, aligned from its first byte. The memory is kept between messages.
 class CORBA_CdrMemoryStream {
-public:
+  public:
     template <class DataType>
     bool serializeCDR(const DataType& data) {
         try {
@@ -41,29 +41,33 @@ public:
     void writeCdrData(const unsigned char* buffer, unsigned long length);
     void readCdrData(unsigned char* buffer, unsigned long length) const;
 
-private:
+  private:
     cdrMemoryStream m_cdr;
     bool m_endian = true;
 };
 
 template <class DataType>
 class CORBA_CdrSerializer : public ByteDataStream<DataType> {
-public:
-    void writeData(const unsigned char* buffer, unsigned long length) override { m_cdr.writeCdrData(buffer, length); }
-    void readData(unsigned char* buffer, unsigned long length) const override { m_cdr.readCdrData(buffer, length); }
+  public:
+    void writeData(const unsigned char* buffer, unsigned long length) override {
+        m_cdr.writeCdrData(buffer, length);
+    }
+    void readData(unsigned char* buffer, unsigned long length) const override {
+        m_cdr.readCdrData(buffer, length);
+    }
     unsigned long getDataLength() const override { return m_cdr.getCdrDataLength(); }
     void isLittleEndian(bool little_endian) override { m_cdr.setEndian(little_endian); }
     bool serialize(const DataType& data) override { return m_cdr.serializeCDR(data); }
     bool deserialize(DataType& data) override { return m_cdr.deserializeCDR(data); }
 
-protected:
+  protected:
     CORBA_CdrMemoryStream m_cdr;
 };
 
 /// One value for an InPlaceBuffer.
 template <class DataType>
 class CdrMarshal final : public Marshal {
-public:
+  public:
     explicit CdrMarshal(const DataType& data) : m_data(data) {}
     bool operator()(cdrStream& out) const override {
         try {
@@ -74,13 +78,13 @@ public:
         }
     }
 
-private:
+  private:
     const DataType& m_data;
 };
 
 template <class DataType>
 class CdrUnmarshal final : public Unmarshal {
-public:
+  public:
     explicit CdrUnmarshal(DataType& data) : m_data(data) {}
     void operator()(cdrStream& in) override {
         try {
@@ -91,7 +95,7 @@ public:
     }
     bool sound = true;
 
-private:
+  private:
     DataType& m_data;
 };
 

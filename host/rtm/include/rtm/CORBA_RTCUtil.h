@@ -53,13 +53,14 @@ coil::vstring get_connector_ids(RTC::RTObject_ptr rtc, const std::string& port_n
 RTC::ConnectorProfile* create_connector(const std::string& name, const coil::Properties& properties,
                                         RTC::PortService_ptr port0, RTC::PortService_ptr port1);
 bool already_connected(RTC::PortService_ptr port0, RTC::PortService_ptr port1);
-RTC::ReturnCode_t connect(const std::string& name, const coil::Properties& properties, RTC::PortService_ptr port0,
-                          RTC::PortService_ptr port1);
-RTC::ReturnCode_t connect_by_name(const std::string& name, const coil::Properties& properties, RTC::RTObject_ptr rtc0,
-                                  const std::string& port0, RTC::RTObject_ptr rtc1, const std::string& port1);
+RTC::ReturnCode_t connect(const std::string& name, const coil::Properties& properties,
+                          RTC::PortService_ptr port0, RTC::PortService_ptr port1);
+RTC::ReturnCode_t connect_by_name(const std::string& name, const coil::Properties& properties,
+                                  RTC::RTObject_ptr rtc0, const std::string& port0, RTC::RTObject_ptr rtc1,
+                                  const std::string& port1);
 /// Each target by a connection of its own; the first failure is the result, the others are made all the same.
-RTC::ReturnCode_t connect_multi(const std::string& name, const coil::Properties& properties, RTC::PortService_ptr port,
-                                RTC::PortServiceList& target_ports);
+RTC::ReturnCode_t connect_multi(const std::string& name, const coil::Properties& properties,
+                                RTC::PortService_ptr port, RTC::PortServiceList& target_ports);
 // BAD_PARAMETER: there is no such connection.
 RTC::ReturnCode_t disconnect(const RTC::ConnectorProfile& connector);
 RTC::ReturnCode_t disconnect_connector_name(RTC::PortService_ptr port, const std::string& connector_name);
@@ -84,11 +85,13 @@ struct find_port {
 coil::Properties get_configuration(RTC::RTObject_ptr rtc, const std::string& set_name);
 std::string get_active_configuration_name(RTC::RTObject_ptr rtc);
 coil::Properties get_active_configuration(RTC::RTObject_ptr rtc);
-std::string get_parameter_by_key(RTC::RTObject_ptr rtc, const std::string& set_name, const std::string& parameter);
+std::string get_parameter_by_key(RTC::RTObject_ptr rtc, const std::string& set_name,
+                                 const std::string& parameter);
 bool set_active_configuration(RTC::RTObject_ptr rtc, const std::string& parameter, const std::string& value);
 /// Changes `set` and hands it to the component.
-bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration, SDOPackage::ConfigurationSet& set,
-                                 const std::string& parameter, const std::string& value);
+bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
+                                 SDOPackage::ConfigurationSet& set, const std::string& parameter,
+                                 const std::string& value);
 bool set_configuration(RTC::RTObject_ptr rtc, const std::string& set_name, const std::string& parameter,
                        const std::string& value);
 

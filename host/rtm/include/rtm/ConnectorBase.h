@@ -14,9 +14,10 @@ namespace RTC {
 
 /// What a connector is: name, id, names (or IORs) of its ports, and its properties without `dataport.`.
 class ConnectorInfo {
-public:
+  public:
     ConnectorInfo() = default;
-    ConnectorInfo(const char* name_, const char* id_, coil::vstring ports_, const coil::Properties& properties_)
+    ConnectorInfo(const char* name_, const char* id_, coil::vstring ports_,
+                  const coil::Properties& properties_)
         : name(name_), id(id_), ports(std::move(ports_)), properties(properties_) {}
     std::string name;
     std::string id;
@@ -27,7 +28,7 @@ using ConnectorInfoList = std::vector<ConnectorInfo>;
 
 /// One end of a data connection, owned by its port.
 class ConnectorBase {
-public:
+  public:
     virtual ~ConnectorBase() = default;
     virtual const ConnectorInfo& profile() = 0;
     virtual const char* id() = 0;

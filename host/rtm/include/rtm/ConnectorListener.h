@@ -187,11 +187,15 @@ class ConnectorListeners {
         return has(type) ? call(type, info, data, marshalingtype) : ConnectorListenerStatus::NO_CHANGE;
     }
     /// As transports of libraries call them: serialized as the receiving, the sending end does.
-    ConnectorListenerStatus::Enum notifyIn(ConnectorDataListenerType type, ConnectorInfo& info, ByteData& data) {
-        return has(type) ? call(type, info, data, marshalingType(info, "inport")) : ConnectorListenerStatus::NO_CHANGE;
+    ConnectorListenerStatus::Enum notifyIn(ConnectorDataListenerType type, ConnectorInfo& info,
+                                           ByteData& data) {
+        return has(type) ? call(type, info, data, marshalingType(info, "inport"))
+                         : ConnectorListenerStatus::NO_CHANGE;
     }
-    ConnectorListenerStatus::Enum notifyOut(ConnectorDataListenerType type, ConnectorInfo& info, ByteData& data) {
-        return has(type) ? call(type, info, data, marshalingType(info, "outport")) : ConnectorListenerStatus::NO_CHANGE;
+    ConnectorListenerStatus::Enum notifyOut(ConnectorDataListenerType type, ConnectorInfo& info,
+                                            ByteData& data) {
+        return has(type) ? call(type, info, data, marshalingType(info, "outport"))
+                         : ConnectorListenerStatus::NO_CHANGE;
     }
     ConnectorListenerStatus::Enum notify(ConnectorListenerType type, ConnectorInfo& info) {
         return has(type) ? call(type, info) : ConnectorListenerStatus::NO_CHANGE;

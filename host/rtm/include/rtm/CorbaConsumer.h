@@ -9,9 +9,10 @@ namespace RTC {
 
 /// A place for the reference of a required service; CorbaPort fills and empties it.
 class CorbaConsumerBase {
-public:
+  public:
     CorbaConsumerBase() = default;
-    CorbaConsumerBase(const CorbaConsumerBase& other) : m_objref(CORBA::Object::_duplicate(other.m_objref.in())) {}
+    CorbaConsumerBase(const CorbaConsumerBase& other)
+        : m_objref(CORBA::Object::_duplicate(other.m_objref.in())) {}
     CorbaConsumerBase& operator=(const CorbaConsumerBase& other) {
         m_objref = CORBA::Object::_duplicate(other.m_objref.in());
         return *this;
@@ -28,7 +29,7 @@ public:
     virtual CORBA::Object_ptr getObject() { return m_objref.in(); }
     virtual void releaseObject() { m_objref = CORBA::Object::_nil(); }
 
-protected:
+  protected:
     CORBA::Object_var m_objref;
 };
 
@@ -36,9 +37,10 @@ protected:
 template <class ObjectType, typename ObjectTypePtr = typename ObjectType::_ptr_type,
           typename ObjectTypeVar = typename ObjectType::_var_type>
 class CorbaConsumer : public CorbaConsumerBase {
-public:
+  public:
     CorbaConsumer() = default;
-    CorbaConsumer(const CorbaConsumer& other) : CorbaConsumerBase(other), m_var(ObjectType::_duplicate(other.m_var.in())) {}
+    CorbaConsumer(const CorbaConsumer& other)
+        : CorbaConsumerBase(other), m_var(ObjectType::_duplicate(other.m_var.in())) {}
     CorbaConsumer& operator=(const CorbaConsumer& other) {
         CorbaConsumerBase::operator=(other);
         m_var = ObjectType::_duplicate(other.m_var.in());
@@ -64,7 +66,7 @@ public:
         m_var = ObjectType::_nil();
     }
 
-protected:
+  protected:
     ObjectTypeVar m_var;
     ObjectTypeVar m_released; ///< a call through it may be under way when the provider is lost
 };

@@ -12,7 +12,7 @@ namespace RTC {
 
 /// The buffer of an InPort for its `direct` connections. [any-thread]
 class DirectLaneBase {
-public:
+  public:
     virtual ~DirectLaneBase() = default;
     virtual const std::type_info& type() const = 0;
     virtual void init(const coil::Properties& buffer) = 0;
@@ -24,7 +24,7 @@ public:
 
 template <class DataType>
 class DirectLane : public DirectLaneBase {
-public:
+  public:
     const std::type_info& type() const override { return typeid(DataType); }
     void init(const coil::Properties& buffer) override { m_values.init(buffer); }
     std::size_t readable() const override { return m_values.readable(); }
@@ -39,29 +39,29 @@ public:
         return stream.deserialize(value) ? write(value) : BufferStatus::BUFFER_ERROR;
     }
 
-private:
+  private:
     RingBuffer<DataType> m_values;
 };
 
 /// Puts one value into a lane. NOT_SUPPORTED: the lane is for another type.
 class DirectPut {
-public:
+  public:
     virtual BufferStatus operator()(DirectLaneBase& lane) const = 0;
 
-protected:
+  protected:
     ~DirectPut() = default;
 };
 
 template <class DataType>
 class DirectPutOf final : public DirectPut {
-public:
+  public:
     explicit DirectPutOf(const DataType& value) : m_value(value) {}
     BufferStatus operator()(DirectLaneBase& lane) const override {
         if (lane.type() != typeid(DataType)) return BufferStatus::NOT_SUPPORTED;
         return static_cast<DirectLane<DataType>&>(lane).write(m_value);
     }
 
-private:
+  private:
     const DataType& m_value;
 };
 

@@ -19,7 +19,7 @@ inline bool carriesEvent(ConnectorInfo& info, const std::string& event_name) {
 /// Puts an event without argument into the machine, whatever the message is.
 template <class FSM, class TOP, class R>
 class EventBinder0 : public ConnectorDataListener {
-public:
+  public:
     USE_CONNLISTENER_STATUS;
     EventBinder0(FSM& fsm, const char* event_name, R (TOP::*handler)())
         : m_fsm(fsm), m_eventName(event_name), m_handler(handler) {}
@@ -32,7 +32,7 @@ public:
         return NO_CHANGE;
     }
 
-private:
+  private:
     FSM& m_fsm;
     std::string m_eventName;
     R (TOP::*m_handler)();
@@ -41,7 +41,7 @@ private:
 /// Puts an event into the machine whose argument is the value received.
 template <class FSM, class TOP, class R, class P0>
 class EventBinder1 : public ConnectorDataListenerT<P0> {
-public:
+  public:
     USE_CONNLISTENER_STATUS;
     EventBinder1(FSM& fsm, const char* event_name, R (TOP::*handler)(P0))
         : m_fsm(fsm), m_eventName(event_name), m_handler(handler) {}
@@ -58,7 +58,7 @@ public:
         return NO_CHANGE;
     }
 
-private:
+  private:
     FSM& m_fsm;
     std::string m_eventName;
     R (TOP::*m_handler)(P0);
@@ -66,7 +66,7 @@ private:
 
 /// A connection's `buffer.*` are those of the machine's events; its messages are not kept.
 class EventConnListener : public ConnectorListener {
-public:
+  public:
     USE_CONNLISTENER_STATUS;
     explicit EventConnListener(FsmEvents& events) : m_events(events) {}
     using ConnectorListener::operator();
@@ -75,14 +75,14 @@ public:
         return NO_CHANGE;
     }
 
-private:
+  private:
     FsmEvents& m_events;
 };
 
 /// A data port whose messages are events of a state machine. It accepts any data type.
 template <class FsmType>
 class EventInPort : public InPortBase {
-public:
+  public:
     EventInPort(const char* name, FsmType& fsm) : InPortBase(name, "any"), m_name(name), m_fsm(fsm) {
         addProperty("dataport.marshaling_types", "cdr");
     }
@@ -103,7 +103,7 @@ public:
     }
     bool read(std::string /*name*/ = "") override { return true; }
 
-private:
+  private:
     std::string m_name;
     FsmType& m_fsm;
 };

@@ -10,26 +10,26 @@ namespace RTC {
 
 /// Puts one value into a stream, as often as it is asked to: to count its bytes, to write them. False: it cannot.
 class Marshal {
-public:
+  public:
     virtual bool operator()(cdrStream& out) const = 0;
 
-protected:
+  protected:
     ~Marshal() = default;
 };
 
 /// Takes a message apart where it lies.
 class Unmarshal {
-public:
+  public:
     virtual void operator()(cdrStream& in) = 0;
 
-protected:
+  protected:
     ~Unmarshal() = default;
 };
 
 /// What a CdrBufferBase may be as well: a buffer in which long messages are made and read in place, without
 /// ByteData and the copies to and from it. Its messages are little-endian.
 class InPlaceBuffer {
-public:
+  public:
     virtual ~InPlaceBuffer() = default;
     /// What a message is long from, in bytes.
     virtual std::size_t longFrom() const = 0;

@@ -11,7 +11,7 @@ namespace RTC {
 
 /// The receiving end of a data connection. Its port reads it from one thread at a time.
 class InPortConnector : public ConnectorBase {
-public:
+  public:
     InPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners, CdrBufferBase* buffer);
     ~InPortConnector() override;
 
@@ -57,7 +57,7 @@ public:
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
 
-protected:
+  protected:
     // Looked up once: the type of a connector never changes.
     template <class DataType>
     ByteDataStream<DataType>* serializer() {
@@ -68,7 +68,8 @@ protected:
             m_type = &typeid(DataType);
             m_plainCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
             if (m_typed == nullptr)
-                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(), m_marshaling_type.c_str()));
+                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(),
+                           m_marshaling_type.c_str()));
         }
         return static_cast<ByteDataStream<DataType>*>(m_typed);
     }
@@ -100,10 +101,10 @@ protected:
     TimestampPolicy m_timestamp;
     ByteDataStreamBase* m_cdr = nullptr;
 
-    InPlaceBuffer* m_inPlace = nullptr; // the buffer, if it is one
+    InPlaceBuffer* m_inPlace = nullptr;     // the buffer, if it is one
     std::shared_ptr<DirectLaneBase> m_lane; // of a direct connection
 
-private:
+  private:
     bool m_plainCdr = false; // the serializer does what any stream does
     ByteData m_bytes;
     void* m_typed = nullptr;

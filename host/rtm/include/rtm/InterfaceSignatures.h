@@ -13,7 +13,7 @@ namespace RTC {
 /// Filled by the initialisers that tandem_add_rtm_idl() generates, and by ports for their data types.
 /// [any-thread]
 class InterfaceSignatures {
-public:
+  public:
     struct Operation {
         std::string name;
         std::string arguments; ///< what a request carries, without separators: `dd`

@@ -12,7 +12,7 @@ namespace util {
 /// Listeners and whether they are deleted when they go. Called in the order they were added. [any-thread]
 template <class ListenerClass>
 class ListenerHolder {
-public:
+  public:
     ListenerHolder() = default;
     ListenerHolder(const ListenerHolder&) = delete;
     ListenerHolder& operator=(const ListenerHolder&) = delete;
@@ -26,8 +26,9 @@ public:
     }
     virtual void removeListener(ListenerClass* listener) {
         std::lock_guard<std::recursive_mutex> lock(m_mutex);
-        auto found = std::find_if(m_listeners.begin(), m_listeners.end(),
-                                  [&](const std::pair<ListenerClass*, bool>& e) { return e.first == listener; });
+        auto found =
+            std::find_if(m_listeners.begin(), m_listeners.end(),
+                         [&](const std::pair<ListenerClass*, bool>& e) { return e.first == listener; });
         if (found == m_listeners.end()) return;
         if (found->second) delete found->first;
         m_listeners.erase(found);
@@ -38,7 +39,7 @@ public:
         for (std::size_t i = 0; i < m_listeners.size(); ++i) call(*m_listeners[i].first);
     }
 
-protected:
+  protected:
     std::recursive_mutex m_mutex;
     std::vector<std::pair<ListenerClass*, bool>> m_listeners;
 };

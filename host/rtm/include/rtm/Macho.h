@@ -19,33 +19,33 @@
 #define TOPSTATE(TOP) struct TOP : public ::Macho::Link<TOP, ::Macho::TopBase<TOP>>
 #define SUBSTATE(STATE, SUPERSTATE) struct STATE : public ::Macho::Link<STATE, SUPERSTATE>
 
-#define TANDEM_MACHO_STATE(S, Base)                                                                                   \
-public:                                                                                                               \
-    using SELF = S;                                                                                                   \
-    explicit S(::Macho::_StateInstance& instance) : Base(instance) {}                                                 \
-    ~S() override {}                                                                                                  \
-    static const char* _state_name() { return #S; }                                                                   \
-    Box& box() { return *static_cast<Box*>(this->_box()); }                                                           \
+#define TANDEM_MACHO_STATE(S, Base)                                                                          \
+  public:                                                                                                    \
+    using SELF = S;                                                                                          \
+    explicit S(::Macho::_StateInstance& instance) : Base(instance) {}                                        \
+    ~S() override {}                                                                                         \
+    static const char* _state_name() { return #S; }                                                          \
+    Box& box() { return *static_cast<Box*>(this->_box()); }                                                  \
     friend class ::_VS8_Bug_101615
 #define TANDEM_MACHO_SINGLE(...) __VA_ARGS__
 #define STATE(S) TANDEM_MACHO_STATE(S, TANDEM_MACHO_SINGLE(::Macho::Link<S, SUPER>))
 
 /// setStateHistory<S>() returns to the direct substate of S that was left last ...
-#define HISTORY()                                                                                                     \
-public:                                                                                                               \
+#define HISTORY()                                                                                            \
+  public:                                                                                                    \
     ::Macho::_History _history() const override { return ::Macho::_History::shallow; }
 /// ... or to the innermost one.
-#define DEEPHISTORY()                                                                                                 \
-public:                                                                                                               \
+#define DEEPHISTORY()                                                                                        \
+  public:                                                                                                    \
     ::Macho::_History _history() const override { return ::Macho::_History::deep; }
 /// The state's Box is kept while the machine is in other states.
-#define PERSISTENT()                                                                                                  \
-public:                                                                                                               \
+#define PERSISTENT()                                                                                         \
+  public:                                                                                                    \
     bool _persistent() const override { return true; }
 
 /// Calls the init() of a state, which may be private. (Each state has it as a friend, under Macho's name for it.)
 class _VS8_Bug_101615 {
-public:
+  public:
     template <class S, class... A, std::size_t... I>
     static void initialize(S& state, const std::tuple<A...>& arguments, std::index_sequence<I...>) {
         state.init(std::get<I>(arguments)...);
@@ -60,20 +60,20 @@ class Machine;
 /// An event on its way to whatever state is current when it gets there.
 template <class TOP>
 class IEvent {
-public:
+  public:
     virtual ~IEvent() = default;
     virtual void dispatch(TOP& state) = 0;
 };
 
 template <class TOP, class R, class... P>
 class _Event : public IEvent<TOP> {
-public:
+  public:
     template <class... A>
     explicit _Event(R (TOP::*handler)(P...), A&&... arguments)
         : m_handler(handler), m_arguments(std::forward<A>(arguments)...) {}
     void dispatch(TOP& state) override { call(state, std::index_sequence_for<P...>()); }
 
-private:
+  private:
     template <std::size_t... I>
     void call(TOP& state, std::index_sequence<I...>) {
         (state.*m_handler)(std::get<I>(m_arguments)...);
@@ -91,21 +91,21 @@ IEvent<TOP>* Event(R (TOP::*handler)(P...), A&&... arguments) {
 /// Superstate of the top state.
 template <class T>
 class TopBase : public _StateSpecification {
-public:
+  public:
     using TOP = T;
     explicit TopBase(_StateInstance& instance) : _StateSpecification(instance) {}
     /// For subclasses: an event that goes to the state the machine will be in after the present handler.
     void dispatch(IEvent<TOP>* event) { owner()._setPendingEvent(event); }
     const Machine<TOP>& machine() { return owner(); }
 
-private:
+  private:
     Machine<TOP>& owner() { return static_cast<Machine<TOP>&>(this->_machine()); }
 };
 
 /// State C with the superstate P.
 template <class C, class P>
 class Link : public P {
-public:
+  public:
     using SUPER = P;
     using TOP = typename P::TOP;
     using LINK = Link<C, P>;
@@ -127,12 +127,12 @@ public:
         return superOf(machine, std::is_same<P, TopBase<TOP>>());
     }
 
-protected:
+  protected:
     // Each level of the class hierarchy is a state of its own, with its own Box.
     explicit Link(_StateInstance& instance) : P(superFor(instance)), m_linked(instance) {}
     void* _box() { return m_linked.box(); }
 
-private:
+  private:
     static _StateInstance* superOf(_MachineBase&, std::true_type) { return nullptr; }
     static _StateInstance* superOf(_MachineBase& machine, std::false_type) {
         return &_MachineBase::_instance<P>(machine);
@@ -201,14 +201,14 @@ void _StateSpecification::setStateBox(typename S::Box* box) {
 /// A machine whose top state is TOP. `machine->event(...)` calls the current state's handler.
 template <class TOP>
 class Machine : public _MachineBase {
-public:
+  public:
     Machine() { begin(State<TOP>()); }
     explicit Machine(const Alias& state) { begin(state); }
     ~Machine() override { leave(); }
 
     /// Carries out, when the expression ends, what the handler has asked for.
     class AfterAdvice {
-    public:
+      public:
         explicit AfterAdvice(Machine& machine) : m_machine(&machine) {}
         AfterAdvice(AfterAdvice&& other) noexcept : m_machine(std::exchange(other.m_machine, nullptr)) {}
         ~AfterAdvice() noexcept(false) {
@@ -216,7 +216,7 @@ public:
         }
         TOP* operator->() const { return &m_machine->state(); }
 
-    private:
+      private:
         // The handler has thrown: what it asked for takes place after the next event.
         static bool failing() {
 #ifdef __cpp_lib_uncaught_exceptions
@@ -241,7 +241,7 @@ public:
     const typename TOP::Box& box() { return *static_cast<typename TOP::Box*>(_instance<TOP>(*this).box()); }
     void _setPendingEvent(IEvent<TOP>* event) { m_pendingEvent.reset(event); }
 
-private:
+  private:
     void begin(const Alias& state) {
         start(state);
         settleAll();

@@ -19,7 +19,7 @@ struct _EmptyBox {};
 
 /// What all states of all machines are.
 class _StateSpecification {
-public:
+  public:
     explicit _StateSpecification(_StateInstance& instance) : m_instance(instance) {}
     virtual ~_StateSpecification() = default;
     virtual void entry() {}
@@ -28,7 +28,7 @@ public:
     virtual _History _history() const { return _History::none; }
     virtual bool _persistent() const { return false; }
 
-protected:
+  protected:
     // Changes of state: asked for by handlers, entry(), exit() and init() of the current state.
     template <class S, class... A>
     void setState(const A&... arguments);
@@ -41,13 +41,13 @@ protected:
 
     _MachineBase& _machine();
 
-private:
+  private:
     _StateInstance& m_instance;
 };
 
 /// What a machine knows of one of its states.
 class _StateInstance {
-public:
+  public:
     _StateInstance(_MachineBase& machine, _StateInstance* super, const char* name, std::type_index type)
         : m_machine(machine), m_super(super), m_name(name), m_type(type) {}
     _StateInstance(const _StateInstance&) = delete;
@@ -70,7 +70,7 @@ public:
     _StateInstance& (*m_find)(_MachineBase&) = nullptr;
     _StateInstance* m_history = nullptr;
 
-private:
+  private:
     _MachineBase& m_machine;
     _StateInstance* m_super;
     const char* m_name;
@@ -81,7 +81,7 @@ inline _MachineBase& _StateSpecification::_machine() { return m_instance.machine
 
 /// How to get to a state; `State<S>(...)` and Machine::currentState() make them.
 class Alias {
-public:
+  public:
     using Find = _StateInstance& (*)(_MachineBase&);
     using Init = std::function<void(_StateInstance&)>;
     Alias(Find find, const char* name, std::type_index type, Init init = nullptr, bool history = false)
@@ -90,7 +90,7 @@ public:
     bool operator==(const Alias& other) const { return m_type == other.m_type; }
     bool operator!=(const Alias& other) const { return !(*this == other); }
 
-private:
+  private:
     friend class _MachineBase;
     Find m_find;
     const char* m_name;
@@ -100,7 +100,7 @@ private:
 };
 
 class _MachineBase {
-public:
+  public:
     _MachineBase() = default;
     _MachineBase(const _MachineBase&) = delete;
     _MachineBase& operator=(const _MachineBase&) = delete;
@@ -131,7 +131,7 @@ public:
         m_pending.reset(new Pending{state, std::move(box)});
     }
 
-protected:
+  protected:
     void start(const Alias& state);
     /// Leaves all states.
     void leave();
@@ -143,7 +143,7 @@ protected:
         while (dispatch_pending());
     }
 
-private:
+  private:
     struct Pending {
         Alias state;
         std::shared_ptr<void> box;

@@ -14,7 +14,7 @@ class RTObject_impl;
 namespace RTM {
 
 class ManagerActionListener {
-public:
+  public:
     virtual ~ManagerActionListener() = default;
     virtual void preShutdown() = 0;
     virtual void postShutdown() = 0;
@@ -22,7 +22,7 @@ public:
     virtual void postReinit() = 0;
 };
 class ModuleActionListener {
-public:
+  public:
     virtual ~ModuleActionListener() = default;
     virtual void preLoad(std::string& modname, std::string& funcname) = 0;
     virtual void postLoad(std::string& modname, std::string& funcname) = 0;
@@ -30,7 +30,7 @@ public:
     virtual void postUnload(std::string& modname) = 0;
 };
 class RtcLifecycleActionListener {
-public:
+  public:
     virtual ~RtcLifecycleActionListener() = default;
     virtual void preCreate(std::string& args) = 0;
     virtual void postCreate(RTC::RTObject_impl*) = 0;
@@ -40,7 +40,7 @@ public:
     virtual void postInitialize() = 0;
 };
 class NamingActionListener {
-public:
+  public:
     virtual ~NamingActionListener() = default;
     virtual void preBind(RTC::RTObject_impl* rtobj, coil::vstring& name) = 0;
     virtual void postBind(RTC::RTObject_impl* rtobj, coil::vstring& name) = 0;

@@ -10,11 +10,11 @@ namespace RTM {
 
 /// Names instances 0, 1, 2 ...; a number that has become free is used again.
 class ProcessUniquePolicy : public NumberingPolicyBase {
-public:
+  public:
     std::string onCreate(void* object) override;
     void onDelete(void* object) override;
 
-private:
+  private:
     std::mutex mutex_;
     std::vector<void*> objects_;
 };

@@ -7,7 +7,7 @@ namespace RTM {
 
 /// Gives the part of an instance name behind the type name.
 class NumberingPolicyBase {
-public:
+  public:
     virtual ~NumberingPolicyBase() = default;
     virtual std::string onCreate(void* object) = 0;
     virtual void onDelete(void* object) = 0;

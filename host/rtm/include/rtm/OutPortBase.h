@@ -12,7 +12,7 @@ class DataOutlet;
 
 /// A data port that sends. Derive from it for a port whose type is known at run time only.
 class OutPortBase : public PortBase {
-public:
+  public:
     using ConnectorList = std::vector<OutPortConnector*>;
 
     OutPortBase(const char* name, const char* data_type);
@@ -44,7 +44,7 @@ public:
     /// Ours: the local end of a pull connector, for an InPort of this process; NULL when there is none.
     std::shared_ptr<DataOutlet> outlet(const char* connector_id);
 
-protected:
+  protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
@@ -55,7 +55,7 @@ protected:
     bool m_littleEndian = true;
     ConnectorListenersBase m_listeners;
 
-private:
+  private:
     ReturnCode_t addPushConnectors(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     ReturnCode_t addPullConnector(ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(OutPortConnector* connector);

@@ -11,7 +11,7 @@ namespace RTC {
 
 /// The sending end of a data connection. Its port writes it from one thread at a time.
 class OutPortConnector : public ConnectorBase {
-public:
+  public:
     OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners);
     ~OutPortConnector() override;
 
@@ -31,7 +31,8 @@ public:
     DataPortStatus write(DataType& data) {
         auto* stream = serializer<DataType>();
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
-        const bool stamps = m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;
+        const bool stamps =
+            m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;
         m_sentInPlace = false;
         if (m_direct && !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
@@ -65,7 +66,7 @@ public:
     /// Ours: what the last write(stream) sent; nothing else has, if that is what sendsLike() was asked for.
     ByteData& lastBytes() { return m_bytes; }
 
-protected:
+  protected:
     // Looked up once: the type of a connector never changes.
     template <class DataType>
     ByteDataStream<DataType>* serializer() {
@@ -76,7 +77,8 @@ protected:
             m_type = &typeid(DataType);
             m_plainCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
             if (m_typed == nullptr)
-                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(), m_marshaling_type.c_str()));
+                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(),
+                           m_marshaling_type.c_str()));
         }
         return static_cast<ByteDataStream<DataType>*>(m_typed);
     }
@@ -97,9 +99,9 @@ protected:
     ByteDataStreamBase* m_cdr = nullptr;
 
     unsigned long m_longFrom = static_cast<unsigned long>(-1); // of the InPlaceBuffer, if there is one
-    bool m_direct = false; // the receiver has a lane
+    bool m_direct = false;                                     // the receiver has a lane
 
-private:
+  private:
     bool m_plainCdr = false; // the serializer does what any stream does
     bool m_sentInPlace = false;
     ByteData m_bytes;

@@ -9,7 +9,7 @@ namespace RTC {
 
 /// The ports of a component, in the order they were added. [any-thread]
 class PortAdmin {
-public:
+  public:
     PortServiceList* getPortServiceList() const;
     PortProfileList getPortProfileList() const;
     PortService_ptr getPortRef(const char* port_name) const;
@@ -26,7 +26,7 @@ public:
     /// Disconnects all and lets no more calls in.
     void finalizePorts();
 
-private:
+  private:
     std::vector<PortBase*> ports() const;
     std::vector<PortService_var> others() const;
 

@@ -7,7 +7,7 @@
 namespace RTC {
 
 class ConnectionCallback {
-public:
+  public:
     virtual ~ConnectionCallback() = default;
     virtual void operator()(RTC::ConnectorProfile& profile) = 0;
 };

@@ -19,7 +19,7 @@ namespace RTC {
 
 /// Events that ports have received and the machine has not handled yet. [any-thread]
 class FsmEvents {
-public:
+  public:
     /// Properties `length` and `write.full_policy` (overwrite | do_nothing) of `buffer`; 8 and overwrite.
     void init(const coil::Properties& buffer);
     /// False: full, and the event is not kept.
@@ -28,7 +28,7 @@ public:
     bool take(std::function<void()>& event);
     std::size_t readable() const;
 
-private:
+  private:
     mutable std::mutex m_mutex;
     std::deque<std::function<void()>> m_events;
     std::size_t m_length = 8;
@@ -38,7 +38,7 @@ private:
 /// A component's state machine. Ports put events into it, run_event() (in onExecute) handles them.
 template <class TOP>
 class Machine : public Macho::Machine<TOP> {
-public:
+  public:
     explicit Machine(RTObject_impl* comp) : rtComponent(comp) {}
     FsmEvents& getBuffer() { return m_events; }
     /// Handles all events that have come.
@@ -47,7 +47,7 @@ public:
         for (std::size_t n = m_events.readable(); n > 0 && m_events.take(event); --n) event();
     }
 
-private:
+  private:
     template <class C, class P>
     friend class Link;
     RTObject_impl* rtComponent;
@@ -57,7 +57,7 @@ private:
 /// A state. While the machine is constructed, its component is not there to be told.
 template <class C, class P>
 class Link : public Macho::Link<C, P> {
-protected:
+  protected:
     explicit Link(Macho::_StateInstance& instance) : Macho::Link<C, P>(instance) {}
 
     void setrtc() {
@@ -66,7 +66,7 @@ protected:
             rtComponent = machine->rtComponent;
     }
 
-public:
+  public:
     using LINK = Link<C, P>;
 
     void entry() override {

@@ -33,7 +33,7 @@ template <class DataType>
 class Timestamp : public ConnectorDataListenerT<DataType> {
     USE_CONNLISTENER_STATUS;
 
-public:
+  public:
     explicit Timestamp(const char* ts_type) : m_tstype(ts_type) {}
     using ConnectorDataListenerT<DataType>::operator();
     ReturnCode operator()(ConnectorInfo& info, DataType& data) override {

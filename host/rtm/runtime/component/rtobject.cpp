@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A component as an object: construction, life, contexts.
-#include "host/rtm/runtime/execution/contexts_wanted.hpp"
 #include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/execution/contexts_wanted.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
 #include "host/rtm/runtime/sdo/sdo_configuration.hpp"
 #include <rtm/DataFlowComponentBase.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all execution contexts share: participants, transitions, the cycle.
-#include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/execution/participant.hpp"
+#include "host/rtm/runtime/manager/manager_options.hpp"
 #include <cmath>
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's life: start, activation, run loop, orderly end.
-#include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/plugin/abi.hpp"
+#include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/sdo/shared_composite.hpp"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Command line, rtc.conf, names.
-#include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/rt/thread.hpp"
+#include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <cstdlib>
 #include <unistd.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's state. Internal to host/rtm.
 #pragma once
+#include "host/plugin/library.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
-#include "host/plugin/library.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/naming/naming.hpp"
 #include <atomic>

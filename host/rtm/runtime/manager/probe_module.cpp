@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/manager/probe_module.hpp"
 
-#include "host/rtm/runtime/manager/bounded_call.hpp"
 #include "host/plugin/abi.hpp"
 #include "host/plugin/library.hpp"
+#include "host/rtm/runtime/manager/bounded_call.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <rtm/RTObject.h>
 #include <rtm/TandemAbi.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The connection protocol: connect -> notify_connect along the ports of the profile, and back.
-#include "host/rtm/runtime/port/data_port.hpp"
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/rtm/runtime/port/data_port.hpp"
 #include <coil/stringutil.h>
 #include <rtm/PortBase.h>
 

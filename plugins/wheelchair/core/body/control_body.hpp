@@ -2,10 +2,10 @@
 #pragma once
 
 #include "plugins/wheelchair/core/body/clock.hpp"
-#include "plugins/wheelchair/core/law/control_law.hpp"
 #include "plugins/wheelchair/core/body/ports.hpp"
-#include "plugins/wheelchair/core/record/records.hpp"
 #include "plugins/wheelchair/core/body/settings.hpp"
+#include "plugins/wheelchair/core/law/control_law.hpp"
+#include "plugins/wheelchair/core/record/records.hpp"
 
 namespace tandem::wheelchair {
 

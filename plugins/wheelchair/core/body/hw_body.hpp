@@ -3,11 +3,11 @@
 
 #include <atomic>
 
-#include "plugins/wheelchair/core/plant/chair.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
 #include "plugins/wheelchair/core/body/ports.hpp"
-#include "plugins/wheelchair/core/record/records.hpp"
 #include "plugins/wheelchair/core/body/settings.hpp"
+#include "plugins/wheelchair/core/plant/chair.hpp"
+#include "plugins/wheelchair/core/record/records.hpp"
 
 namespace tandem::wheelchair {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "plugins/wheelchair/core/body/clock.hpp"
-#include "plugins/wheelchair/core/law/joystick_law.hpp"
 #include "plugins/wheelchair/core/body/ports.hpp"
-#include "plugins/wheelchair/core/record/records.hpp"
 #include "plugins/wheelchair/core/body/settings.hpp"
+#include "plugins/wheelchair/core/law/joystick_law.hpp"
+#include "plugins/wheelchair/core/record/records.hpp"
 
 namespace tandem::wheelchair {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plugins/wheelchair/core/plant/parameters.hpp"
 #include "plugins/wheelchair/core/law/signals.hpp"
+#include "plugins/wheelchair/core/plant/parameters.hpp"
 
 namespace tandem::wheelchair {
 

@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "plugins/wheelchair/core/law/signals.hpp"
 #include "plugins/wheelchair/core/plant/plant.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
-#include "plugins/wheelchair/core/law/signals.hpp"
 
 namespace tandem::wheelchair {
 

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <fstream>
 
-#include "plugins/wheelchair/core/plant/chair.hpp"
-#include "plugins/wheelchair/core/law/control_law.hpp"
 #include "plugins/wheelchair/core/body/hw_body.hpp"
+#include "plugins/wheelchair/core/law/control_law.hpp"
 #include "plugins/wheelchair/core/law/joystick_law.hpp"
+#include "plugins/wheelchair/core/plant/chair.hpp"
 #include "plugins/wheelchair/core/plant/steering.hpp"
 
 namespace tandem::wheelchair {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "plugins/wheelchair/core/record/joystick_file.hpp"
 #include "plugins/wheelchair/core/plant/parameters.hpp"
+#include "plugins/wheelchair/core/record/joystick_file.hpp"
 
 namespace tandem::wheelchair {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "plugins/wheelchair/core/plant/plant.hpp"
 #include "plugins/wheelchair/core/law/signals.hpp"
+#include "plugins/wheelchair/core/plant/plant.hpp"
 
 namespace tandem::wheelchair {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/connect/service_link.hpp"
-#include "tests/host/opros/fixtures/MathRequired.h"
 #include "tests/host/opros/engine/running.hpp"
+#include "tests/host/opros/fixtures/MathRequired.h"
 
 #include <MethodInvokeException.h>
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "host/opros/engine/application.hpp"
-#include "tests/host/opros/fixtures/Recorder.h"
 #include "tests/host/opros/engine/folder.hpp"
+#include "tests/host/opros/fixtures/Recorder.h"
 
 #include <catch2/catch.hpp>
 #include <chrono>

@@ -2,37 +2,44 @@
 // A component in the style of OPRoS v1, as its code generator and people wrote it: no header included for what other
 // headers bring, names of Boost, `#ifdef MAKE_COMPONENT_DLL`, device headers by their v1 names.
 #include <Component.h>
-#include <InputDataPort.h>
-#include <OutputDataPort.h>
-#include <InputEventPort.h>
-#include <OutputEventPort.h>
 #include <Event.h>
-#include <OPRoSTypes.h>
 #include <EventData.h>
+#include <InputDataPort.h>
+#include <InputEventPort.h>
+#include <OPRoSTypes.h>
+#include <OutputDataPort.h>
+#include <OutputEventPort.h>
 
 #include "device/AnalogDigitalIO.h"
 #include "device/CAN.h"
 #include "device/GPS.h"
 #include "device/GyroSensor.h"
 #include "device/LaserScanner.h"
+#include "device/OprosPrintMessage.h"
 #include "device/RawImage.h"
 #include "device/TCPIP.h"
 #include "device/UART.h"
 #include "device/USB.h"
 #include "device/WheelController.h"
-#include "device/OprosPrintMessage.h"
 
 class Velocity {
     friend class boost::serialization::access;
 
   public:
     double forward, angular;
-    template <class Archive> void serialize(Archive& ar, const unsigned int) { ar & forward & angular; }
+    template <class Archive>
+    void serialize(Archive& ar, const unsigned int) {
+        ar& forward& angular;
+    }
 };
 
 class V1Comp : public Component {
   public:
-    V1Comp() : wheels(NULL) { addPort("velocity", &velocity); addPort("image", &image); addPort("scan", &scan); }
+    V1Comp() : wheels(NULL) {
+        addPort("velocity", &velocity);
+        addPort("image", &image);
+        addPort("scan", &scan);
+    }
     ReturnType onExecute() {
         boost::any* data = velocity.pop();
         if (data == NULL) return OPROS_SUCCESS;
@@ -47,7 +54,7 @@ class V1Comp : public Component {
   protected:
     InputDataPort<Velocity> velocity;
     OutputDataPort<RawImage> image;
-    OutputDataPort<vector<double> > scan;
+    OutputDataPort<vector<double>> scan;
     WheelController* wheels;
     AnalogDigitalIO* io;
     CAN* can;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/allocations.hpp"
 #include "tests/host/opros/runtime/recording_archive.hpp"
+#include "tests/support/allocations.hpp"
 
 #include <InputDataPort.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/host/rtm/fixture.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "tests/host/rtm/fixture.hpp"
 #include <filesystem>
 #include <fstream>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kinds of execution contexts: who runs a cycle, when, and what is counted.
-#include "tests/host/rtm/fixture.hpp"
 #include "host/rt/periodic_tick.hpp"
+#include "tests/host/rtm/fixture.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/ExtTrigExecutionContext.h>
 #include <rtm/OpenHRPExecutionContext.h>

@@ -2,8 +2,8 @@
 // A client that sends broken GIOP to every servant of a host: the host answers its good clients all the time,
 // keeps every connection of others and grows neither in memory nor in descriptors. TANDEM_STRESS=100 makes it
 // 10^6 messages.
-#include "tests/host/rtm/fixture.hpp"
 #include "giop_mutator.hpp"
+#include "tests/host/rtm/fixture.hpp"
 #include "tests/host/rtm/other_host.hpp"
 #include <cstdlib>
 #include <rtm/CORBA_RTCUtil.h>

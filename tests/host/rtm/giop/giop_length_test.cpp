@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A length within an `any` that is not so, in a request that is otherwise sound.
-#include "tests/host/rtm/fixture.hpp"
 #include "giop_message.hpp"
+#include "tests/host/rtm/fixture.hpp"
 #include "tests/host/rtm/other_host.hpp"
 
 using namespace testing;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests that are well-formed and ask for too much: for memory, for a circle, for a clock that cannot be.
-#include "tests/host/rtm/fixture.hpp"
 #include "giop_message.hpp"
+#include "tests/host/rtm/fixture.hpp"
 #include "tests/host/rtm/other_host.hpp"
 #include <limits>
 #include <rtm/CORBA_RTCUtil.h>

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // A component as they are written for OpenRTM-aist 2.x, with its headers in an order nobody would choose.
-#include <rtm/CorbaNaming.h>
-#include <rtm/ConnectorListener.h>
-#include <rtm/idl/InterfaceDataTypesSkel.h>
 #include <coil/PeriodicTask.h>
+#include <rtm/ConnectorListener.h>
+#include <rtm/CorbaNaming.h>
 #include <rtm/CorbaPort.h>
-#include <rtm/RingBuffer.h>
-#include <rtm/DataOutPort.h>
-#include <rtm/ManagerServant.h>
-#include <rtm/ext/CameraCommonInterfaceSkel.h>
-#include <rtm/DataInPort.h>
 #include <rtm/DataFlowComponentBase.h>
+#include <rtm/DataInPort.h>
+#include <rtm/DataOutPort.h>
 #include <rtm/Manager.h>
+#include <rtm/ManagerServant.h>
+#include <rtm/RingBuffer.h>
+#include <rtm/ext/CameraCommonInterfaceSkel.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
+#include <rtm/idl/InterfaceDataTypesSkel.h>
 
 class Scale : public RTC::ConnectorDataListenerT<RTC::TimedPose2D> {
     USE_CONNLISTENER_STATUS;
 
-public:
+  public:
     ReturnCode operator()(RTC::ConnectorInfo& info, RTC::TimedPose2D& data) override {
         data.data.heading *= info.ports.size() > 1 ? 2 : 1;
         return DATA_CHANGED;
@@ -26,7 +26,7 @@ public:
 class Bytes : public RTC::ConnectorDataListener {
     USE_CONNLISTENER_STATUS;
 
-public:
+  public:
     using RTC::ConnectorDataListener::operator();
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::ByteData& data, const std::string& type) override {
         return type == "cdr" && data.getDataLength() == 0 ? INFO_CHANGED : NO_CHANGE;
@@ -34,10 +34,10 @@ public:
 };
 
 class New : public RTC::DataFlowComponentBase {
-public:
+  public:
     explicit New(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager) {}
 
-protected:
+  protected:
     RTC::ReturnCode_t onInitialize() override {
         addInPort("pose", m_poseIn);
         addOutPort("image", m_imageOut);
@@ -50,13 +50,18 @@ protected:
     RTC::ReturnCode_t onExecute(RTC::UniqueId /*ec_id*/) override {
         if (m_poseIn.isNew() && m_poseIn.read()) setTimestamp(m_image);
         switch (m_imageOut.write() ? RTC::DataPortStatus::PORT_OK : m_imageOut.getStatus(0)) {
-        case RTC::DataPortStatus::PORT_OK: return RTC::RTC_OK;
-        case RTC::DataPortStatus::CONNECTION_LOST: RTC_INFO(("lost")); return RTC::RTC_OK;
-        default: RTC_ERROR(("%s", RTC::toString(m_imageOut.getStatus(0)))); return RTC::RTC_ERROR;
+        case RTC::DataPortStatus::PORT_OK:
+            return RTC::RTC_OK;
+        case RTC::DataPortStatus::CONNECTION_LOST:
+            RTC_INFO(("lost"));
+            return RTC::RTC_OK;
+        default:
+            RTC_ERROR(("%s", RTC::toString(m_imageOut.getStatus(0))));
+            return RTC::RTC_ERROR;
         }
     }
 
-private:
+  private:
     std::vector<double> m_rates;
     RTC::TimedPose2D m_pose{};
     Img::TimedCameraImage m_image{};

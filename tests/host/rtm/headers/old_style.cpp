@@ -7,32 +7,35 @@
 #include <rtm/idl/ExtendedDataTypesSkel.h>
 #include <rtm/idl/InterfaceDataTypesSkel.h>
 
+#include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/Manager.h>
-#include <rtm/CorbaPort.h>
 
 class Seen : public RTC::ConnectorDataListenerT<RTC::TimedLong> {
-public:
+  public:
     virtual ~Seen() {}
     virtual void operator()(const RTC::ConnectorInfo& info, const RTC::TimedLong& data) {
         std::cout << info.name << " " << data.data << std::endl;
     }
 };
 class SeenBytes : public RTC::ConnectorDataListener {
-public:
-    virtual void operator()(const RTC::ConnectorInfo&, const cdrMemoryStream& data) { size += data.bufSize(); }
+  public:
+    virtual void operator()(const RTC::ConnectorInfo&, const cdrMemoryStream& data) {
+        size += data.bufSize();
+    }
     unsigned long size = 0;
 };
 class Joined : public RTC::ConnectorListener {
-public:
+  public:
     virtual void operator()(const RTC::ConnectorInfo& info) { std::cout << info.id << std::endl; }
 };
 
 class Old : public RTC::DataFlowComponentBase {
     typedef coil::Guard<coil::Mutex> Lock;
 
-public:
-    Old(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager), m_inIn("in", m_in), m_outOut("out", m_out) {
+  public:
+    Old(RTC::Manager* manager)
+        : RTC::DataFlowComponentBase(manager), m_inIn("in", m_in), m_outOut("out", m_out) {
         registerInPort("in", m_inIn);
         registerOutPort("out", m_outOut);
         bindParameter("gain", m_gain, "1.0");
@@ -44,7 +47,8 @@ public:
         Lock lock(m_mutex);
         coil::TimeValue begin(coil::gettimeofday());
         coil::TimeValue half = 0.5, none;
-        if (coil::gettimeofday() - begin > half) RTC_WARN(("late by %f s", (double)(coil::gettimeofday() - begin)))
+        if (coil::gettimeofday() - begin > half)
+            RTC_WARN(("late by %f s", (double)(coil::gettimeofday() - begin)))
         m_left = half - coil::TimeValue(0, 250000) - none;
         if (m_inIn.isNew()) {
             m_inIn >> m_in;
@@ -59,7 +63,7 @@ public:
         return RTC::RTC_OK;
     }
 
-private:
+  private:
     coil::Mutex m_mutex;
     coil::TimeValue m_left;
     double m_gain;

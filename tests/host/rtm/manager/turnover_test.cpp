@@ -16,7 +16,8 @@ int lives() {
 }
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-constexpr long quarantine = 16384; // kB that the sanitizer keeps: freed memory (ASAN_OPTIONS of its preset) or shadows
+constexpr long quarantine =
+    16384; // kB that the sanitizer keeps: freed memory (ASAN_OPTIONS of its preset) or shadows
 #else
 constexpr long quarantine = 0;
 #endif

@@ -3,8 +3,8 @@
 // themselves are in access.hpp.
 #pragma once
 #include "tests/shm/model/checker/fiber.hpp"
-#include "tests/shm/model/mutation/mutation.hpp"
 #include "tests/shm/model/checker/reduction.hpp"
+#include "tests/shm/model/mutation/mutation.hpp"
 
 namespace tandem::shm::model {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Would the model check of the call queue notice? Every access of the shipping code is weakened or broken,
 // one at a time.
-#include "tests/shm/model/scenarios/call_scenarios.hpp"
 #include "tests/shm/model/mutation/mutation_check.hpp"
+#include "tests/shm/model/scenarios/call_scenarios.hpp"
 
 namespace tandem::shm::model {
 namespace {

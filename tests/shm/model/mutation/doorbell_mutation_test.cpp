@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Would the model check of the doorbell notice? Every access of the shipping code is weakened or broken, one
 // at a time.
-#include "tests/shm/model/scenarios/doorbell_scenarios.hpp"
 #include "tests/shm/model/mutation/mutation_check.hpp"
+#include "tests/shm/model/scenarios/doorbell_scenarios.hpp"
 
 namespace tandem::shm::model {
 namespace {
