@@ -2,7 +2,7 @@
 #include "proxy/adaptor/method_check.hpp"
 
 #include "proxy/adaptor/signature_archive.hpp"
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 
 #include <fmt/format.h>
 

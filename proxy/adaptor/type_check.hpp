@@ -2,7 +2,7 @@
 #pragma once
 
 #include "proxy/link/port_table.hpp"
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 
 #include <OPRoSTypes.h>
 

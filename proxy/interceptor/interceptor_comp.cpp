@@ -5,7 +5,7 @@
 #include "proxy/interceptor/raw_port.hpp"
 #include "proxy/link/control.hpp"
 #include "proxy/link/wait_mode.hpp"
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/NVUtil.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/link.hpp"
 
-#include "proxy/link/session.hpp"
+#include "proxy/link/link_session.hpp"
 #include "shm/segment/truncation_guard.hpp"
 
 #include <spdlog/spdlog.h>

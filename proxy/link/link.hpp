@@ -2,11 +2,11 @@
 #pragma once
 
 #include "proxy/link/channel.hpp"
-#include "proxy/link/error.hpp"
-#include "proxy/link/handler.hpp"
-#include "proxy/link/port_rings.hpp"
+#include "proxy/link/link_error.hpp"
+#include "proxy/link/link_handler.hpp"
 #include "proxy/link/port_table.hpp"
 #include "proxy/link/request.hpp"
+#include "proxy/link/ring_plan.hpp"
 
 #include "shm/call/call_server.hpp"
 #include "shm/segment/watcher.hpp"

@@ -4,7 +4,7 @@
 #include "proxy/interceptor/generic_call.hpp"
 #include "proxy/interceptor/generic_servant.hpp"
 #include "proxy/wire/cdr.hpp"
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
 
 #include "Chair.hh"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages of megabytes across a link: by loan, both ways, and what happens to those that do not fit.
-#include "halves.hpp"
+#include "link_side.hpp"
 #include "tests/shm/fixture.hpp"
 #include "tests/shm/small_shm.hpp"
 

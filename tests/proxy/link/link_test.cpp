@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both halves of a link in one process, and the partner as a process that is killed.
-#include "halves.hpp"
+#include "link_side.hpp"
 
 #include <csignal>
 #include <sys/wait.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/error.hpp"
+#include "proxy/link/link_error.hpp"
 #include "proxy/link/port_table.hpp"
 #include "proxy/link/request.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/provider_mirror.hpp"
+#include "proxy/interceptor/mirror_required_port.hpp"
 
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 
 #include <rtm/InterfaceSignatures.h>
 

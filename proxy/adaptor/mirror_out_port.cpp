@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/mirrored_output.hpp"
+#include "proxy/adaptor/mirror_out_port.hpp"
 
 #include "proxy/adaptor/type_check.hpp"
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

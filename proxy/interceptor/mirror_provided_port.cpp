@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/consumer_mirror.hpp"
+#include "proxy/interceptor/mirror_provided_port.hpp"
 
 #include "proxy/interceptor/generic_call.hpp"
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/mirrored_input.hpp"
+#include "proxy/adaptor/mirror_in_port.hpp"
 
 #include "proxy/adaptor/cdr_archive.hpp"
 #include "proxy/adaptor/type_check.hpp"
-#include "proxy/wire/match.hpp"
+#include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
 
 namespace tandem::adaptor {

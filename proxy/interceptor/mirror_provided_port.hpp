@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/handler.hpp"
+#include "proxy/link/link_handler.hpp"
 #include "proxy/link/port_table.hpp"
 #include "proxy/wire/type.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/port_survey.hpp"
+#include "proxy/interceptor/rtc_port.hpp"
 
 #include "proxy/wire/type.hpp"
 

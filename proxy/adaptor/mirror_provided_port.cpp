@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/mirrored_provided.hpp"
+#include "proxy/adaptor/mirror_provided_port.hpp"
 
 #include "proxy/adaptor/cdr_archive.hpp"
 #include "proxy/adaptor/method_check.hpp"
