@@ -3,12 +3,14 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <tandem_version.hpp>
 
 namespace tandem::bench {
 
 Options read_options(int argc, char** argv, int& exit_code) {
     Options options;
     CLI::App app("Latency and throughput of Tandem's shared memory, of the machine's floor, and of peers.");
+    app.set_version_flag("--version", std::string("tandem-bench ") + version);
     app.add_flag("--list", options.list, "Name the cases and stop");
     app.add_option("--only", options.only, "Cases whose name contains one of these words, comma-separated");
     app.add_flag("--quick", options.quick, "Few samples: seconds instead of minutes, rough figures");

@@ -5,6 +5,7 @@
 #include "apps/tandem/text.hpp"
 
 #include <fmt/format.h>
+#include <tandem_version.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
     tandem::plugin::serve_probe(argc, argv, tandem::command::opros_probe_tasks());
     CLI::App tandem{"Looks at, and looks after, a system of Tandem hosts on this machine.", "tandem"};
     tandem.require_subcommand(1);
+    tandem.set_version_flag("--version", std::string("tandem ") + tandem::version);
     tandem.footer("tandem COMMAND --help says more about a command.");
     tandem::command::Run chosen;
     tandem::command::add_opros(tandem, chosen);

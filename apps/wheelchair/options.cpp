@@ -2,6 +2,7 @@
 #include "apps/wheelchair/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <tandem_version.hpp>
 
 #include <filesystem>
 #include <map>
@@ -49,6 +50,7 @@ Options parse_options(int argc, char** argv) {
         "Drives a simulated power wheelchair with components of two robot models: joystick, control and\n"
         "hardware as OPRoS components, as RT-Components, or mixed and joined through shared memory.",
         "wheelchair"};
+    app.set_version_flag("--version", std::string("wheelchair ") + version);
     app.add_option("--config", configuration,
                    "opros, rtm, mixed (joystick an RTC), swapped (control and hardware RTCs), or memory (no "
                    "hosts; the "

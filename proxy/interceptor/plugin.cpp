@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/interceptor_comp.hpp"
 
+#include <tandem_version.hpp>
+
 namespace {
 const char* const specification[] = {"implementation_id",
                                      "InterceptorComp",
@@ -9,7 +11,7 @@ const char* const specification[] = {"implementation_id",
                                      "description",
                                      "the RTM half of Tandem's proxy",
                                      "version",
-                                     "0.1.0",
+                                     tandem::version,
                                      "vendor",
                                      "Tandem",
                                      "category",

@@ -14,6 +14,7 @@
 #include <iostream>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <tandem_version.hpp>
 
 namespace {
 
@@ -85,6 +86,7 @@ int main(int argc, char** argv) {
     spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
     Options options;
     CLI::App cli("Runs an OPRoS application: its components, from their libraries and profiles.");
+    cli.set_version_flag("--version", std::string("opros_host ") + tandem::version);
     declare(cli, options);
     CLI11_PARSE(cli, argc, argv);
     options.host.probe = options.probe.probe();

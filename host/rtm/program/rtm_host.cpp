@@ -18,6 +18,7 @@
 #include <memory>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <tandem_version.hpp>
 #include <thread>
 #include <unistd.h>
 
@@ -180,6 +181,7 @@ int main(int argc, char** argv) {
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });
     CLI::App app{"Runs the RT-Components that an rtc.conf names."};
     Arguments arguments;
+    app.set_version_flag("--version", std::string("rtm_host ") + tandem::version);
     describe(app, arguments);
     CLI11_PARSE(app, argc, argv);
     try {
