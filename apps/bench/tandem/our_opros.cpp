@@ -32,7 +32,7 @@ class Components {
     }
 
     BenchParts& part(const std::string& name) {
-        auto* component = application_.find(name);
+        auto* component = application_.find_component(name);
         auto* parts = component ? dynamic_cast<BenchParts*>(&component->component()) : nullptr;
         if (!parts) throw std::runtime_error("the bench's OPRoS component " + name + " is not there");
         return *parts;
@@ -44,7 +44,7 @@ class Components {
         engine::ApplicationOptions options;
         options.plugin_dirs = {fs::read_symlink("/proc/self/exe").parent_path() / "../plugins/opros"};
         options.strict = true;
-        options.executors.spin = spin;
+        options.executors.tick_spin = spin;
         return options;
     }
 
@@ -167,7 +167,7 @@ void drift(Session& session) {
     Components components(session, "BenchTick.xml");
     BenchParts& parts = components.part("From");
     run_for(parts, components.application(), session.limits().samples >= 50'000 ? 100'100 : 1'000);
-    const auto stats = components.application().stats().at(0);
+    const auto stats = components.application().executor_stats().at(0);
     std::fprintf(stderr, "%s\n", stats.c_str());
     session.result(std::abs(parts.ticks().mean_drift_ns()));
     session.counted(parts.ticks().counts());

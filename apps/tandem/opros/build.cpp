@@ -41,7 +41,7 @@ engine::ComponentProfile the_profile(const BuildOptions& options) {
                                  " nor in its profile/; name one with --profile FILE");
     std::string names;
     for (const auto& each : all)
-        names += (names.empty() ? "" : ", ") + each.place.file.lexically_relative(options.folder).string();
+        names += (names.empty() ? "" : ", ") + each.location.file.lexically_relative(options.folder).string();
     throw std::runtime_error(options.folder.string() + " has several component profiles: " + names +
                              "; name one with --profile FILE");
 }
@@ -54,7 +54,7 @@ std::string library_stem(const engine::ComponentProfile& profile) {
         return c < 128 && (std::isalnum(c) || std::strchr("_-+.", c) != nullptr);
     };
     if (stem.empty() || !std::all_of(stem.begin(), stem.end(), good))
-        throw engine::SetupError(profile.library_place,
+        throw engine::SetupError(profile.library_location,
                                  "no library can be built as '" + printable(stem) +
                                      "', expected letters, digits, and _ - + . of ASCII");
     return stem;
@@ -66,7 +66,7 @@ int opros_build(const BuildOptions& options) {
     require_folder(options.folder);
     const auto profile = the_profile(options);
     const auto library =
-        build_plugin("opros", library_stem(profile), options, profile.place.file.parent_path());
+        build_plugin("opros", library_stem(profile), options, profile.location.file.parent_path());
     print_text(library.string() + "\n");
     return 0;
 }

@@ -5,7 +5,7 @@
 #include "apps/tandem/opros/type_faults.hpp"
 #include "apps/tandem/text.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/profile/composite.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 
 #include <fmt/format.h>
@@ -36,19 +36,19 @@ class Faults {
 std::vector<std::string> check_component(const ApplicationProfile& application,
                                          const engine::Subcomponent& entry, const LookOptions& options) {
     auto dirs = options.plugin_dirs;
-    dirs.insert(dirs.begin(), application.place.file.parent_path());
+    dirs.insert(dirs.begin(), application.location.file.parent_path());
     const auto file = entry.file.empty()
                           ? engine::find_component_profile(application, entry, options.plugin_dirs)
                           : entry.file;
     const auto profile = engine::read_component_profile(file);
     const auto library = engine::find_component_library(profile, dirs);
     try {
-        engine::require_component(library);
+        engine::require_opros_component(library);
         auto faults = port_faults(profile, described(library, file, options)["ports"], options.initialize);
         for (std::string& each : type_faults(profile)) faults.push_back(std::move(each));
         return faults;
     } catch (const plugin::Error& error) {
-        throw engine::SetupError(profile.library_place, error.what());
+        throw engine::SetupError(profile.library_location, error.what());
     }
 }
 
@@ -81,10 +81,10 @@ int opros_check(const LookOptions& options) {
     Faults faults;
     // A profile that is missing is told below, one for each component.
     if (engine::has_composites(application, options.plugin_dirs))
-        application = engine::without_composites(application, options.plugin_dirs);
+        application = engine::flatten_composites(application, options.plugin_dirs);
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
-            faults.lines.push_back(connection.place.text() + ": " + connection.error);
+            faults.lines.push_back(connection.location.text() + ": " + connection.error);
     const auto add = [&](const std::vector<std::string>& lines) {
         faults.lines.insert(faults.lines.end(), lines.begin(), lines.end());
     };

@@ -5,32 +5,32 @@
 
 namespace tandem::command {
 
-std::string execution_word(engine::Execution execution) {
+std::string execution_word(engine::ExecutionType execution) {
     switch (execution) {
-    case engine::Execution::periodic:
+    case engine::ExecutionType::periodic:
         return "periodic";
-    case engine::Execution::periodic_shared:
+    case engine::ExecutionType::periodic_shared:
         return "periodic-shared";
-    case engine::Execution::aperiodic:
+    case engine::ExecutionType::aperiodic:
         return "aperiodic";
-    case engine::Execution::aperiodic_loop:
+    case engine::ExecutionType::aperiodic_loop:
         return "aperiodic-loop";
-    case engine::Execution::passive:
+    case engine::ExecutionType::passive:
         return "passive";
     }
     return "unknown";
 }
 
 std::string executor_text(const engine::ComponentProfile& profile) {
-    std::string text = execution_word(profile.execution);
+    std::string text = execution_word(profile.execution_type);
     const auto ms = [](std::chrono::nanoseconds time) {
         return fmt::format("{} ms", static_cast<double>(time.count()) / 1e6);
     };
     if (profile.period.count() != 0) text += ", every " + ms(profile.period);
     if (profile.phase.count() != 0) text += ", phase " + ms(profile.phase);
     if (profile.priority != 0) text += fmt::format(", priority {}", profile.priority);
-    if (profile.scheduling != engine::Scheduling::other)
-        text += profile.scheduling == engine::Scheduling::fifo ? " (SCHED_FIFO)" : " (SCHED_RR)";
+    if (profile.scheduling_policy != engine::SchedulingPolicy::other)
+        text += profile.scheduling_policy == engine::SchedulingPolicy::fifo ? " (SCHED_FIFO)" : " (SCHED_RR)";
     return text;
 }
 

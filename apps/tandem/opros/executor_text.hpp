@@ -8,7 +8,7 @@
 namespace tandem::command {
 
 /// "periodic", "passive", ...
-std::string execution_word(engine::Execution execution);
+std::string execution_word(engine::ExecutionType execution);
 /// "periodic, 10 ms, priority 7"
 std::string executor_text(const engine::ComponentProfile& profile);
 

@@ -52,19 +52,19 @@ Found find(const LookOptions& options) {
 }
 
 json executor_of(const engine::ComponentProfile& profile) {
-    return {{"type", execution_word(profile.execution)},
+    return {{"type", execution_word(profile.execution_type)},
             {"period_ms", static_cast<double>(profile.period.count()) / 1e6},
             {"phase_ms", static_cast<double>(profile.phase.count()) / 1e6},
             {"priority", profile.priority}};
 }
 
 json look(const Found& found, const LookOptions& options) {
-    engine::require_component(found.library);
-    json info = described(found.library, found.profile ? found.profile->place.file : fs::path(), options);
+    engine::require_opros_component(found.library);
+    json info = described(found.library, found.profile ? found.profile->location.file : fs::path(), options);
     info["library"] = fs::absolute(found.library).lexically_normal().string();
     info["name"] = found.profile ? found.profile->name : found.library.stem().string();
     info["profile"] =
-        found.profile ? json(fs::absolute(found.profile->place.file).lexically_normal().string()) : json();
+        found.profile ? json(fs::absolute(found.profile->location.file).lexically_normal().string()) : json();
     info["executor"] = found.profile ? executor_of(*found.profile) : json();
     return info;
 }
@@ -94,7 +94,8 @@ std::string text_of(const json& info, const Found& found, const LookOptions& opt
 
 int opros_info(const LookOptions& options) {
     if (options.file.extension() == ".xml")
-        if (const auto kind = engine::profile_kind(options.file); kind != engine::ProfileKind::component) {
+        if (const auto kind = engine::read_profile_kind(options.file);
+            kind != engine::ProfileKind::component) {
             const json info = profile_info(kind, options);
             options.json ? print_json(info) : print_text(profile_text(info));
             return 0;

@@ -2,7 +2,7 @@
 // The command line of `tandem opros`.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
-#include "host/opros/engine/load/plugin_path.hpp"
+#include "host/opros/engine/load/plugin_dirs.hpp"
 
 #include <memory>
 

@@ -9,18 +9,19 @@ namespace {
 using nlohmann::json;
 
 struct Listed {
-    const engine::Place& place;
+    const engine::SourceLocation& location;
     std::string kind, name, direction, type; ///< type: empty if it says nothing
 };
 
 std::vector<Listed> listed_ports(const engine::ComponentProfile& profile) {
     std::vector<Listed> all;
     for (const auto& port : profile.data_ports)
-        all.push_back({port.place, "data", port.name, port.input ? "input" : "output", port.data_type});
+        all.push_back({port.location, "data", port.name, port.is_input ? "input" : "output", port.data_type});
     for (const auto& port : profile.event_ports)
-        all.push_back({port.place, "event", port.name, port.input ? "input" : "output", port.data_type});
+        all.push_back(
+            {port.location, "event", port.name, port.is_input ? "input" : "output", port.data_type});
     for (const auto& port : profile.service_ports) // the type is a file's name there, of no use here
-        all.push_back({port.place, "service", port.name, port.provided ? "provided" : "required", ""});
+        all.push_back({port.location, "service", port.name, port.is_provided ? "provided" : "required", ""});
     return all;
 }
 
@@ -71,10 +72,10 @@ std::string fault(const Listed& listed, const json& ports, bool initialized) {
 
 std::vector<std::string> port_faults(const engine::ComponentProfile& profile, const json& ports,
                                      bool initialized) {
-    std::vector<std::string> faults = profile.port_faults;
+    std::vector<std::string> faults = profile.port_errors;
     for (const Listed& listed : listed_ports(profile))
         if (const std::string text = fault(listed, ports, initialized); !text.empty())
-            faults.push_back(listed.place.text() + ": " + text);
+            faults.push_back(listed.location.text() + ": " + text);
     return faults;
 }
 

@@ -2,10 +2,10 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 
 #include "apps/tandem/opros/description.hpp"
-#include "host/opros/engine/connect/connect.hpp"
+#include "host/opros/engine/connect/make_connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/profile/composite.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -68,16 +68,16 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     report.stage("its static constructors");
     const auto library = plugin::Library::load(task.library);
     report.stage("getComponent()");
-    const auto loaded = engine::open_component(task.library);
+    const auto loaded = engine::instantiate_component(task.library);
     if (const std::string file = request["profile"]; !file.empty()) {
         const auto profile = engine::read_component_profile(file);
         loaded.component->setId(profile.name);
-        engine::give_properties(*loaded.component, profile, {}, plugin_dirs(request));
+        engine::set_component_properties(*loaded.component, profile, {}, plugin_dirs(request));
     }
     if (request["initialize"]) initialize(*loaded.component, task.library, report);
     report.stage("its ports");
     json description = describe(*loaded.component);
-    for (const char* name : engine::folder_properties) description["properties"].erase(name);
+    for (const char* name : engine::folder_property_names) description["properties"].erase(name);
     if (library->has("getVersion")) {
         report.stage("getVersion()");
         description["version"] = library->symbol<const char*()>("getVersion")();
@@ -90,14 +90,14 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const auto without = request["without"].get<std::vector<std::string>>();
     const auto dirs = plugin_dirs(request);
     auto profile = engine::read_application_profile(task.library);
-    if (engine::has_composites(profile, dirs)) profile = engine::without_composites(profile, dirs);
+    if (engine::has_composites(profile, dirs)) profile = engine::flatten_composites(profile, dirs);
     std::vector<std::string> faults;
     std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
     for (const auto& entry : profile.subcomponents) {
         if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
         report.stage("the making of component " + entry.name);
         auto search = dirs;
-        search.insert(search.begin(), profile.place.file.parent_path());
+        search.insert(search.begin(), profile.location.file.parent_path());
         auto component = std::make_unique<engine::ComponentHost>(
             entry,
             engine::read_component_profile(
@@ -107,15 +107,16 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
         components.emplace(entry.name, std::move(component));
     }
     engine::WorkerPool no_threads(1, false);
-    std::vector<std::unique_ptr<engine::Link>> links;
+    std::vector<std::unique_ptr<engine::Connection>> links;
     for (const auto& connection : profile.connections) {
         if (!connection.error.empty()) continue; // told by whoever read the profile
         const auto source = components.find(connection.source.component),
                    target = components.find(connection.target.component);
         if (source == components.end() || target == components.end()) continue;
-        report.stage("the connection at line " + std::to_string(connection.place.line));
+        report.stage("the connection at line " + std::to_string(connection.location.line));
         try {
-            links.push_back(engine::connect(connection, *source->second, *target->second, no_threads));
+            links.push_back(
+                engine::make_connection(connection, *source->second, *target->second, no_threads));
         } catch (const engine::SetupError& error) {
             faults.emplace_back(error.what());
         }

@@ -5,7 +5,7 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/text.hpp"
 #include "host/opros/engine/load/load_component.hpp"
-#include "host/opros/engine/profile/composite.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/type_profile.hpp"
 
 #include <fmt/format.h>
@@ -55,10 +55,10 @@ class ExportedPorts {
   private:
     json described_port(const engine::ExportedPort& exported) {
         ApplicationProfile one = composite_; // with a connection that goes where the port leads
-        one.connections = {{exported.place, exported.type, exported.port, exported.port, ""}};
-        const auto flat = engine::without_composites(one, options_.plugin_dirs);
-        const engine::Connection& leads = flat.connections.front();
-        if (!leads.error.empty()) throw engine::SetupError(exported.place, leads.error);
+        one.connections = {{exported.location, exported.type, exported.port, exported.port, ""}};
+        const auto flat = engine::flatten_composites(one, options_.plugin_dirs);
+        const engine::ConnectionProfile& leads = flat.connections.front();
+        if (!leads.error.empty()) throw engine::SetupError(exported.location, leads.error);
         for (const auto& entry : flat.subcomponents)
             if (entry.name == leads.source.component)
                 for (json port : ports_of(entry))
@@ -67,9 +67,9 @@ class ExportedPorts {
                         port["of"] = leads.source.text();
                         return port;
                     }
-        throw engine::SetupError(exported.place, "component '" + leads.source.component + "' has no " +
-                                                     word(exported.type) + " port '" + leads.source.port +
-                                                     "'");
+        throw engine::SetupError(exported.location, "component '" + leads.source.component + "' has no " +
+                                                        word(exported.type) + " port '" + leads.source.port +
+                                                        "'");
     }
 
     const json& ports_of(const engine::Subcomponent& entry) {
@@ -77,9 +77,9 @@ class ExportedPorts {
         if (is_new) {
             const auto profile = engine::read_component_profile(entry.file);
             auto dirs = options_.plugin_dirs;
-            dirs.insert(dirs.begin(), composite_.place.file.parent_path());
+            dirs.insert(dirs.begin(), composite_.location.file.parent_path());
             const auto library = engine::find_component_library(profile, dirs);
-            engine::require_component(library);
+            engine::require_opros_component(library);
             known->second = described(library, entry.file, options_)["ports"];
         }
         return known->second;

@@ -26,7 +26,7 @@ void check(const fs::path& folder, const std::string& reference,
 } // namespace
 
 std::vector<std::string> type_faults(const engine::ComponentProfile& profile) {
-    const fs::path folder = profile.place.file.parent_path();
+    const fs::path folder = profile.location.file.parent_path();
     std::set<std::string> services(profile.service_types.begin(), profile.service_types.end());
     for (const auto& port : profile.service_ports) services.insert(port.reference);
     const std::set<std::string> data(profile.data_types.begin(), profile.data_types.end());

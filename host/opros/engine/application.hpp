@@ -2,7 +2,7 @@
 // An OPRoS application in this process, from its profile to its orderly end.
 #pragma once
 
-#include "host/opros/engine/connect/link.hpp"
+#include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/executor.hpp"
 #include "host/opros/engine/execute/worker_pool.hpp"
@@ -28,7 +28,7 @@ struct ApplicationOptions {
     /// the set-up; otherwise it is left out and the rest runs.
     bool strict = false;
     /// Told before each call-back of the set-up, with its name.
-    std::function<void(const std::string& component, const char* call_back)> busy_with;
+    std::function<void(const std::string& component, const char* call_back)> on_setup_step;
     /// How long the end waits for each call-back that is under way.
     std::chrono::nanoseconds grace = std::chrono::seconds(10);
 };
@@ -45,39 +45,39 @@ class Application {
     /// In the reverse order of start: ends each component's executor, then stops the component.
     void stop();
     /// Stops, disconnects and destroys.
-    void end();
+    void shut_down();
     /// Ends what has not ended yet, then the instances, then lets go of the libraries. Nothing of a component
     /// may be used afterwards. The destructor does it, too.
     void unload();
     /// Components that did not come back from a call-back or a destructor within the grace time of stop(),
     /// end() or unload(). What they may still use stays in memory for good, and the process had better leave
     /// without unloading anything.
-    const std::vector<std::string>& stuck() const { return stuck_; }
+    const std::vector<std::string>& stuck_components() const { return stuck_components_; }
     /// Components whose libraries have stayed loaded after unload(): a library may ask for that.
-    const std::vector<std::string>& still_loaded() const { return still_loaded_; }
+    const std::vector<std::string>& components_still_loaded() const { return components_still_loaded_; }
     /// A line for each executor with what it has counted, from stop() on.
-    const std::vector<std::string>& stats() const { return stats_; }
+    const std::vector<std::string>& executor_stats() const { return executor_stats_; }
 
     /// One cycle of the named component in the calling thread. Throws std::runtime_error: no such component,
     /// or it threw an exception.
     void step(const std::string& component);
 
-    ComponentHost* find(const std::string& component);
-    const std::vector<ComponentHost*>& in_start_order() const { return order_; }
+    ComponentHost* find_component(const std::string& component);
+    const std::vector<ComponentHost*>& components_in_start_order() const { return order_; }
 
   private:
     explicit Application(
         const ApplicationOptions& options); // what has been set up is undone if the rest throws
     void load(const ApplicationProfile& profile);
-    void order(const ApplicationProfile& profile);
+    void sort_components(const ApplicationProfile& profile);
     void connect_all(const ApplicationProfile& profile);
-    void connect_one(const Connection& connection);
-    void begin(const ComponentHost& component, const char* call_back) const;
-    void demand_success(const ComponentHost& component, const char* step) const;
+    void connect_ports(const ConnectionProfile& connection);
+    void report_setup_step(const ComponentHost& component, const char* call_back) const;
+    void require_success_if_strict(const ComponentHost& component, const char* step) const;
     void stop_component(ComponentHost& component);
-    void end_workers();
-    void bounded(ComponentHost& component, void (ComponentHost::*step)());
-    void left_behind(const ComponentHost& component);
+    void stop_workers();
+    void run_bounded(ComponentHost& component, void (ComponentHost::*step)());
+    void mark_stuck(const ComponentHost& component);
 
     ApplicationOptions options_;
     // A value in one component's queue may be of another one's making: libraries go after all components.
@@ -85,10 +85,10 @@ class Application {
     std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
     std::vector<ComponentHost*> order_;
     std::shared_ptr<WorkerPool> workers_;
-    std::vector<std::unique_ptr<Link>> links_;
+    std::vector<std::unique_ptr<Connection>> connections_;
     std::vector<std::unique_ptr<Executor>> executors_;
     std::shared_ptr<rt::StepServer> step_server_;
-    std::vector<std::string> stuck_, still_loaded_, stats_;
+    std::vector<std::string> stuck_components_, components_still_loaded_, executor_stats_;
     bool started_ = false, ended_ = false, unloaded_ = false;
 };
 

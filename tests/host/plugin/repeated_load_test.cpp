@@ -86,7 +86,7 @@ TEST_CASE("eight threads load and run and unload components at once") {
         for (int i = 0; i < threads; ++i)
             loaders.emplace_back([&] {
                 for (int round = 0; round < count; ++round) {
-                    auto loaded = tandem::engine::open_component(ALL_PORTS);
+                    auto loaded = tandem::engine::instantiate_component(ALL_PORTS);
                     loaded.library.reset();
                     auto& component = *loaded.component;
                     const bool ran =

@@ -32,16 +32,16 @@ class DirectConnector : public Connector {
     }
 };
 
-class WorkerConnector : public Connector {
+class QueuedConnector : public Connector {
   public:
-    WorkerConnector(ProvidedServicePort& provided, ComponentHost& provider, Worker& worker)
+    QueuedConnector(ProvidedServicePort& provided, ComponentHost& provider, Worker& worker)
         : Connector(provided, provider), worker_(worker) {}
 
     ReturnType requestService(const std::string& name, std::vector<opros_params>& params, opros_params&,
                               int) override {
         const bool taken = worker_.submit([this, method = name, params]() mutable {
-            if (!provider_.active()) return;
-            provider_.guarded(method.c_str(), [&] {
+            if (!provider_.is_active()) return;
+            provider_.run_guarded(method.c_str(), [&] {
                 opros_params none;
                 provided_.callService(method, params, none);
             });
@@ -57,14 +57,14 @@ class WorkerConnector : public Connector {
 
 } // namespace
 
-std::unique_ptr<ServicePortConnector> direct_connector(ProvidedServicePort& provided,
-                                                       ComponentHost& provider) {
+std::unique_ptr<ServicePortConnector> make_direct_connector(ProvidedServicePort& provided,
+                                                            ComponentHost& provider) {
     return std::make_unique<DirectConnector>(provided, provider);
 }
 
-std::unique_ptr<ServicePortConnector> worker_connector(ProvidedServicePort& provided, ComponentHost& provider,
-                                                       Worker& worker) {
-    return std::make_unique<WorkerConnector>(provided, provider, worker);
+std::unique_ptr<ServicePortConnector> make_queued_connector(ProvidedServicePort& provided,
+                                                            ComponentHost& provider, Worker& worker) {
+    return std::make_unique<QueuedConnector>(provided, provider, worker);
 }
 
 } // namespace tandem::engine

@@ -13,11 +13,11 @@ namespace tandem::engine {
 
 /// Calls by name and values in the caller's thread. Whatever is not OPROS_SUCCESS becomes a
 /// MethodInvokeException.
-std::unique_ptr<ServicePortConnector> direct_connector(ProvidedServicePort& provided,
-                                                       ComponentHost& provider);
+std::unique_ptr<ServicePortConnector> make_direct_connector(ProvidedServicePort& provided,
+                                                            ComponentHost& provider);
 
 /// Hands the call to a worker and returns; it is made if the provider is ACTIVE by then.
-std::unique_ptr<ServicePortConnector> worker_connector(ProvidedServicePort& provided, ComponentHost& provider,
-                                                       Worker& worker);
+std::unique_ptr<ServicePortConnector> make_queued_connector(ProvidedServicePort& provided,
+                                                            ComponentHost& provider, Worker& worker);
 
 } // namespace tandem::engine

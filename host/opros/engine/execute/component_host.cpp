@@ -22,12 +22,13 @@ std::string code_text(ReturnType code) {
 bool is_worth_telling(std::uint64_t count) { return (count & (count - 1)) == 0; }
 
 /// Says for the time of its life what the component is busy with.
-class Busy {
+class CallbackScope {
   public:
-    Busy(std::atomic<const char*>& place, const char* what) : place_(place), before_(place.exchange(what)) {}
-    ~Busy() { place_ = before_; }
-    Busy(const Busy&) = delete;
-    Busy& operator=(const Busy&) = delete;
+    CallbackScope(std::atomic<const char*>& place, const char* what)
+        : place_(place), before_(place.exchange(what)) {}
+    ~CallbackScope() { place_ = before_; }
+    CallbackScope(const CallbackScope&) = delete;
+    CallbackScope& operator=(const CallbackScope&) = delete;
 
   private:
     std::atomic<const char*>& place_;
@@ -44,10 +45,10 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
     component_->setId(name_);
-    give_properties(*component_, profile_, entry.properties, dirs);
+    set_component_properties(*component_, profile_, entry.properties, dirs);
 }
 
-std::string ComponentHost::fail(const char* what, const std::string& why) {
+std::string ComponentHost::enter_error(const char* what, const std::string& why) {
     const std::string text = "component " + name_ + ": " + what + " threw an exception: " + why;
     spdlog::error("{}; it goes to ERROR, the others go on", text);
     error_reported_ = true;
@@ -61,8 +62,8 @@ std::string ComponentHost::fail(const char* what, const std::string& why) {
     return text;
 }
 
-std::string ComponentHost::guarded(const char* what, const std::function<void()>& code) {
-    const Busy busy(busy_with_, what);
+std::string ComponentHost::run_guarded(const char* what, const std::function<void()>& code) {
+    const CallbackScope busy(current_callback_, what);
     try {
         code();
         return "";
@@ -73,18 +74,18 @@ std::string ComponentHost::guarded(const char* what, const std::function<void()>
             spdlog::warn("component {}: {}: {} ({} so far)", name_, what, error.what(), failed_calls_.load());
         return "";
     } catch (const std::exception& error) {
-        return fail(what, error.what());
+        return enter_error(what, error.what());
     } catch (...) {
-        return fail(what, "of unknown type");
+        return enter_error(what, "of unknown type");
     }
 }
 
-bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::*step)()) {
+bool ComponentHost::run_transition(const char* what, ReturnType (LifecycleInterface::*step)()) {
     ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
     dlerror(); // device components ask it after their dlsym(), and would take what others have left there for
                // theirs
     std::string why;
-    const std::string thrown = guarded(what, [&] {
+    const std::string thrown = run_guarded(what, [&] {
         try {
             result = (component_.get()->*step)();
             why = "its callback returned code " + code_text(component_->getErrorInfo());
@@ -98,113 +99,115 @@ bool ComponentHost::lifecycle(const char* what, ReturnType (LifecycleInterface::
 }
 
 void ComponentHost::initialize() {
-    initialized_ = lifecycle("initialize", &LifecycleInterface::initialize);
+    initialized_ = run_transition("initialize", &LifecycleInterface::initialize);
     if (initialized_)
-        set_up_inputs();
+        configure_input_ports();
     else
-        take_out();
+        mark_failed();
 }
 
 void ComponentHost::start() {
-    if (!failed_ && !lifecycle("start", &LifecycleInterface::start)) take_out();
+    if (!failed_ && !run_transition("start", &LifecycleInterface::start)) mark_failed();
 }
 
-void ComponentHost::take_out() {
+void ComponentHost::mark_failed() {
     failed_ = error_reported_ = true;
-    lifecycle("fail", &LifecycleInterface::fail);
+    run_transition("fail", &LifecycleInterface::fail);
 }
 
 // What the code has chosen counts, and a profile often lists ports that the code does not have.
-void ComponentHost::set_up_inputs() {
+void ComponentHost::configure_input_ports() {
     for (const std::string& name : component_->getPortNames(OPROS_DATA)) {
         auto* input = dynamic_cast<InputDataPortInterface*>(component_->getPort(name));
         if (!input) continue;
         for (const DataPortProfile& port : profile_.data_ports)
             if (port.name == name && port.queue) input->setQueue(port.queue->policy, port.queue->size);
-        input->setListener(&arrival_);
-        inputs_.push_back(input);
+        input->setListener(&input_signal_);
+        input_ports_.push_back(input);
     }
 }
 
-std::size_t ComponentHost::values_waiting() const {
+std::size_t ComponentHost::queued_value_count() const {
     std::size_t sum = 0;
-    for (InputDataPortInterface* input : inputs_) sum += static_cast<std::size_t>(input->getSize());
+    for (InputDataPortInterface* input : input_ports_) sum += static_cast<std::size_t>(input->getSize());
     return sum;
 }
 
 bool ComponentHost::has_sources() const {
-    return std::any_of(inputs_.begin(), inputs_.end(), [](const auto* input) { return input->hasSources(); });
+    return std::any_of(input_ports_.begin(), input_ports_.end(),
+                       [](const auto* input) { return input->hasSources(); });
 }
 
 void ComponentHost::stop() {
-    if (active()) lifecycle("stop", &LifecycleInterface::stop);
+    if (is_active()) run_transition("stop", &LifecycleInterface::stop);
 }
 
 void ComponentHost::destroy() {
     if (initialized_ && component_->getStatus() != OPROS_CS_DESTROYED)
-        lifecycle("destroy", &LifecycleInterface::destroy);
+        run_transition("destroy", &LifecycleInterface::destroy);
 }
 
-void ComponentHost::release() {
-    const Busy busy(busy_with_, "its destructor");
+void ComponentHost::destroy_instance() {
+    const CallbackScope busy(current_callback_, "its destructor");
     component_.reset();
 }
 
-void ComponentHost::unload() {
-    const Busy busy(busy_with_, "its static destructors");
+void ComponentHost::unload_library() {
+    const CallbackScope busy(current_callback_, "its static destructors");
     library_.reset();
 }
 
 // Real components return errors for passing conditions such as no input, and the real engine takes no notice:
 // so it is said once, and the component stays ACTIVE.
-void ComponentHost::report_code(const char* what, ReturnType code, ReturnType& last) {
+void ComponentHost::log_return_code(const char* what, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
         spdlog::warn("component {}: {} returns code {}", name_, what, code_text(code));
     last = code;
 }
 
-void ComponentHost::report_broken() {
+void ComponentHost::log_own_error() {
     const bool broken = component_->getStatus() == OPROS_CS_ERROR;
     if (broken && !error_reported_) spdlog::error("component {} has gone to ERROR by itself", name_);
     error_reported_ = broken;
 }
 
-std::string ComponentHost::execute(bool rehearsal) {
-    if (!active()) {
-        if (!rehearsal) report_broken();
+std::string ComponentHost::execute(bool warm_up) {
+    if (!is_active()) {
+        if (!warm_up) log_own_error();
         return "";
     }
-    return guarded("onExecute", [this, rehearsal] {
-        if (rehearsal) return rt::bring_into_caches(*component_);
-        report_code("onExecute", component_->onExecute(), last_execute_);
+    return run_guarded("onExecute", [this, warm_up] {
+        if (warm_up) return rt::bring_into_caches(*component_);
+        log_return_code("onExecute", component_->onExecute(), last_execute_);
     });
 }
 
 std::string ComponentHost::update() {
-    if (!active()) return "";
-    return guarded("onUpdated", [this] { report_code("onUpdated", component_->onUpdated(), last_update_); });
+    if (!is_active()) return "";
+    return run_guarded("onUpdated",
+                       [this] { log_return_code("onUpdated", component_->onUpdated(), last_update_); });
 }
 
-void ComponentHost::depends_on(ComponentHost& target) {
-    const std::uint64_t bit = needed_triggers_ + 1; // the lowest bit not yet in use
+void ComponentHost::add_dependency(ComponentHost& target) {
+    const std::uint64_t bit = dependency_mask_ + 1; // the lowest bit not yet in use
     if (bit == 0)
-        throw SetupError(profile_.place, "component '" + name_ + "' depends on more than 64 others");
-    needed_triggers_ |= bit;
-    target.followers_.emplace_back(this, bit);
+        throw SetupError(profile_.location, "component '" + name_ + "' depends on more than 64 others");
+    dependency_mask_ |= bit;
+    target.dependents_.emplace_back(this, bit);
 }
 
-void ComponentHost::fired() {
-    for (auto& [follower, bit] : followers_) {
-        follower->triggers_.fetch_or(bit, std::memory_order_acq_rel);
-        follower->arrival_.arrived();
+void ComponentHost::notify_dependents() {
+    for (auto& [dependent, bit] : dependents_) {
+        dependent->completed_dependencies_.fetch_or(bit, std::memory_order_acq_rel);
+        dependent->input_signal_.arrived();
     }
 }
 
-bool ComponentHost::take_triggers() {
-    if (needed_triggers_ == 0) return true;
-    std::uint64_t all = needed_triggers_;
-    return triggers_.compare_exchange_strong(all, 0, std::memory_order_acq_rel);
+bool ComponentHost::consume_dependency_cycles() {
+    if (dependency_mask_ == 0) return true;
+    std::uint64_t all = dependency_mask_;
+    return completed_dependencies_.compare_exchange_strong(all, 0, std::memory_order_acq_rel);
 }
 
 } // namespace tandem::engine

@@ -3,7 +3,7 @@
 // ends here.
 #pragma once
 
-#include "host/opros/engine/execute/arrival.hpp"
+#include "host/opros/engine/execute/input_signal.hpp"
 #include "host/opros/engine/profile/profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/probe.hpp"
@@ -32,9 +32,9 @@ class ComponentHost {
     const ComponentProfile& profile() const { return profile_; }
     Component& component() { return *component_; }
     const std::shared_ptr<plugin::Library>& library() const { return library_; }
-    bool active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
+    bool is_active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
     /// Initialisation or start has failed: the component takes no part.
-    bool failed() const { return failed_; }
+    bool has_failed() const { return failed_; }
 
     /// Life-cycle steps. A failure is logged in one line and the component goes to ERROR; the others go on.
     void initialize();
@@ -42,55 +42,55 @@ class ComponentHost {
     void stop();
     void destroy();
     /// Ends the instance; then lets go of the library. Nothing of the component may be used any more.
-    void release();
-    void unload();
+    void destroy_instance();
+    void unload_library();
 
     /// [executor] The two passes of a cycle; nothing happens unless the component is ACTIVE. An exception
     /// puts it in ERROR and comes back as text, empty otherwise.
-    /// A rehearsal (rt::TickOptions) goes the same way, but calls nothing of the component.
-    std::string execute(bool rehearsal = false);
+    /// A warm_up (rt::TickOptions) goes the same way, but calls nothing of the component.
+    std::string execute(bool warm_up = false);
     std::string update();
 
     /// Runs the component's own code from any thread of the engine, under the same rule.
-    std::string guarded(const char* what, const std::function<void()>& code);
+    std::string run_guarded(const char* what, const std::function<void()>& code);
 
     /// The call-back that the component is in, of a thread that has come in last; NULL when it is in none.
-    const char* busy_with() const { return busy_with_; }
+    const char* current_callback() const { return current_callback_; }
 
     /// [executor] What has come for the component. Ports count from the time of initialize().
-    Arrival& arrival() { return arrival_; }
-    std::size_t values_waiting() const;
+    InputSignal& input_signal() { return input_signal_; }
+    std::size_t queued_value_count() const;
     bool has_sources() const;
 
-    /// Cycles of these components must come before each of ours: fired() is theirs, take_triggers() ours.
+    /// Cycles of these components must come before each of ours: notify_dependents() is theirs, consume_dependency_cycles() ours.
     /// Throws SetupError when there are more than 64.
-    void depends_on(ComponentHost& target);
-    void fired();
-    bool take_triggers();
+    void add_dependency(ComponentHost& target);
+    void notify_dependents();
+    bool consume_dependency_cycles();
 
   private:
-    bool lifecycle(const char* what, ReturnType (LifecycleInterface::*step)());
-    std::string fail(const char* what, const std::string& why);
-    void report_code(const char* what, ReturnType code, ReturnType& last);
-    void report_broken();
-    void set_up_inputs();
-    void take_out();
+    bool run_transition(const char* what, ReturnType (LifecycleInterface::*step)());
+    std::string enter_error(const char* what, const std::string& why);
+    void log_return_code(const char* what, ReturnType code, ReturnType& last);
+    void log_own_error();
+    void configure_input_ports();
+    void mark_failed();
 
     std::string name_;
     ComponentProfile profile_;
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
-    Arrival arrival_;
-    std::vector<InputDataPortInterface*> inputs_;
-    std::atomic<const char*> busy_with_{nullptr};
+    InputSignal input_signal_;
+    std::vector<InputDataPortInterface*> input_ports_;
+    std::atomic<const char*> current_callback_{nullptr};
     std::atomic<bool> failed_{false};
     bool initialized_ = false;
     bool error_reported_ = false;
     std::atomic<std::uint64_t> failed_calls_{0};
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
-    std::uint64_t needed_triggers_ = 0;
-    std::atomic<std::uint64_t> triggers_{0};
-    std::vector<std::pair<ComponentHost*, std::uint64_t>> followers_;
+    std::uint64_t dependency_mask_ = 0;
+    std::atomic<std::uint64_t> completed_dependencies_{0};
+    std::vector<std::pair<ComponentHost*, std::uint64_t>> dependents_;
 };
 
 } // namespace tandem::engine

@@ -13,10 +13,10 @@ namespace tandem::engine {
 std::string run_cycle(const std::vector<ComponentHost*>& components) {
     std::string first;
     for (ComponentHost* component : components) {
-        const bool active = component->active();
-        if (active && !component->take_triggers()) continue;
+        const bool active = component->is_active();
+        if (active && !component->consume_dependency_cycles()) continue;
         if (std::string text = component->execute(); !text.empty() && first.empty()) first = std::move(text);
-        if (active) component->fired();
+        if (active) component->notify_dependents();
     }
     for (ComponentHost* component : components)
         if (std::string text = component->update(); !text.empty() && first.empty()) first = std::move(text);
@@ -25,12 +25,12 @@ std::string run_cycle(const std::vector<ComponentHost*>& components) {
 
 Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options)
     : components_(std::move(components)), options_(options),
-      pace_(make_pace(*components_.front(), options.spin, [this] {
+      trigger_(make_cycle_trigger(*components_.front(), options.tick_spin, [this] {
           for (ComponentHost* component : components_) component->execute(true);
       })) {}
 
 Executor::~Executor() {
-    pace_->interrupt();
+    trigger_->interrupt();
     if (thread_.joinable()) thread_.join();
 }
 
@@ -41,8 +41,8 @@ void Executor::start() {
     thread_ = std::thread(std::move(task));
 }
 
-bool Executor::ends_within(std::chrono::nanoseconds grace) {
-    pace_->interrupt();
+bool Executor::stop_within(std::chrono::nanoseconds grace) {
+    trigger_->interrupt();
     return !end_.valid() || end_.wait_for(grace) == std::future_status::ready;
 }
 
@@ -54,31 +54,32 @@ std::string Executor::stats() const {
     std::string names;
     for (const ComponentHost* component : components_)
         names += (names.empty() ? "" : ", ") + component->name();
-    return "executor of " + names + ": " + pace_->stats();
+    return "executor of " + names + ": " + trigger_->stats();
 }
 
 void Executor::run() {
     const ComponentProfile& profile = components_.front()->profile();
     rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
     // A loop without pauses at a real-time priority would take a processor from everybody else.
-    if (profile.scheduling != Scheduling::other && profile.execution != Execution::aperiodic_loop) {
+    if (profile.scheduling_policy != SchedulingPolicy::other &&
+        profile.execution_type != ExecutionType::aperiodic_loop) {
         options.fifo_priority = profile.priority;
-        options.round_robin = profile.scheduling == Scheduling::round_robin;
+        options.round_robin = profile.scheduling_policy == SchedulingPolicy::round_robin;
     }
     for (const std::string& notice : rt::set_up_this_thread(options)) spdlog::info("{}", notice);
-    while (pace_->wait()) run_cycle(components_);
+    while (trigger_->wait()) run_cycle(components_);
 }
 
 std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,
                                                       const ExecutorOptions& options) {
     std::vector<std::vector<ComponentHost*>> groups;
-    std::map<std::tuple<std::int64_t, std::int64_t, Scheduling, int>, std::size_t> shared;
+    std::map<std::tuple<std::int64_t, std::int64_t, SchedulingPolicy, int>, std::size_t> shared;
     for (ComponentHost* component : components) {
         const ComponentProfile& profile = component->profile();
-        if (component->failed() || profile.execution == Execution::passive) continue;
-        if (profile.execution == Execution::periodic_shared) {
+        if (component->has_failed() || profile.execution_type == ExecutionType::passive) continue;
+        if (profile.execution_type == ExecutionType::periodic_shared) {
             const auto [entry, added] = shared.try_emplace(
-                {profile.period.count(), profile.phase.count(), profile.scheduling, profile.priority},
+                {profile.period.count(), profile.phase.count(), profile.scheduling_policy, profile.priority},
                 groups.size());
             if (!added) {
                 groups[entry->second].push_back(component);

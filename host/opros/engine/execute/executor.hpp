@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/opros/engine/execute/component_host.hpp"
-#include "host/opros/engine/execute/pace.hpp"
+#include "host/opros/engine/execute/cycle_trigger.hpp"
 
 #include <future>
 #include <memory>
@@ -18,18 +18,18 @@ std::string run_cycle(const std::vector<ComponentHost*>& components);
 
 struct ExecutorOptions {
     int cpu = -1;
-    std::chrono::nanoseconds spin{0};
+    std::chrono::nanoseconds tick_spin{0};
 };
 
 /// A thread that gives cycles to one or more components at the pace that their profile asks for.
 class Executor {
   public:
     Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options);
-    /// Waits for the cycle under way, however long it takes: ends_within() first.
+    /// Waits for the cycle under way, however long it takes: stop_within() first.
     ~Executor();
     void start();
     /// Asks for the end and waits for it; false when a component is still in its cycle by then.
-    bool ends_within(std::chrono::nanoseconds grace);
+    bool stop_within(std::chrono::nanoseconds grace);
     bool runs(const ComponentHost& component) const;
     const std::vector<ComponentHost*>& components() const { return components_; }
     /// One line of what has been counted.
@@ -40,7 +40,7 @@ class Executor {
 
     std::vector<ComponentHost*> components_;
     ExecutorOptions options_;
-    std::unique_ptr<Pace> pace_;
+    std::unique_ptr<CycleTrigger> trigger_;
     std::future<void> end_;
     std::thread thread_;
 };

@@ -5,7 +5,7 @@
 
 namespace tandem::engine {
 
-Worker::Worker(std::size_t most_jobs, bool with_thread) : most_jobs_(most_jobs), with_thread_(with_thread) {
+Worker::Worker(std::size_t max_jobs, bool with_thread) : max_jobs_(max_jobs), with_thread_(with_thread) {
     if (with_thread_) thread_ = std::thread([this] { run(); });
 }
 
@@ -31,7 +31,7 @@ void Worker::run() {
 bool Worker::submit(Job job) {
     {
         const std::lock_guard<std::mutex> lock(mutex_);
-        if (stopping_ || (with_thread_ && jobs_.size() >= most_jobs_)) return false;
+        if (stopping_ || (with_thread_ && jobs_.size() >= max_jobs_)) return false;
         if (with_thread_) jobs_.push_back(std::move(job));
     }
     if (with_thread_)

@@ -15,7 +15,7 @@ class Worker {
     using Job = std::function<void()>;
 
     /// Without a thread, jobs are done at once by whoever submits them: lock-step is deterministic that way.
-    Worker(std::size_t most_jobs, bool with_thread);
+    Worker(std::size_t max_jobs, bool with_thread);
     ~Worker();
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
@@ -29,7 +29,7 @@ class Worker {
   private:
     void run();
 
-    const std::size_t most_jobs_;
+    const std::size_t max_jobs_;
     const bool with_thread_;
     std::mutex mutex_;
     std::condition_variable wake_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/load/load_component.hpp"
 
-#include "host/opros/engine/load/probe_component.hpp"
+#include "host/opros/engine/load/load_probe.hpp"
 #include "host/plugin/abi.hpp"
 #include "host/plugin/find_library.hpp"
 #include "host/plugin/library.hpp"
@@ -60,7 +60,7 @@ bool names_device_library(std::string property) {
 
 std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
                                                const std::vector<std::filesystem::path>& dirs) {
-    std::vector<std::filesystem::path> search{profile.place.file.parent_path()};
+    std::vector<std::filesystem::path> search{profile.location.file.parent_path()};
     search.insert(search.end(), dirs.begin(), dirs.end());
     return search;
 }
@@ -79,7 +79,7 @@ std::string find_device_library(const ComponentProfile& profile, const std::stri
         require_ours(found, plugin::Kind::device_api);
     } catch (const plugin::Error& error) {
         if (error.reason() == plugin::Reason::another_abi) // the component could not tell, and call it
-            throw SetupError(profile.place, property + " " + value + ": " + error.what());
+            throw SetupError(profile.location, property + " " + value + ": " + error.what());
         spdlog::warn("{} {}: {}", property, value, error.what());
     }
     return found;
@@ -97,11 +97,11 @@ void give_device_library_all_names(std::map<std::string, std::string>& propertie
 
 } // namespace
 
-void require_component(const std::filesystem::path& library) {
+void require_opros_component(const std::filesystem::path& library) {
     require_ours(library, plugin::Kind::opros_component);
 }
 
-LoadedComponent open_component(const std::filesystem::path& file) {
+LoadedComponent instantiate_component(const std::filesystem::path& file) {
     const auto library = plugin::Library::load(file);
     plugin::require_abi_of_process(plugin::Model::opros, TANDEM_OPROS_ABI, library->path());
     check_version(*library);
@@ -115,15 +115,15 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
     try {
         return plugin::find_library(profile.library_name, search_dirs(profile, dirs));
     } catch (const plugin::Error& error) {
-        throw SetupError(profile.library_place, error.what());
+        throw SetupError(profile.library_location, error.what());
     }
 }
 
-void give_properties(Component& component, const ComponentProfile& profile, const Properties& more,
-                     const std::vector<std::filesystem::path>& dirs) {
-    const auto folder = std::filesystem::absolute(profile.place.file).parent_path();
-    component.setProperty(folder_properties[0], (folder / "res" / "").string());
-    component.setProperty(folder_properties[1], (folder / "").string());
+void set_component_properties(Component& component, const ComponentProfile& profile, const Properties& more,
+                              const std::vector<std::filesystem::path>& dirs) {
+    const auto folder = std::filesystem::absolute(profile.location.file).parent_path();
+    component.setProperty(folder_property_names[0], (folder / "res" / "").string());
+    component.setProperty(folder_property_names[1], (folder / "").string());
     for (const Properties* properties : {&profile.properties, &more})
         for (const auto& [key, value] : *properties)
             component.setProperty(key, find_device_library(profile, key, value, dirs));
@@ -135,11 +135,11 @@ LoadedComponent load_component(const ComponentProfile& profile,
                                const std::optional<plugin::Probe>& probe) {
     const auto file = find_component_library(profile, dirs);
     try {
-        require_component(file);
-        if (probe) plugin::probe(*probe, probe_load, file);
-        return open_component(file);
+        require_opros_component(file);
+        if (probe) plugin::probe(*probe, load_probe_task, file);
+        return instantiate_component(file);
     } catch (const std::runtime_error& error) {
-        throw SetupError(profile.library_place, error.what());
+        throw SetupError(profile.library_location, error.what());
     }
 }
 

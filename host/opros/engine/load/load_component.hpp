@@ -19,10 +19,10 @@ struct LoadedComponent {
 
 /// Throws plugin::Error unless the library is an OPRoS component built against our headers. Its code does not
 /// run.
-void require_component(const std::filesystem::path& library);
+void require_opros_component(const std::filesystem::path& library);
 
 /// Loads the library and makes a component. Throws plugin::Error, or SetupError if getComponent() fails.
-LoadedComponent open_component(const std::filesystem::path& library);
+LoadedComponent instantiate_component(const std::filesystem::path& library);
 
 /// The library of the profile: beside it or in one of the folders. Throws SetupError with the place of its
 /// name.
@@ -30,13 +30,14 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
                                              const std::vector<std::filesystem::path>& dirs);
 
 /// Properties that tell a component where it lies: `<profile's folder>/res/` and that folder.
-constexpr const char* folder_properties[] = {"_opros_xx_internal_xx_Component_Path", "opros.component.dir"};
+constexpr const char* folder_property_names[] = {"_opros_xx_internal_xx_Component_Path",
+                                                 "opros.component.dir"};
 
 /// The component's properties: where it lies, those of its profile, and `more`, which override them. A
 /// property that names a device library (APIName, ApiName, DllName and the like) becomes the path of the
 /// file, found as the component's own library is, or stays as it is if there is none.
-void give_properties(Component& component, const ComponentProfile& profile, const Properties& more,
-                     const std::vector<std::filesystem::path>& dirs);
+void set_component_properties(Component& component, const ComponentProfile& profile, const Properties& more,
+                              const std::vector<std::filesystem::path>& dirs);
 
 /// Both, the library tried in a child process first if so wished. Throws SetupError with the place of the
 /// library's name.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/profile/repeated_connections.hpp"
+#include "host/opros/engine/profile/duplicate_connections.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
 
 #include <set>
@@ -17,13 +17,13 @@ PortReference port_reference(const XmlFile& xml, const pugi::xml_node& connectio
 
 /// An attribute, or a child element of that name.
 std::string named(const pugi::xml_node& node, const char* name) {
-    const std::string value = XmlFile::trimmed(node.attribute(name).value());
-    return value.empty() ? XmlFile::text(node, name) : value;
+    const std::string value = XmlFile::trim(node.attribute(name).value());
+    return value.empty() ? XmlFile::child_text(node, name) : value;
 }
 
 /// Empty if there is none.
 std::string port_type_error(const pugi::xml_node& node) {
-    const std::string type = named(node, "port_type"), word = XmlFile::word(type);
+    const std::string type = named(node, "port_type"), word = XmlFile::keyword(type);
     if (word == "data" || word == "event" || word == "service") return "";
     if (word.empty()) return tag(node.name()) + " lacks its attribute port_type";
     return "port_type is '" + type + "', expected data, event or service";
@@ -31,27 +31,27 @@ std::string port_type_error(const pugi::xml_node& node) {
 
 PortType port_type(const XmlFile& xml, const pugi::xml_node& node) {
     if (const std::string error = port_type_error(node); !error.empty()) xml.fail(node, error);
-    const std::string type = XmlFile::word(named(node, "port_type"));
+    const std::string type = XmlFile::keyword(named(node, "port_type"));
     if (type == "data") return OPROS_DATA;
     return type == "event" ? OPROS_EVENT : OPROS_SERVICE;
 }
 
-constexpr std::size_t longest_name = 255;
+constexpr std::size_t max_name_length = 255;
 
 using Names = std::set<std::string>;
 
 Names read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, ApplicationProfile& profile) {
     Names names;
     for (const pugi::xml_node& node : root.child("subcomponents").children("subcomponent")) {
-        Subcomponent component{xml.place(node),
-                               xml.required_text(node, "name"),
-                               XmlFile::file_name(xml.required_text(node, "reference")),
+        Subcomponent component{xml.location(node),
+                               xml.required_child_text(node, "name"),
+                               XmlFile::to_posix_path(xml.required_child_text(node, "reference")),
                                {},
                                {}};
         // It becomes part of paths and of messages.
-        if (component.name.size() > longest_name || component.reference.size() > longest_name)
-            xml.fail(node, "a component's name or reference has more than " + std::to_string(longest_name) +
-                               " bytes, expected a file's name");
+        if (component.name.size() > max_name_length || component.reference.size() > max_name_length)
+            xml.fail(node, "a component's name or reference has more than " +
+                               std::to_string(max_name_length) + " bytes, expected a file's name");
         if (!names.insert(component.name).second)
             xml.fail(node, "component '" + component.name + "' is listed twice, expected one of each name");
         for (const pugi::xml_node& property : node.child("properties").children("property"))
@@ -82,8 +82,8 @@ void require_component(const XmlFile& xml, const pugi::xml_node& node, const Nam
 void read_connections(const XmlFile& xml, const pugi::xml_node& root, const Names& names,
                       ApplicationProfile& profile) {
     for (const pugi::xml_node& node : root.child("port_connections").children("port_connection")) {
-        Connection connection{xml.place(node), OPROS_DATA, port_reference(xml, node, "source"),
-                              port_reference(xml, node, "target"), port_type_error(node)};
+        ConnectionProfile connection{xml.location(node), OPROS_DATA, port_reference(xml, node, "source"),
+                                     port_reference(xml, node, "target"), port_type_error(node)};
         if (connection.error.empty()) connection.type = port_type(xml, node);
         if (connection.error.empty())
             connection.error = unknown_component(names, connection.source.component);
@@ -91,9 +91,9 @@ void read_connections(const XmlFile& xml, const pugi::xml_node& root, const Name
             connection.error = unknown_component(names, connection.target.component);
         profile.connections.push_back(std::move(connection));
     }
-    mark_repeated(profile.connections);
+    mark_duplicate_connections(profile.connections);
     for (const pugi::xml_node& node : root.child("coordination").children("depends")) {
-        Dependency dependency{xml.place(node), xml.required_attribute(node, "source"),
+        Dependency dependency{xml.location(node), xml.required_attribute(node, "source"),
                               xml.required_attribute(node, "target")};
         require_component(xml, node, names, dependency.source);
         require_component(xml, node, names, dependency.target);
@@ -105,7 +105,7 @@ void read_exports(const XmlFile& xml, const pugi::xml_node& root, const Names& n
                   ApplicationProfile& profile) {
     Names exported;
     for (const pugi::xml_node& node : root.child("export_ports").children("export_port")) {
-        ExportedPort port{xml.place(node),
+        ExportedPort port{xml.location(node),
                           named(node, "export_port_name"),
                           port_type(xml, node),
                           {named(node, "component_name"), named(node, "port_name")}};
@@ -121,8 +121,8 @@ void read_exports(const XmlFile& xml, const pugi::xml_node& root, const Names& n
 
 ApplicationProfile read(const XmlFile& xml, const pugi::xml_node& root) {
     ApplicationProfile profile;
-    profile.place = xml.place(root);
-    profile.name = xml.required_text(root, "name");
+    profile.location = xml.location(root);
+    profile.name = xml.required_child_text(root, "name");
     const Names names = read_subcomponents(xml, root, profile);
     read_connections(xml, root, names, profile);
     if (std::string(root.name()) == "composite_component_profile") read_exports(xml, root, names, profile);
@@ -150,11 +150,11 @@ ApplicationProfile read_composite_profile(const std::filesystem::path& file) {
 std::filesystem::path find_component_profile(const ApplicationProfile& application,
                                              const Subcomponent& component,
                                              const std::vector<std::filesystem::path>& plugin_dirs) {
-    const auto folder = application.place.file.parent_path();
+    const auto folder = application.location.file.parent_path();
     std::vector<std::filesystem::path> candidates{
         folder / component.name / component.reference,
         folder / component.name / "profile" / component.reference, // as OPRoS tools lay out its sources
-        folder / application.place.file.stem() / component.reference,
+        folder / application.location.file.stem() / component.reference,
         folder / component.reference,
     };
     for (const auto& dir : plugin_dirs) candidates.push_back(dir / component.reference);
@@ -164,8 +164,8 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
         if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
         looked += (looked.empty() ? "" : ", ") + candidate.string();
     }
-    throw SetupError(component.place, "profile '" + component.reference + "' of component '" +
-                                          component.name + "' not found: looked for " + looked);
+    throw SetupError(component.location, "profile '" + component.reference + "' of component '" +
+                                             component.name + "' not found: looked for " + looked);
 }
 
 } // namespace tandem::engine

@@ -10,13 +10,14 @@ namespace {
 
 std::chrono::nanoseconds milliseconds(double ms) { return std::chrono::nanoseconds(std::llround(ms * 1e6)); }
 
-Execution execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
-    const std::string type = XmlFile::word(xml.required_text(semantics, "type"));
-    if (type == "periodic" || type == "periodic-exclusive") return Execution::periodic;
-    if (type == "periodic-shared") return Execution::periodic_shared;
-    if (type == "aperiodic" || type == "non-periodic" || type == "nonperiodic") return Execution::aperiodic;
-    if (type == "aperiodic-loop") return Execution::aperiodic_loop;
-    if (type == "passive") return Execution::passive;
+ExecutionType execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
+    const std::string type = XmlFile::keyword(xml.required_child_text(semantics, "type"));
+    if (type == "periodic" || type == "periodic-exclusive") return ExecutionType::periodic;
+    if (type == "periodic-shared") return ExecutionType::periodic_shared;
+    if (type == "aperiodic" || type == "non-periodic" || type == "nonperiodic")
+        return ExecutionType::aperiodic;
+    if (type == "aperiodic-loop") return ExecutionType::aperiodic_loop;
+    if (type == "passive") return ExecutionType::passive;
     xml.fail(semantics.child("type"),
              "execution type '" + type +
                  "' is unknown, expected periodic, periodic-exclusive, periodic-shared, "
@@ -24,30 +25,32 @@ Execution execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
 }
 
 /// Real time only for those who ask for it: nearly all profiles name a priority, and hardly one means it.
-Scheduling scheduling(const XmlFile& xml, const pugi::xml_node& semantics) {
+SchedulingPolicy scheduling(const XmlFile& xml, const pugi::xml_node& semantics) {
     const pugi::xml_node node = semantics.child("policy");
-    const std::string policy = XmlFile::word(node.child_value());
-    if (policy == "sched_fifo") return Scheduling::fifo;
-    if (policy == "sched_rr") return Scheduling::round_robin;
-    if (policy.empty() || policy == "sched_other") return Scheduling::other;
-    xml.fail(node, "<policy> is '" + XmlFile::trimmed(node.child_value()) +
+    const std::string policy = XmlFile::keyword(node.child_value());
+    if (policy == "sched_fifo") return SchedulingPolicy::fifo;
+    if (policy == "sched_rr") return SchedulingPolicy::round_robin;
+    if (policy.empty() || policy == "sched_other") return SchedulingPolicy::other;
+    xml.fail(node, "<policy> is '" + XmlFile::trim(node.child_value()) +
                        "', expected SCHED_OTHER, SCHED_FIFO or SCHED_RR");
 }
 
 void read_semantics(const XmlFile& xml, const pugi::xml_node& semantics, ComponentProfile& profile) {
-    profile.execution = execution_type(xml, semantics);
-    profile.scheduling = scheduling(xml, semantics);
+    profile.execution_type = execution_type(xml, semantics);
+    profile.scheduling_policy = scheduling(xml, semantics);
     profile.priority = static_cast<int>(std::clamp(xml.number(semantics, "priority", 0), 0., 99.));
-    if (profile.execution != Execution::periodic && profile.execution != Execution::periodic_shared) return;
+    if (profile.execution_type != ExecutionType::periodic &&
+        profile.execution_type != ExecutionType::periodic_shared)
+        return;
     const double period = xml.number(semantics, "period", 0);
     if (period <= 0 || period > 1e9)
         xml.fail(semantics.child("period") ? semantics.child("period") : semantics,
                  "a periodic component needs a <period> above 0 and of at most 1e9 ms, got '" +
-                     XmlFile::text(semantics, "period") + "'");
+                     XmlFile::child_text(semantics, "period") + "'");
     profile.period = milliseconds(period);
     const double phase = xml.number(semantics, "phase", 0);
     if (std::abs(phase) > 1e9)
-        xml.fail(semantics.child("phase"), "<phase> is '" + XmlFile::text(semantics, "phase") +
+        xml.fail(semantics.child("phase"), "<phase> is '" + XmlFile::child_text(semantics, "phase") +
                                                "', expected a time in ms of at most 1e9");
     profile.phase = milliseconds(phase);
 }
@@ -61,12 +64,12 @@ ComponentProfile read_component_profile(const std::filesystem::path& file) {
 ComponentProfile read_component_profile(const XmlFile& xml) {
     const pugi::xml_node root = xml.root({"component_profile"});
     ComponentProfile profile;
-    profile.place = xml.place(root);
-    profile.name = xml.required_text(root, "name");
+    profile.location = xml.location(root);
+    profile.name = xml.required_child_text(root, "name");
     const pugi::xml_node environment = root.child("execution_environment");
     if (!environment) xml.fail(root, "<component_profile> lacks its <execution_environment>");
-    profile.library_name = XmlFile::file_name(xml.required_text(environment, "library_name"));
-    profile.library_place = xml.place(environment.child("library_name"));
+    profile.library_name = XmlFile::to_posix_path(xml.required_child_text(environment, "library_name"));
+    profile.library_location = xml.location(environment.child("library_name"));
     const pugi::xml_node semantics = root.child("execution_semantics");
     if (!semantics) xml.fail(root, "<component_profile> lacks its <execution_semantics>");
     read_semantics(xml, semantics, profile);
@@ -78,7 +81,7 @@ ComponentProfile read_component_profile(const XmlFile& xml) {
                                       std::pair{"defined_data_types", &profile.data_types},
                                       std::pair{"defined_service_types", &profile.service_types}})
         for (const pugi::xml_node& node : root.child(list).children())
-            if (const std::string file = XmlFile::trimmed(node.child_value()); !file.empty())
+            if (const std::string file = XmlFile::trim(node.child_value()); !file.empty())
                 files->push_back(file);
     return profile;
 }

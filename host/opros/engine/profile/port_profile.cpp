@@ -9,17 +9,17 @@ constexpr const char* policy_names[] = {"queueing_policy", "queuing_policy", "po
 
 pugi::xml_node policy_node(const pugi::xml_node& port) {
     for (const char* name : policy_names)
-        if (!XmlFile::text(port, name).empty()) return port.child(name);
+        if (!XmlFile::child_text(port, name).empty()) return port.child(name);
     return {};
 }
 
 DataPortPolicy policy_of(const XmlFile& xml, const pugi::xml_node& node) {
-    const std::string policy = XmlFile::word(node.child_value());
+    const std::string policy = XmlFile::keyword(node.child_value());
     if (policy == "fifo") return OPROS_FIFO;
     if (policy == "lifo") return OPROS_LIFO;
     if (policy == "ufifo") return OPROS_UFIFO;
     if (policy == "last") return OPROS_LAST;
-    xml.fail(node, std::string("<") + node.name() + "> is '" + XmlFile::trimmed(node.child_value()) +
+    xml.fail(node, std::string("<") + node.name() + "> is '" + XmlFile::trim(node.child_value()) +
                        "', expected FIFO, LIFO, UFIFO or LAST");
 }
 
@@ -35,23 +35,26 @@ std::optional<QueueProfile> queue_of(const XmlFile& xml, const pugi::xml_node& p
     const double wanted = xml.number(size, DEFAULT_QUEUE_LIMIT);
     if (wanted < 1 || wanted > max_queue_size)
         xml.fail(size, "a queue has 1 to " + std::to_string(max_queue_size) + " places, got '" +
-                           XmlFile::trimmed(size.child_value()) + "'");
+                           XmlFile::trim(size.child_value()) + "'");
     if (!policy && !size) return std::nullopt;
     return QueueProfile{policy ? policy_of(xml, policy) : OPROS_FIFO, static_cast<unsigned int>(wanted)};
 }
 
-std::string usage_of(const pugi::xml_node& port) { return XmlFile::word(port.child("usage").child_value()); }
+std::string usage_of(const pugi::xml_node& port) {
+    return XmlFile::keyword(port.child("usage").child_value());
+}
 
 /// Those of real profiles that are none (`output1`) are left out, as by the original engine.
 bool listed(const XmlFile& xml, const pugi::xml_node& port, const char* one, const char* other,
             ComponentProfile& profile) {
-    const std::string name = XmlFile::text(port, "name"), usage = usage_of(port);
-    const std::string place = xml.place(port).text() + ": <" + port.name() + "> ";
+    const std::string name = XmlFile::child_text(port, "name"), usage = usage_of(port);
+    const std::string place = xml.location(port).text() + ": <" + port.name() + "> ";
     if (name.empty())
-        profile.port_faults.push_back(place + "lacks its <name>");
+        profile.port_errors.push_back(place + "lacks its <name>");
     else if (usage != one && usage != other)
-        profile.port_faults.push_back(place + "'" + name + "' has the <usage> '" +
-                                      XmlFile::text(port, "usage") + "', expected " + one + " or " + other);
+        profile.port_errors.push_back(place + "'" + name + "' has the <usage> '" +
+                                      XmlFile::child_text(port, "usage") + "', expected " + one + " or " +
+                                      other);
     else
         return true;
     return false;
@@ -63,19 +66,20 @@ void read_ports(const XmlFile& xml, const pugi::xml_node& ports, ComponentProfil
     for (const pugi::xml_node& port : ports.children("data_port")) {
         if (!listed(xml, port, "input", "output", profile)) continue;
         const bool input = usage_of(port) == "input";
-        profile.data_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
-                                      XmlFile::text(port, "data_type"), input,
+        profile.data_ports.push_back({xml.location(port), XmlFile::child_text(port, "name"),
+                                      XmlFile::child_text(port, "data_type"), input,
                                       input ? queue_of(xml, port) : std::nullopt});
     }
     for (const pugi::xml_node& port : ports.children("event_port"))
         if (listed(xml, port, "input", "output", profile))
-            profile.event_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
-                                           XmlFile::text(port, "data_type"), usage_of(port) == "input"});
+            profile.event_ports.push_back({xml.location(port), XmlFile::child_text(port, "name"),
+                                           XmlFile::child_text(port, "data_type"),
+                                           usage_of(port) == "input"});
     for (const pugi::xml_node& port : ports.children("service_port"))
         if (listed(xml, port, "provided", "required", profile))
-            profile.service_ports.push_back({xml.place(port), XmlFile::text(port, "name"),
-                                             XmlFile::text(port, "type"), XmlFile::text(port, "reference"),
-                                             usage_of(port) == "provided"});
+            profile.service_ports.push_back(
+                {xml.location(port), XmlFile::child_text(port, "name"), XmlFile::child_text(port, "type"),
+                 XmlFile::child_text(port, "reference"), usage_of(port) == "provided"});
 }
 
 } // namespace tandem::engine

@@ -20,7 +20,7 @@ std::string one_line(std::string text) {
 
 SetupError::SetupError(const std::string& what) : std::runtime_error(one_line(what)) {}
 
-ProfileKind profile_kind(const std::filesystem::path& file) {
+ProfileKind read_profile_kind(const std::filesystem::path& file) {
     const XmlFile xml(file);
     const std::string name = xml.root({"component_profile", "composite_component_profile", "package_profile",
                                        "application_profile", "service_port_type_profile", "data_type"})

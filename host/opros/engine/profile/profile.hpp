@@ -15,7 +15,7 @@
 namespace tandem::engine {
 
 /// Where something stands in a file, for messages.
-struct Place {
+struct SourceLocation {
     std::filesystem::path file;
     int line = 0;
     std::string text() const { return file.string() + ":" + std::to_string(line); }
@@ -25,14 +25,15 @@ struct Place {
 class SetupError : public std::runtime_error {
   public:
     explicit SetupError(const std::string& what);
-    SetupError(const Place& place, const std::string& what) : SetupError(place.text() + ": " + what) {}
+    SetupError(const SourceLocation& location, const std::string& what)
+        : SetupError(location.text() + ": " + what) {}
 };
 
 using Properties = std::vector<std::pair<std::string, std::string>>;
 
 /// aperiodic: when an input arrives; aperiodic_loop: again and again.
-enum class Execution { periodic, periodic_shared, aperiodic, aperiodic_loop, passive };
-enum class Scheduling { other, fifo, round_robin };
+enum class ExecutionType { periodic, periodic_shared, aperiodic, aperiodic_loop, passive };
+enum class SchedulingPolicy { other, fifo, round_robin };
 
 constexpr unsigned int max_queue_size = 1000000;
 
@@ -43,42 +44,42 @@ struct QueueProfile {
 };
 
 struct DataPortProfile {
-    Place place;
+    SourceLocation location;
     std::string name, data_type;
-    bool input = false;
+    bool is_input = false;
     std::optional<QueueProfile> queue; ///< of an input port, if the profile says something about it
 };
 
 struct EventPortProfile {
-    Place place;
+    SourceLocation location;
     std::string name, data_type;
-    bool input = false;
+    bool is_input = false;
 };
 
 struct ServicePortProfile {
-    Place place;
+    SourceLocation location;
     std::string name, type, reference; ///< reference: file of the service type's profile
-    bool provided = false;
+    bool is_provided = false;
 };
 
 struct ComponentProfile {
-    Place place, library_place;
+    SourceLocation location, library_location;
     std::string name, library_name;
-    Execution execution = Execution::passive;
+    ExecutionType execution_type = ExecutionType::passive;
     std::chrono::nanoseconds period{0}, phase{0};
     int priority = 0; ///< 0..99, for the real-time schedulings
-    Scheduling scheduling = Scheduling::other;
+    SchedulingPolicy scheduling_policy = SchedulingPolicy::other;
     Properties properties;
     // Ports as the profile lists them: those that the component has are of its code's making.
     std::vector<DataPortProfile> data_ports;
     std::vector<EventPortProfile> event_ports;
     std::vector<ServicePortProfile> service_ports;
-    std::vector<std::string> port_faults;               ///< of ports that are left out here, one line each
+    std::vector<std::string> port_errors;               ///< of ports that are left out here, one line each
     std::vector<std::string> data_types, service_types; ///< files of their profiles
 };
 
 struct Subcomponent {
-    Place place;
+    SourceLocation location;
     std::string name, reference;
     Properties properties;      ///< override those of the component profile
     std::filesystem::path file; ///< its profile, once found
@@ -89,8 +90,8 @@ struct PortReference {
     std::string text() const { return component + "." + port; }
 };
 
-struct Connection {
-    Place place;
+struct ConnectionProfile {
+    SourceLocation location;
     PortType type = OPROS_DATA;
     PortReference source, target;
     std::string error; ///< why it cannot be made, as far as the profiles tell; empty if it can
@@ -98,13 +99,13 @@ struct Connection {
 
 /// The source's cycles need a cycle of the target before them.
 struct Dependency {
-    Place place;
+    SourceLocation location;
     std::string source, target;
 };
 
 /// A port of a composite that is one of its components' in truth.
 struct ExportedPort {
-    Place place;
+    SourceLocation location;
     std::string name;
     PortType type = OPROS_DATA;
     PortReference port;
@@ -112,10 +113,10 @@ struct ExportedPort {
 
 /// An application, or a composite: components that are one component to those who use it.
 struct ApplicationProfile {
-    Place place;
+    SourceLocation location;
     std::string name;
     std::vector<Subcomponent> subcomponents;
-    std::vector<Connection> connections;
+    std::vector<ConnectionProfile> connections;
     std::vector<Dependency> dependencies;
     std::vector<ExportedPort> exports; ///< composites only
 };
@@ -126,7 +127,7 @@ enum class ProfileKind { component, composite, application, service_type, data_t
 
 /// All throw SetupError: no such file, not well-formed, not a profile of this kind, or something missing or
 /// wrong.
-ProfileKind profile_kind(const std::filesystem::path& file);
+ProfileKind read_profile_kind(const std::filesystem::path& file);
 ComponentProfile read_component_profile(const std::filesystem::path& file);
 ApplicationProfile read_application_profile(const std::filesystem::path& file);
 ApplicationProfile read_composite_profile(const std::filesystem::path& file);

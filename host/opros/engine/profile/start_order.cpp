@@ -33,8 +33,8 @@ std::vector<std::string> start_order(const ApplicationProfile& profile) {
                 order.push_back(entry->name);
         }
         if (order.size() == before)
-            throw SetupError(missing->place, "component '" + missing->source + "' depends on '" +
-                                                 missing->target + "' in a circle");
+            throw SetupError(missing->location, "component '" + missing->source + "' depends on '" +
+                                                    missing->target + "' in a circle");
     }
     return order;
 }

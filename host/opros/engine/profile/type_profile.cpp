@@ -11,21 +11,21 @@ namespace tandem::engine {
 namespace {
 
 MethodProfile read_method(const XmlFile& xml, const pugi::xml_node& node) {
-    MethodProfile method{xml.place(node),
+    MethodProfile method{xml.location(node),
                          xml.required_attribute(node, "name"),
-                         XmlFile::trimmed(node.attribute("return_type").value()),
-                         XmlFile::trimmed(node.attribute("call_type").value()),
+                         XmlFile::trim(node.attribute("return_type").value()),
+                         XmlFile::trim(node.attribute("call_type").value()),
                          {}};
     if (method.return_type.empty()) method.return_type = "void";
     std::vector<std::pair<std::size_t, ParameterProfile>> indexed;
     for (const pugi::xml_node& parameter : node.children("param")) {
-        const std::string index = XmlFile::trimmed(parameter.attribute("index").value());
+        const std::string index = XmlFile::trim(parameter.attribute("index").value());
         std::size_t place = indexed.size() + 1;
         const char* const last = index.data() + index.size();
         if (!index.empty() && std::from_chars(index.data(), last, place).ptr != last)
             xml.fail(parameter, "index of a <param> is '" + index + "', expected a number from 0 on");
-        indexed.emplace_back(
-            place, ParameterProfile{xml.required_text(parameter, "type"), XmlFile::text(parameter, "name")});
+        indexed.emplace_back(place, ParameterProfile{xml.required_child_text(parameter, "type"),
+                                                     XmlFile::child_text(parameter, "name")});
     }
     std::stable_sort(indexed.begin(), indexed.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -43,7 +43,7 @@ std::vector<ServiceTypeProfile> read_service_type_profile(const XmlFile& xml) {
     const pugi::xml_node root = xml.root({"service_port_type_profile"});
     std::vector<ServiceTypeProfile> types;
     for (const pugi::xml_node& node : root.children("service_port_type")) {
-        ServiceTypeProfile type{xml.place(node), xml.required_text(node, "type_name"), {}};
+        ServiceTypeProfile type{xml.location(node), xml.required_child_text(node, "type_name"), {}};
         std::set<std::string> names;
         for (const pugi::xml_node& method : node.children("method")) {
             type.methods.push_back(read_method(xml, method));
@@ -65,9 +65,9 @@ std::vector<StructProfile> read_data_type_profile(const XmlFile& xml) {
     const pugi::xml_node root = xml.root({"data_type"});
     std::vector<StructProfile> types;
     for (const pugi::xml_node& node : root.children("struct")) {
-        StructProfile type{xml.place(node), xml.required_attribute(node, "name"), {}};
+        StructProfile type{xml.location(node), xml.required_attribute(node, "name"), {}};
         for (const pugi::xml_node& item : node.children("item")) {
-            FieldProfile field{xml.required_attribute(item, "type"), XmlFile::trimmed(item.child_value()),
+            FieldProfile field{xml.required_attribute(item, "type"), XmlFile::trim(item.child_value()),
                                item.attribute("default").value()};
             if (field.name.empty()) xml.fail(item, "<item> lacks its text, the name of the field");
             type.fields.push_back(std::move(field));

@@ -12,13 +12,13 @@ struct ParameterProfile {
 };
 
 struct MethodProfile {
-    Place place;
+    SourceLocation location;
     std::string name, return_type, call_type;
     std::vector<ParameterProfile> parameters; ///< in the order of their index
 };
 
 struct ServiceTypeProfile {
-    Place place;
+    SourceLocation location;
     std::string name;
     std::vector<MethodProfile> methods;
 };
@@ -28,7 +28,7 @@ struct FieldProfile {
 };
 
 struct StructProfile {
-    Place place;
+    SourceLocation location;
     std::string name;
     std::vector<FieldProfile> fields;
 };

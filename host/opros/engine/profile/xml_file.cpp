@@ -14,7 +14,7 @@ namespace {
 
 std::string tag(const char* name) { return std::string("<").append(name).append(">"); }
 
-std::string read_all(const std::filesystem::path& file) {
+std::string read_profile_bytes(const std::filesystem::path& file) {
     const auto fail = [&](const std::string& why) {
         throw SetupError("profile " + file.string() + " cannot be read: " + why);
     };
@@ -35,12 +35,12 @@ std::string read_all(const std::filesystem::path& file) {
 
 } // namespace
 
-XmlFile::XmlFile(const std::filesystem::path& file) : XmlFile(file, read_all(file)) {}
+XmlFile::XmlFile(const std::filesystem::path& file) : XmlFile(file, read_profile_bytes(file)) {}
 
 XmlFile::XmlFile(const std::filesystem::path& file, std::string_view bytes)
     : file_(file), text_(to_utf8(bytes)) {
     for (std::size_t i = 0; i < text_.size(); ++i)
-        if (text_[i] == '\n') line_ends_.push_back(i);
+        if (text_[i] == '\n') newline_offsets_.push_back(i);
     if (const auto zero = text_.find('\0'); zero != std::string::npos)
         throw SetupError({file_, line_at(static_cast<std::ptrdiff_t>(zero))},
                          "not well-formed XML: there is a zero byte");
@@ -49,12 +49,12 @@ XmlFile::XmlFile(const std::filesystem::path& file, std::string_view bytes)
     if (!result)
         throw SetupError({file_, line_at(result.offset)},
                          std::string("not well-formed XML: ") + result.description());
-    refuse_entities();
+    reject_entities();
 }
 
 // Nobody expands them here. A file that declares some does not say what its author thinks it does, or is
 // meant to fill the memory of its reader.
-void XmlFile::refuse_entities() const {
+void XmlFile::reject_entities() const {
     for (const pugi::xml_node& node : document_.children())
         if (node.type() == pugi::node_doctype &&
             std::string_view(node.value()).find("<!ENTITY") != std::string_view::npos)
@@ -64,14 +64,16 @@ void XmlFile::refuse_entities() const {
 
 int XmlFile::line_at(std::ptrdiff_t offset) const {
     const auto position = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
-    const auto before = std::lower_bound(line_ends_.begin(), line_ends_.end(), position);
-    return 1 + static_cast<int>(before - line_ends_.begin());
+    const auto before = std::lower_bound(newline_offsets_.begin(), newline_offsets_.end(), position);
+    return 1 + static_cast<int>(before - newline_offsets_.begin());
 }
 
-Place XmlFile::place(const pugi::xml_node& node) const { return {file_, line_at(node.offset_debug())}; }
+SourceLocation XmlFile::location(const pugi::xml_node& node) const {
+    return {file_, line_at(node.offset_debug())};
+}
 
 void XmlFile::fail(const pugi::xml_node& node, const std::string& what) const {
-    throw SetupError(place(node), what);
+    throw SetupError(location(node), what);
 }
 
 pugi::xml_node XmlFile::root(std::initializer_list<const char*> names) const {
@@ -84,45 +86,45 @@ pugi::xml_node XmlFile::root(std::initializer_list<const char*> names) const {
     fail(root, "root element is " + tag(root.name()) + ", expected " + expected);
 }
 
-std::string XmlFile::file_name(std::string text) {
+std::string XmlFile::to_posix_path(std::string text) {
     std::replace(text.begin(), text.end(), '\\', '/');
     return text;
 }
 
-std::string XmlFile::trimmed(std::string_view text) {
+std::string XmlFile::trim(std::string_view text) {
     const char* blank = " \t\r\n";
     const auto first = text.find_first_not_of(blank);
     if (first == std::string_view::npos) return "";
     return std::string(text.substr(first, text.find_last_not_of(blank) - first + 1));
 }
 
-std::string XmlFile::word(std::string_view text) {
-    std::string word = trimmed(text);
+std::string XmlFile::keyword(std::string_view text) {
+    std::string word = trim(text);
     std::transform(word.begin(), word.end(), word.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return word;
 }
 
-std::string XmlFile::text(const pugi::xml_node& node, const char* child) {
-    return trimmed(node.child(child).child_value());
+std::string XmlFile::child_text(const pugi::xml_node& node, const char* child) {
+    return trim(node.child(child).child_value());
 }
 
-std::string XmlFile::required_text(const pugi::xml_node& node, const char* child) const {
-    std::string value = text(node, child);
+std::string XmlFile::required_child_text(const pugi::xml_node& node, const char* child) const {
+    std::string value = child_text(node, child);
     if (value.empty())
         fail(node.child(child) ? node.child(child) : node, tag(node.name()) + " lacks its " + tag(child));
     return value;
 }
 
 std::string XmlFile::required_attribute(const pugi::xml_node& node, const char* name) const {
-    std::string value = trimmed(node.attribute(name).value());
+    std::string value = trim(node.attribute(name).value());
     if (value.empty()) fail(node, tag(node.name()) + " lacks its attribute " + name);
     return value;
 }
 
-double XmlFile::number(const pugi::xml_node& element, double otherwise) const {
-    const std::string value = trimmed(element.child_value());
-    if (value.empty()) return otherwise;
+double XmlFile::number(const pugi::xml_node& element, double default_value) const {
+    const std::string value = trim(element.child_value());
+    if (value.empty()) return default_value;
     double number = 0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
     if (error != std::errc() || end != value.data() + value.size() || !std::isfinite(number))

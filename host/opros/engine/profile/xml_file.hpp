@@ -25,31 +25,31 @@ class XmlFile {
     /// The root element, which must have one of these names.
     pugi::xml_node root(std::initializer_list<const char*> names) const;
     pugi::xml_node root() const { return document_.document_element(); }
-    Place place(const pugi::xml_node& node) const;
+    SourceLocation location(const pugi::xml_node& node) const;
     [[noreturn]] void fail(const pugi::xml_node& node, const std::string& what) const;
 
     /// Profiles come from Windows: its backslashes separate folders.
-    static std::string file_name(std::string text);
-    static std::string trimmed(std::string_view text);
+    static std::string to_posix_path(std::string text);
+    static std::string trim(std::string_view text);
     /// A word that a profile chooses from a few: trimmed, in lower case.
-    static std::string word(std::string_view text);
+    static std::string keyword(std::string_view text);
     /// Text of the child element, trimmed; empty when there is none.
-    static std::string text(const pugi::xml_node& node, const char* child);
-    std::string required_text(const pugi::xml_node& node, const char* child) const;
+    static std::string child_text(const pugi::xml_node& node, const char* child);
+    std::string required_child_text(const pugi::xml_node& node, const char* child) const;
     std::string required_attribute(const pugi::xml_node& node, const char* name) const;
     /// The element's number, or the default when it is absent or empty. Finite.
-    double number(const pugi::xml_node& element, double otherwise) const;
-    double number(const pugi::xml_node& node, const char* child, double otherwise) const {
-        return number(node.child(child), otherwise);
+    double number(const pugi::xml_node& element, double default_value) const;
+    double number(const pugi::xml_node& node, const char* child, double default_value) const {
+        return number(node.child(child), default_value);
     }
 
   private:
     int line_at(std::ptrdiff_t offset) const;
-    void refuse_entities() const;
+    void reject_entities() const;
 
     std::filesystem::path file_;
     std::string text_;
-    std::vector<std::size_t> line_ends_;
+    std::vector<std::size_t> newline_offsets_;
     pugi::xml_document document_;
 };
 

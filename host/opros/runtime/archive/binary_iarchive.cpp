@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/runtime/archive/bytes_left.hpp"
+#include "host/opros/runtime/archive/checked_input.hpp"
 
 #include <archive/opros_binary_iarchive.h>
 
@@ -57,7 +57,7 @@ OPROS_LOAD_NUMBER(long double)
 void binary_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
     expect(static_cast<char>(sizeof(long)));
-    bytes.resize(checked(*m_is, get_bytes<unsigned long>()));
+    bytes.resize(check_count(*m_is, get_bytes<unsigned long>()));
     m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
 }
@@ -65,7 +65,7 @@ void binary_iarchive::get_blob(std::string& bytes) {
 iarchive& binary_iarchive::load_binary(char** p, long& size) {
     std::string bytes;
     get_blob(bytes);
-    give_bytes(bytes, p, size);
+    copy_to_caller(bytes, p, size);
     return *this;
 }
 
@@ -84,7 +84,7 @@ iarchive& binary_iarchive::load(std::wstring& value) {
     load(length);
     std::string bytes;
     get_blob(bytes);
-    value = to_wide(bytes, length);
+    value = bytes_to_wstring(bytes, length);
     return *this;
 }
 
@@ -95,7 +95,7 @@ iarchive& binary_iarchive::read_class_head(const std::string& name) {
 
 iarchive& binary_iarchive::read_container_name(const std::string& name) {
     expect(CLASS_CODE);
-    std::string given(checked(*m_is, get_bytes<std::uint16_t>()), '\0');
+    std::string given(check_count(*m_is, get_bytes<std::uint16_t>()), '\0');
     m_is->read(given.data(), static_cast<std::streamsize>(given.size()));
     if (given != name) throw archive_type_exception();
     return *this;
@@ -104,7 +104,7 @@ iarchive& binary_iarchive::read_container_name(const std::string& name) {
 std::size_t binary_iarchive::read_sequence_head() {
     int count = 0;
     load(count);
-    return checked(*m_is, static_cast<unsigned long>(count));
+    return check_count(*m_is, static_cast<unsigned long>(count));
 }
 
 long binary_iarchive::read_array_head(long size, char code, char bytes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/runtime/archive/bytes_left.hpp"
+#include "host/opros/runtime/archive/checked_input.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
 #include <archive/opros_raw_iarchive.h>
@@ -52,7 +52,7 @@ OPROS_LOAD_NUMBER(long double)
 void raw_iarchive::get_blob(std::string& bytes) {
     unsigned long count = 0;
     get(count);
-    bytes.resize(checked(*m_is, count));
+    bytes.resize(check_count(*m_is, count));
     m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
 }
@@ -60,7 +60,7 @@ void raw_iarchive::get_blob(std::string& bytes) {
 iarchive& raw_iarchive::load_binary(char** p, long& size) {
     std::string bytes;
     get_blob(bytes);
-    give_bytes(bytes, p, size);
+    copy_to_caller(bytes, p, size);
     return *this;
 }
 
@@ -77,14 +77,14 @@ iarchive& raw_iarchive::load(std::wstring& value) {
     get(length);
     std::string bytes;
     get_blob(bytes);
-    value = to_wide(bytes, length);
+    value = bytes_to_wstring(bytes, length);
     return *this;
 }
 
 std::size_t raw_iarchive::read_sequence_head() {
     int count = 0;
     get(count);
-    return checked(*m_is, static_cast<unsigned long>(count));
+    return check_count(*m_is, static_cast<unsigned long>(count));
 }
 
 } // namespace opros::archive

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/runtime/archive/bytes_left.hpp"
+#include "host/opros/runtime/archive/checked_input.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
 #include <archive/opros_string_iarchive.h>
@@ -11,7 +11,7 @@
 namespace opros::archive {
 namespace {
 
-constexpr std::size_t longest_word = 4096; // the name of a type; numbers are much shorter
+constexpr std::size_t max_token_length = 4096; // the name of a type; numbers are much shorter
 
 bool is_pair(const std::string& name) { return name.rfind("std::pair<", 0) == 0; }
 
@@ -50,7 +50,7 @@ void string_iarchive::expect(char code) {
 
 std::string string_iarchive::up_to(char end) {
     std::string text;
-    for (char c = 0; text.size() <= longest_word && m_is->get(c);) {
+    for (char c = 0; text.size() <= max_token_length && m_is->get(c);) {
         if (c == end) return text;
         text += c;
     }
@@ -110,7 +110,7 @@ OPROS_LOAD_NUMBER(long double)
 void string_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
     expect('[');
-    bytes.resize(checked(*m_is, from_decimal<unsigned long>(up_to(']'))));
+    bytes.resize(check_count(*m_is, from_decimal<unsigned long>(up_to(']'))));
     m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
     expect(';');
@@ -119,7 +119,7 @@ void string_iarchive::get_blob(std::string& bytes) {
 iarchive& string_iarchive::load_binary(char** p, long& size) {
     std::string bytes;
     get_blob(bytes);
-    give_bytes(bytes, p, size);
+    copy_to_caller(bytes, p, size);
     return *this;
 }
 
@@ -138,7 +138,7 @@ iarchive& string_iarchive::load(std::wstring& value) {
     load(length);
     std::string bytes;
     get_blob(bytes);
-    value = to_wide(bytes, length);
+    value = bytes_to_wstring(bytes, length);
     return read_class_end("std::wstring");
 }
 
@@ -166,7 +166,7 @@ std::size_t string_iarchive::read_sequence_head() {
     m_named = false;
     int count = 0;
     load(count);
-    return checked(*m_is, static_cast<unsigned long>(count));
+    return check_count(*m_is, static_cast<unsigned long>(count));
 }
 
 iarchive& string_iarchive::read_sequence_end() {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/runtime/port/link_list.hpp"
+#include "host/opros/runtime/port/connection_list.hpp"
 
 #include <EventCallBack.h>
 #include <InputEventPortInterface.h>
 #include <OutputEventPortInterface.h>
 
-class OutputEventPortImpl : public opros::LinkList<IEventPortLink> {
+class OutputEventPortImpl : public opros::ConnectionList<IEventPortLink> {
   public:
     std::string topic;
 };

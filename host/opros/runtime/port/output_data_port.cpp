@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/runtime/port/link_list.hpp"
+#include "host/opros/runtime/port/connection_list.hpp"
 
 #include <OutputDataPortInterface.h>
 
-class OutputDataPortImpl : public opros::LinkList<IDataPortLink> {};
+class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {};
 
 OutputDataPortInterface::OutputDataPortInterface() : OutputDataPortInterface("") {}
 OutputDataPortInterface::OutputDataPortInterface(const std::string& name)

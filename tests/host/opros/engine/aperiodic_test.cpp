@@ -8,7 +8,7 @@ using tandem::engine::Application;
 namespace {
 
 InputDataPortInterface& input(Application& application, const std::string& port) {
-    return dynamic_cast<InputDataPortInterface&>(*application.find("S")->component().getPort(port));
+    return dynamic_cast<InputDataPortInterface&>(*application.find_component("S")->component().getPort(port));
 }
 
 void push(Application& application, const std::string& port, double value) {
@@ -53,7 +53,7 @@ TEST_CASE("an aperiodic component is executed once at the start and then when da
     REQUIRE(eventually([&] { return s.last_number == 5; }));
     CHECK(s.executions == 2);
     application.stop();
-    CHECK_THAT(application.stats().at(0), Catch::Contains("S: on arrival, 2 cycles"));
+    CHECK_THAT(application.executor_stats().at(0), Catch::Contains("S: on arrival, 2 cycles"));
 }
 
 TEST_CASE("an aperiodic component that takes one value per cycle gets all that have come") {

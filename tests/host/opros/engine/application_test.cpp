@@ -39,7 +39,7 @@ TEST_CASE(
         Folder::sub("Name", "M.xml", "<properties><property name=\"b\">3</property></properties>"));
     Application application(file, test_options(folder));
     CHECK(recorder(application, "Name").calls == std::vector<std::string>{"initialize Name 13"});
-    auto& component = application.find("Name")->component();
+    auto& component = application.find_component("Name")->component();
     CHECK(component.getProperty("_opros_xx_internal_xx_Component_Path") ==
           (folder.path() / "res" / "").string());
     CHECK(state(application, "Name") == OPROS_CS_READY);
@@ -53,7 +53,7 @@ TEST_CASE("a device library is found where a component library is and the rest i
         "<property name=\"ApiName\">LaserApi</property><property name=\"DllName\">nowhere</property>"
         "<property name=\"Name\">LaserApi</property>");
     Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));
-    auto& component = application.find("M")->component();
+    auto& component = application.find_component("M")->component();
     CHECK(component.getProperty("ApiName") == (folder.path() / "libLaserApi.so").string());
     CHECK(component.getProperty("DllName") == "nowhere");
     CHECK(component.getProperty("APIName") == component.getProperty("ApiName"));
@@ -128,7 +128,7 @@ TEST_CASE("a component in ERROR that is recovered or reset is executed again, wi
                                                Folder::connect("data", "M", "numbers", "P", "numbers")),
                             test_options(folder, false));
     application.start();
-    auto& broken = application.find("M")->component(); // it goes to ERROR in each cycle
+    auto& broken = application.find_component("M")->component(); // it goes to ERROR in each cycle
     std::vector<std::string> expected{"initialize M ", "start", "error"};
     for (int times = 1;; ++times) {
         REQUIRE(eventually([&] { return broken.getStatus() == OPROS_CS_ERROR; }));
@@ -143,7 +143,7 @@ TEST_CASE("a component in ERROR that is recovered or reset is executed again, wi
             expected.insert(expected.end(), {"recover", "start", "error"});
         }
     }
-    application.end();
+    application.shut_down();
     expected.push_back("destroy");
     CHECK(recorder(application, "M").calls == expected);
 }
@@ -155,7 +155,7 @@ TEST_CASE("a component that cannot initialise or start is left out, with its con
         maker_and_printer(folder, trouble(kind), Folder::connect("data", "M", "numbers", "P", "numbers")),
         test_options(folder));
     application.start();
-    CHECK(application.find("M")->failed());
+    CHECK(application.find_component("M")->has_failed());
     CHECK(state(application, "M") == OPROS_CS_ERROR);
     CHECK(state(application, "P") == OPROS_CS_ACTIVE);
     // onError is for what has been initialised: it may have to switch something off.
@@ -171,7 +171,7 @@ TEST_CASE("a component that cannot be loaded is left out and the others run") {
                                          "<coordination><depends source=\"P\" target=\"B\"/></coordination>");
     Application application(file, test_options(folder));
     application.start();
-    CHECK(application.find("B") == nullptr);
+    CHECK(application.find_component("B") == nullptr);
     CHECK(state(application, "P") == OPROS_CS_ACTIVE);
 }
 
@@ -228,8 +228,8 @@ TEST_CASE("a component that does not come back is named and the others are stopp
     application.start();
     Recorder& m = recorder(application, "M");
     CHECK(eventually([&] { return m.executions > 0; }));
-    application.end();
-    CHECK(application.stuck() == std::vector<std::string>{"M"});
+    application.shut_down();
+    CHECK(application.stuck_components() == std::vector<std::string>{"M"});
     CHECK(state(application, "P") == OPROS_CS_DESTROYED);
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("a component that comes back from onExecute only when it is stopped is
     application.start();
     CHECK(eventually([&] { return recorder(application, "M").executions > 0; }));
     application.stop();
-    CHECK(application.stuck().empty());
+    CHECK(application.stuck_components().empty());
     CHECK(state(application, "M") == OPROS_CS_INACTIVE);
 }
 

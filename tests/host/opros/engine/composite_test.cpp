@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/profile/composite.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
 #include "tests/host/opros/engine/running.hpp"
 
 using namespace tandem::engine;
@@ -55,7 +55,7 @@ TEST_CASE("the exported ports of a composite behave as its own, to any depth") {
     CHECK(recorder(application, "P").last_number == 1);
     CHECK(recorder(application, "A.H.M").last_number == 1.5);
     CHECK(recorder(application, "A.H.P").last_event == "tick: cycle 1");
-    CHECK(application.find("A.H.M")->component().getId() == "A.H.M");
+    CHECK(application.find_component("A.H.M")->component().getId() == "A.H.M");
 }
 
 TEST_CASE("the same composite may be used twice") {
@@ -91,7 +91,7 @@ TEST_CASE("a dependency on a composite is one on each of its components") {
     arm(folder);
     const auto file = folder.application(Folder::sub("P", "P.xml") + Folder::sub("A", "Hands.xml"), "",
                                          "<coordination><depends source=\"A\" target=\"P\"/></coordination>");
-    const auto flat = without_composites(read_application_profile(file), {});
+    const auto flat = flatten_composites(read_application_profile(file), {});
     REQUIRE(flat.dependencies.size() == 2);
     CHECK(flat.dependencies[0].source == "A.M");
     CHECK(flat.dependencies[1].source == "A.P");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/connect/service_link.hpp"
+#include "host/opros/engine/connect/service_connection.hpp"
 #include "tests/host/opros/engine/running.hpp"
 #include "tests/host/opros/fixtures/MathRequired.h"
 
@@ -125,7 +125,8 @@ TEST_CASE("a service connection that fails half-way leaves no method connected")
     Method* note = makeRequiredMethod(&MathRequired::note, "note", METHOD_NONBLOCKING);
     required.addMethod("note", note);
     required.addMethod("turn", makeRequiredMethod(&MathRequired::turn, "turn"));
-    CHECK_THROWS_WITH(tandem::engine::ServiceLink(required, provided, *application.find("P"), workers),
-                      Catch::Contains("has no method 'turn'"));
+    CHECK_THROWS_WITH(
+        tandem::engine::ServiceConnection(required, provided, *application.find_component("P"), workers),
+        Catch::Contains("has no method 'turn'"));
     CHECK_THROWS_AS((*static_cast<RequiredMethod<void>*>(note))(std::string("lost")), MethodInvokeException);
 }

@@ -24,7 +24,7 @@ TEST_CASE("a component runs with a device library of its user's own from the pla
     application.step("S");
     CHECK(recorder(application, "S").executions == 2);
     CHECK(recorder(application, "S").last_number == 9);
-    application.end();
+    application.shut_down();
     CHECK(state(application, "S") == OPROS_CS_DESTROYED);
 }
 
@@ -32,9 +32,9 @@ TEST_CASE("a device library that is missing or none leaves its component out wit
     const Folder folder;
     const std::string device = GENERATE("nowhere", "maker");
     Application application(sensing(folder, device), test_options(folder));
-    CHECK(application.find("S")->failed());
+    CHECK(application.find_component("S")->has_failed());
     CHECK(state(application, "S") == OPROS_CS_ERROR);
-    CHECK(application.find("S")->component().getErrorInfo() ==
+    CHECK(application.find_component("S")->component().getErrorInfo() ==
           (device == "nowhere" ? OPROS_FIND_DLL_ERROR : OPROS_LOAD_DLL_ERROR));
     CHECK_THROWS_AS(application.start(), tandem::engine::SetupError); // nothing else is there
 }

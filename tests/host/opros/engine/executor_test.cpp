@@ -38,9 +38,10 @@ TEST_CASE("executors count what they did") {
     application.start();
     CHECK(eventually([&] { return recorder(application, "A").executions > 3; }));
     application.stop();
-    REQUIRE(application.stats().size() == 1);
-    CHECK_THAT(application.stats()[0], Catch::StartsWith("executor of B, A: every 1 ms, ") &&
-                                           Catch::Contains("overruns") && Catch::Contains("skipped"));
+    REQUIRE(application.executor_stats().size() == 1);
+    CHECK_THAT(application.executor_stats()[0], Catch::StartsWith("executor of B, A: every 1 ms, ") &&
+                                                    Catch::Contains("overruns") &&
+                                                    Catch::Contains("skipped"));
 }
 
 TEST_CASE("a passive component is started and stopped but never executed") {

@@ -40,7 +40,7 @@ TEST_CASE("a component profile gives library, execution and properties") {
     const auto profile = read_component_profile(folder.path() / "C.xml");
     CHECK(profile.name == "C");
     CHECK(profile.library_name == "C.dll");
-    CHECK(profile.execution == Execution::periodic);
+    CHECK(profile.execution_type == ExecutionType::periodic);
     CHECK(profile.period == std::chrono::microseconds(2500));
     CHECK(profile.phase == std::chrono::microseconds(500));
     CHECK(profile.priority == 7);
@@ -51,12 +51,12 @@ TEST_CASE("real time is only for a profile that asks for it") {
     const Folder folder;
     const auto scheduling = [&](const std::string& policy) {
         folder.component("C", "C.dll", "<type>passive</type><period/><priority>7</priority>" + policy);
-        return read_component_profile(folder.path() / "C.xml").scheduling;
+        return read_component_profile(folder.path() / "C.xml").scheduling_policy;
     };
-    CHECK(scheduling("") == Scheduling::other);
-    CHECK(scheduling("<policy>SCHED_OTHER</policy>") == Scheduling::other);
-    CHECK(scheduling("<policy>SCHED_FIFO</policy>") == Scheduling::fifo);
-    CHECK(scheduling("<policy>SCHED_RR</policy>") == Scheduling::round_robin);
+    CHECK(scheduling("") == SchedulingPolicy::other);
+    CHECK(scheduling("<policy>SCHED_OTHER</policy>") == SchedulingPolicy::other);
+    CHECK(scheduling("<policy>SCHED_FIFO</policy>") == SchedulingPolicy::fifo);
+    CHECK(scheduling("<policy>SCHED_RR</policy>") == SchedulingPolicy::round_robin);
 }
 
 TEST_CASE("a wrong component profile gets one line with file, line, what is wrong and what was expected") {
@@ -106,15 +106,15 @@ TEST_CASE("a component profile lists ports and the files of types") {
         "</component_profile>");
     const auto profile = read_component_profile(file);
     REQUIRE(profile.data_ports.size() == 2);
-    CHECK(profile.data_ports[0].input);
+    CHECK(profile.data_ports[0].is_input);
     REQUIRE(profile.data_ports[0].queue);
     CHECK(profile.data_ports[0].queue->policy == OPROS_LIFO);
     CHECK(profile.data_ports[0].queue->size == 4);
     CHECK_FALSE(profile.data_ports[1].queue);
     REQUIRE(profile.event_ports.size() == 1);
-    CHECK(profile.event_ports[0].input);
+    CHECK(profile.event_ports[0].is_input);
     REQUIRE(profile.service_ports.size() == 1);
-    CHECK(profile.service_ports[0].provided);
+    CHECK(profile.service_ports[0].is_provided);
     CHECK(profile.service_ports[0].reference == "Arm.xml");
     CHECK(profile.data_types == std::vector<std::string>{"Point.xml"});
     CHECK(profile.service_types == std::vector<std::string>{"Arm.xml"});
@@ -131,17 +131,17 @@ TEST_CASE("the words that a profile chooses may be in either case") {
         "<event_port><name>e</name><usage>OUTPUT</usage></event_port>"
         "<service_port><name>s</name><type>Arm</type><usage>Provided</usage></service_port>"
         "</ports></component_profile>"));
-    CHECK(component.execution == Execution::periodic_shared);
-    CHECK(component.scheduling == Scheduling::fifo);
-    CHECK(component.port_faults.empty());
+    CHECK(component.execution_type == ExecutionType::periodic_shared);
+    CHECK(component.scheduling_policy == SchedulingPolicy::fifo);
+    CHECK(component.port_errors.empty());
     REQUIRE(component.data_ports.size() == 1);
-    CHECK(component.data_ports[0].input);
+    CHECK(component.data_ports[0].is_input);
     REQUIRE(component.data_ports[0].queue);
     CHECK(component.data_ports[0].queue->policy == OPROS_LAST);
     REQUIRE(component.event_ports.size() == 1);
-    CHECK_FALSE(component.event_ports[0].input);
+    CHECK_FALSE(component.event_ports[0].is_input);
     REQUIRE(component.service_ports.size() == 1);
-    CHECK(component.service_ports[0].provided);
+    CHECK(component.service_ports[0].is_provided);
     const auto application = read_application_profile(
         folder.application(Folder::sub("A", "A.xml"), Folder::connect("Service", "A", "x", "A", "y")));
     REQUIRE(application.connections.size() == 1);

@@ -18,13 +18,13 @@ inline tandem::engine::ApplicationOptions test_options(const Folder& folder, boo
 }
 
 inline Recorder& recorder(tandem::engine::Application& application, const std::string& name) {
-    auto* component = application.find(name);
+    auto* component = application.find_component(name);
     REQUIRE(component);
     return dynamic_cast<Recorder&>(component->component());
 }
 
 inline LifecycleState state(tandem::engine::Application& application, const std::string& name) {
-    return application.find(name)->component().getStatus();
+    return application.find_component(name)->component().getStatus();
 }
 
 /// Waits for something that other threads bring about; false only when the machine is stuck.

@@ -32,7 +32,7 @@ TEST_CASE("a service type profile gives methods with their parameters in order")
     CHECK(move.parameters[0].type == "vector<double>");
     CHECK(move.parameters[1].name == "t");
     CHECK(types[0].methods[1].return_type == "void");
-    CHECK(profile_kind(file) == ProfileKind::service_type);
+    CHECK(read_profile_kind(file) == ProfileKind::service_type);
 }
 
 TEST_CASE("a data type profile gives structures with their fields") {
@@ -46,7 +46,7 @@ TEST_CASE("a data type profile gives structures with their fields") {
     REQUIRE(types[0].fields.size() == 2);
     CHECK(types[0].fields[1].type == "std::string");
     CHECK(types[0].fields[1].default_value == "map");
-    CHECK(profile_kind(file) == ProfileKind::data_type);
+    CHECK(read_profile_kind(file) == ProfileKind::data_type);
 }
 
 TEST_CASE("a wrong type profile gets one line with file and line") {
@@ -79,5 +79,6 @@ TEST_CASE("a wrong type profile gets one line with file and line") {
     CHECK_THAT(data(""), Catch::Contains("d.xml:1: <data_type> lacks its <struct>"));
     CHECK_THAT(data("<struct name=\"A\"><item type=\"int\"> </item></struct>"),
                Catch::Contains("d.xml:2: <item> lacks its text"));
-    CHECK_THROWS_WITH(profile_kind(folder.write("x.xml", "<x/>")), Catch::Contains("root element is <x>"));
+    CHECK_THROWS_WITH(read_profile_kind(folder.write("x.xml", "<x/>")),
+                      Catch::Contains("root element is <x>"));
 }

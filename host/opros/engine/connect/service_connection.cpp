@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/connect/service_link.hpp"
+#include "host/opros/engine/connect/service_connection.hpp"
 
 #include "host/opros/engine/connect/service_connector.hpp"
 
@@ -21,22 +21,22 @@ void refuse_if(const std::string& text) {
 
 } // namespace
 
-ServiceLink::ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided,
-                         ComponentHost& provider, WorkerPool& workers, Unconnected)
+ServiceConnection::ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided,
+                                     ComponentHost& provider, WorkerPool& workers, Unconnected)
     : required_(required), provided_(provided), provider_(provider), workers_(workers) {}
 
-ServiceLink::ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided,
-                         ComponentHost& provider, WorkerPool& workers)
-    : ServiceLink(required, provided, provider, workers, Unconnected{}) {
+ServiceConnection::ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided,
+                                     ComponentHost& provider, WorkerPool& workers)
+    : ServiceConnection(required, provided, provider, workers, Unconnected{}) {
     connect();
 }
 
-ServiceLink::~ServiceLink() {
+ServiceConnection::~ServiceConnection() {
     for (RequiredMethodInterface* method : connected_) method->Disconnect();
     if (bound_) required_.bindProvided(nullptr);
 }
 
-void ServiceLink::connect() {
+void ServiceConnection::connect() {
     if (required_.isDynamic()) {
         refuse_if(required_.bindProvided(&provided_));
         bound_ = true;
@@ -46,27 +46,28 @@ void ServiceLink::connect() {
         connect_method(it->first, *it->second);
 }
 
-void ServiceLink::connect_through(RequiredMethodInterface& method,
-                                  std::unique_ptr<ServicePortConnector> connector) {
+void ServiceConnection::connect_through(RequiredMethodInterface& method,
+                                        std::unique_ptr<ServicePortConnector> connector) {
     method.Connect(connector.get());
     connectors_.push_back(std::move(connector));
 }
 
-void ServiceLink::connect_method(const std::string& name, Method& method) {
+void ServiceConnection::connect_method(const std::string& name, Method& method) {
     auto* required = dynamic_cast<RequiredMethodInterface*>(&method);
     if (!required)
         throw std::runtime_error("method " + name + " of the required port is not a required method");
     connected_.push_back(required);
     if (provided_.isDynamic()) {
         refuse_if(provided_.bindMethod(&method));
-        return connect_through(*required, direct_connector(provided_, provider_));
+        return connect_through(*required, make_direct_connector(provided_, provider_));
     }
     Method* peer = provided_.getMethod(name);
     if (!peer)
         throw std::runtime_error("the provided port has no method '" + name + "', it has " +
                                  method_names(provided_));
     if (method.getCallType() == METHOD_NONBLOCKING && peer->getReturnType() == "void")
-        return connect_through(*required, worker_connector(provided_, provider_, workers_.of(&provider_)));
+        return connect_through(*required,
+                               make_queued_connector(provided_, provider_, workers_.of(&provider_)));
     if (required->Connect(peer) != OPROS_SUCCESS)
         throw std::runtime_error("type mismatch of method " + name + ": required is " + method.signature() +
                                  ", provided is " + peer->signature());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/profile/repeated_connections.hpp"
+#include "host/opros/engine/profile/duplicate_connections.hpp"
 
 #include <map>
 #include <tuple>
@@ -9,7 +9,7 @@ namespace {
 
 using Ports = std::tuple<PortType, std::string, std::string, std::string, std::string>;
 
-Ports ports(const Connection& connection) {
+Ports ports(const ConnectionProfile& connection) {
     return {connection.type, connection.source.component, connection.source.port, connection.target.component,
             connection.target.port};
 }
@@ -20,10 +20,10 @@ struct Seen {
 };
 
 /// Takes what is wrong in the same way again off the list: the first of them tells how many.
-std::vector<Connection> wrong_once(std::vector<Connection> connections) {
+std::vector<ConnectionProfile> wrong_once(std::vector<ConnectionProfile> connections) {
     std::map<std::pair<Ports, std::string>, Seen> seen;
-    std::vector<Connection> kept;
-    for (Connection& connection : connections) {
+    std::vector<ConnectionProfile> kept;
+    for (ConnectionProfile& connection : connections) {
         if (!connection.error.empty()) {
             const auto [entry, is_new] =
                 seen.try_emplace({ports(connection), connection.error}, Seen{kept.size(), 0, 0});
@@ -40,12 +40,12 @@ std::vector<Connection> wrong_once(std::vector<Connection> connections) {
 
 } // namespace
 
-void mark_repeated(std::vector<Connection>& connections) {
+void mark_duplicate_connections(std::vector<ConnectionProfile>& connections) {
     std::map<Ports, Seen> seen;
     std::map<std::pair<std::string, std::string>, std::size_t> providers; // of required ports
-    std::vector<Connection> kept;
+    std::vector<ConnectionProfile> kept;
     connections = wrong_once(std::move(connections));
-    for (Connection& connection : connections) {
+    for (ConnectionProfile& connection : connections) {
         if (connection.error.empty()) {
             const auto [entry, is_new] = seen.try_emplace(ports(connection), Seen{kept.size()});
             if (!is_new && ++entry->second.times > 2) continue;
@@ -56,7 +56,7 @@ void mark_repeated(std::vector<Connection>& connections) {
                 if (!is_first)
                     connection.error = "required port " + connection.source.text() + " is connected to " +
                                        kept[provider->second].target.text() + " already, " +
-                                       kept[provider->second].place.text() +
+                                       kept[provider->second].location.text() +
                                        "; expected one provider of a required port, take one of the two away";
             }
         }
@@ -67,7 +67,7 @@ void mark_repeated(std::vector<Connection>& connections) {
             kept[each.second].error =
                 "connection " + kept[each.second].source.text() + " -> " + kept[each.second].target.text() +
                 " is listed " + std::to_string(each.times) + " times, first at " +
-                kept[each.first].place.text() + "; expected it once, take the others away";
+                kept[each.first].location.text() + "; expected it once, take the others away";
     connections = std::move(kept);
 }
 

@@ -2,9 +2,9 @@
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/execute/bounded.hpp"
-#include "host/opros/engine/load/plugin_path.hpp"
-#include "host/opros/engine/load/probe_component.hpp"
-#include "host/opros/program/ending.hpp"
+#include "host/opros/engine/load/load_probe.hpp"
+#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/opros/program/shutdown_watcher.hpp"
 #include "host/plugin/probe_switches.hpp"
 #include "host/rt/leave.hpp"
 #include "host/rt/switches.hpp"
@@ -45,7 +45,7 @@ void declare(CLI::App& cli, Options& options) {
     tandem::rt::declare(cli, options.switches);
 }
 
-sigset_t ending_signals() {
+sigset_t shutdown_signals() {
     sigset_t signals;
     sigemptyset(&signals);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
@@ -53,24 +53,24 @@ sigset_t ending_signals() {
 }
 
 int run(Options options) {
-    const sigset_t signals = ending_signals();
+    const sigset_t signals = shutdown_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
     for (const auto& notice : tandem::rt::apply(options.switches)) spdlog::warn("{}", notice);
-    tandem::engine::Ending ending(signals, options.host.grace);
-    options.host.busy_with = [&ending](const std::string& component, const char* step) {
-        ending.busy_with(component, step);
+    tandem::engine::ShutdownWatcher shutdown(signals, options.host.grace);
+    options.host.on_setup_step = [&shutdown](const std::string& component, const char* step) {
+        shutdown.begin_step(component, step);
     };
     const tandem::rt::SuddenExit sudden_exit;
     tandem::engine::Application application(options.application, options.host);
     application.start();
     std::cout << "ready" << std::endl;
-    ending.wait();
-    application.end();
+    shutdown.wait_for_signal();
+    application.shut_down();
     if (options.stats)
-        for (const std::string& line : application.stats()) std::cout << line << "\n";
+        for (const std::string& line : application.executor_stats()) std::cout << line << "\n";
     application.unload();
-    if (!application.stuck().empty()) tandem::rt::leave(1);
-    if (const auto loaded = application.still_loaded(); !loaded.empty())
+    if (!application.stuck_components().empty()) tandem::rt::leave(1);
+    if (const auto loaded = application.components_still_loaded(); !loaded.empty())
         tandem::rt::bound_exit(options.host.grace,
                                fmt::format("opros_host: component {} does not come back from its static "
                                            "destructors within {} s; the host ends without it",
@@ -81,7 +81,8 @@ int run(Options options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    tandem::plugin::serve_probe(argc, argv, {{tandem::engine::probe_load, tandem::engine::try_component}});
+    tandem::plugin::serve_probe(argc, argv,
+                                {{tandem::engine::load_probe_task, tandem::engine::run_load_probe}});
     spdlog::set_default_logger(spdlog::stderr_logger_mt("opros_host"));
     spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
     Options options;
@@ -92,7 +93,7 @@ int main(int argc, char** argv) {
     options.host.probe = options.probe.probe();
     options.host.grace = std::chrono::nanoseconds(static_cast<std::int64_t>(options.grace_s * 1e9));
     options.host.executors.cpu = options.switches.cpu;
-    options.host.executors.spin = options.switches.tick_spin();
+    options.host.executors.tick_spin = options.switches.tick_spin();
     try {
         const auto dirs = tandem::engine::default_plugin_dirs();
         options.host.plugin_dirs.insert(options.host.plugin_dirs.end(), dirs.begin(), dirs.end());

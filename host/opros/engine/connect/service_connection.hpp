@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/opros/engine/connect/link.hpp"
+#include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/worker_pool.hpp"
 
@@ -16,18 +16,18 @@ namespace tandem::engine {
 
 /// From a required service port to a provided one: each required method gets the provided one of its name,
 /// called in the caller's thread; a method without result that does not block is called by a worker.
-class ServiceLink : public Link {
+class ServiceConnection : public Connection {
   public:
     /// Throws std::runtime_error with the reason when the ports do not fit.
-    ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
-                WorkerPool& workers);
-    ~ServiceLink() override;
+    ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
+                      WorkerPool& workers);
+    ~ServiceConnection() override;
 
   private:
     struct Unconnected {};
-    ServiceLink(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
-                WorkerPool& workers,
-                Unconnected); // what has been connected is undone if the rest does not fit
+    ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
+                      WorkerPool& workers,
+                      Unconnected); // what has been connected is undone if the rest does not fit
     void connect();
     void connect_method(const std::string& name, Method& method);
     void connect_through(RequiredMethodInterface& method, std::unique_ptr<ServicePortConnector> connector);

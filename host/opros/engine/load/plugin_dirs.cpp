@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/load/plugin_path.hpp"
+#include "host/opros/engine/load/plugin_dirs.hpp"
 
 #include <cstdlib>
 #include <sstream>

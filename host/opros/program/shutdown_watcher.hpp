@@ -13,18 +13,18 @@ namespace tandem::engine {
 /// is told. A second signal ends the process at once, for a component that will not stop; what comes within a
 /// second of the first is the same wish, which a terminal, a supervisor or timeout(1) sends to the process
 /// and to its group.
-class Ending {
+class ShutdownWatcher {
   public:
-    Ending(const sigset_t& signals, std::chrono::nanoseconds grace);
+    ShutdownWatcher(const sigset_t& signals, std::chrono::nanoseconds grace);
     /// [any-thread] What the set-up is busy with from now on.
-    void busy_with(const std::string& component, const char* step);
+    void begin_step(const std::string& component, const char* step);
     /// The set-up is over: waits for the signal.
-    void wait();
+    void wait_for_signal();
 
   private:
     struct State;
     static void watch(State& state, const sigset_t& signals, std::chrono::nanoseconds grace);
-    [[noreturn]] static void end_on_another(const sigset_t& signals);
+    [[noreturn]] static void exit_on_second_signal(const sigset_t& signals);
     std::shared_ptr<State> state_; // the thread has it, too, and may outlive this
 };
 

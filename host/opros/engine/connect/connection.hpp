@@ -4,9 +4,9 @@
 namespace tandem::engine {
 
 /// A connection of the application: made by its constructor's caller, undone by its destructor.
-class Link {
+class Connection {
   public:
-    virtual ~Link() = default;
+    virtual ~Connection() = default;
 };
 
 } // namespace tandem::engine

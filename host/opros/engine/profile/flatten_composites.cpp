@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/profile/composite.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
 
-#include "host/opros/engine/profile/repeated_connections.hpp"
+#include "host/opros/engine/profile/duplicate_connections.hpp"
 
 #include <algorithm>
 #include <map>
@@ -9,20 +9,20 @@
 namespace tandem::engine {
 namespace {
 
-constexpr std::size_t most_components = 1000; // composites of composites grow fast
+constexpr std::size_t max_components = 1000; // composites of composites grow fast
 
 class Expansion {
   public:
     Expansion(const ApplicationProfile& application, const std::vector<std::filesystem::path>& dirs)
         : dirs_(dirs) {
-        flat_.place = application.place;
+        flat_.location = application.location;
         flat_.name = application.name;
         add(application, "");
-        for (Connection& connection : flat_.connections) {
+        for (ConnectionProfile& connection : flat_.connections) {
             behind(connection, connection.source);
             behind(connection, connection.target);
         }
-        mark_repeated(flat_.connections); // a port may be exported under two names
+        mark_duplicate_connections(flat_.connections); // a port may be exported under two names
     }
     ApplicationProfile result() && { return std::move(flat_); }
 
@@ -33,10 +33,10 @@ class Expansion {
     };
 
     void add(const ApplicationProfile& assembly, const std::string& prefix) {
-        open_.push_back(std::filesystem::canonical(assembly.place.file));
+        open_.push_back(std::filesystem::canonical(assembly.location.file));
         for (const Subcomponent& entry : assembly.subcomponents) add_one(assembly, entry, prefix);
         open_.pop_back();
-        for (Connection connection : assembly.connections) {
+        for (ConnectionProfile connection : assembly.connections) {
             connection.source.component.insert(0, prefix);
             connection.target.component.insert(0, prefix);
             flat_.connections.push_back(std::move(connection));
@@ -44,24 +44,25 @@ class Expansion {
         for (const Dependency& dependency : assembly.dependencies)
             for (const std::string& source : members(prefix + dependency.source))
                 for (const std::string& target : members(prefix + dependency.target))
-                    flat_.dependencies.push_back({dependency.place, source, target});
+                    flat_.dependencies.push_back({dependency.location, source, target});
     }
 
     void add_one(const ApplicationProfile& assembly, Subcomponent entry, const std::string& prefix) {
         entry.file = find_component_profile(assembly, entry, dirs_);
         entry.name.insert(0, prefix);
-        if (profile_kind(entry.file) == ProfileKind::composite) return add_composite(entry);
-        if (flat_.subcomponents.size() == most_components)
-            throw SetupError(entry.place, "the application has more than " + std::to_string(most_components) +
-                                              " components with those of its composites");
+        if (read_profile_kind(entry.file) == ProfileKind::composite) return add_composite(entry);
+        if (flat_.subcomponents.size() == max_components)
+            throw SetupError(entry.location, "the application has more than " +
+                                                 std::to_string(max_components) +
+                                                 " components with those of its composites");
         flat_.subcomponents.push_back(std::move(entry));
     }
 
     void add_composite(const Subcomponent& entry) {
         if (std::find(open_.begin(), open_.end(), std::filesystem::canonical(entry.file)) != open_.end())
-            throw SetupError(entry.place, "composite " + entry.file.string() + " contains itself");
+            throw SetupError(entry.location, "composite " + entry.file.string() + " contains itself");
         if (!entry.properties.empty())
-            throw SetupError(entry.place,
+            throw SetupError(entry.location,
                              "composite '" + entry.name +
                                  "' has no properties of its own, give them to its components in " +
                                  entry.file.string());
@@ -80,7 +81,7 @@ class Expansion {
     }
 
     /// Goes from an exported port to the component's own.
-    void behind(Connection& connection, PortReference& port) const {
+    void behind(ConnectionProfile& connection, PortReference& port) const {
         for (auto found = composites_.find(port.component);
              connection.error.empty() && found != composites_.end();
              found = composites_.find(port.component)) {
@@ -115,7 +116,7 @@ class Expansion {
 
 } // namespace
 
-ApplicationProfile without_composites(const ApplicationProfile& application,
+ApplicationProfile flatten_composites(const ApplicationProfile& application,
                                       const std::vector<std::filesystem::path>& plugin_dirs) {
     return Expansion(application, plugin_dirs).result();
 }
@@ -124,7 +125,7 @@ bool has_composites(const ApplicationProfile& application,
                     const std::vector<std::filesystem::path>& plugin_dirs) {
     const auto is_composite = [&](const Subcomponent& entry) {
         try {
-            return profile_kind(find_component_profile(application, entry, plugin_dirs)) ==
+            return read_profile_kind(find_component_profile(application, entry, plugin_dirs)) ==
                    ProfileKind::composite;
         } catch (const SetupError&) { // told by whoever needs the profile
             return false;

@@ -11,12 +11,12 @@
 namespace tandem::engine {
 
 /// That something has come for a component: what an aperiodic executor waits for.
-class Arrival : public DataPortListener {
+class InputSignal : public DataPortListener {
   public:
     /// [any-thread]
     void arrived() override;
     /// True as soon as something has come since the last call; false when the time is over.
-    bool wait(std::chrono::nanoseconds bound);
+    bool wait_for(std::chrono::nanoseconds timeout);
 
   private:
     std::atomic<bool> pending_{false};

@@ -10,9 +10,9 @@
 
 namespace tandem::engine {
 
-class Pace {
+class CycleTrigger {
   public:
-    virtual ~Pace() = default;
+    virtual ~CycleTrigger() = default;
     /// [executor] Waits for the time of the next cycle; false: there is none any more.
     virtual bool wait() = 0;
     /// [any-thread] Makes wait() return false, soon.
@@ -22,8 +22,8 @@ class Pace {
 };
 
 /// The pace that the component's profile asks for: at its period, when an input arrives, or without a pause.
-/// A periodic one polls for `spin` before its ticks, and calls `rehearsal` (rt::TickOptions) before that.
-std::unique_ptr<Pace> make_pace(ComponentHost& component, std::chrono::nanoseconds spin,
-                                std::function<void()> rehearsal);
+/// A periodic one polls for `spin` before its ticks, and calls `warm_up` (rt::TickOptions) before that.
+std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::chrono::nanoseconds spin,
+                                                 std::function<void()> warm_up);
 
 } // namespace tandem::engine

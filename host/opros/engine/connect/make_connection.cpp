@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/connect/connect.hpp"
+#include "host/opros/engine/connect/make_connection.hpp"
 
-#include "host/opros/engine/connect/data_link.hpp"
-#include "host/opros/engine/connect/event_link.hpp"
-#include "host/opros/engine/connect/service_link.hpp"
+#include "host/opros/engine/connect/data_connection.hpp"
+#include "host/opros/engine/connect/event_connection.hpp"
+#include "host/opros/engine/connect/service_connection.hpp"
 
 namespace tandem::engine {
 namespace {
@@ -21,7 +21,7 @@ std::string type_name(const Port& port) {
 /// One end of a connection: its port, or an error that says what there is instead.
 class End {
   public:
-    End(const Connection& connection, const PortReference& reference, ComponentHost& host)
+    End(const ConnectionProfile& connection, const PortReference& reference, ComponentHost& host)
         : connection_(connection), reference_(reference), host_(host) {}
 
     template <class PortClass>
@@ -30,8 +30,8 @@ class End {
         if (!found) no_such_port();
         auto* port = dynamic_cast<PortClass*>(found);
         if (!port)
-            throw SetupError(connection_.place, "port " + reference_.text() + " is not " + direction + " " +
-                                                    kind_name(connection_.type) + " port");
+            throw SetupError(connection_.location, "port " + reference_.text() + " is not " + direction +
+                                                       " " + kind_name(connection_.type) + " port");
         return *port;
     }
 
@@ -40,52 +40,52 @@ class End {
         std::string known;
         for (const std::string& name : host_.component().getPortNames(connection_.type))
             known += (known.empty() ? "" : ", ") + name;
-        throw SetupError(connection_.place, "component '" + reference_.component + "' has no port '" +
-                                                reference_.port + "', its " + kind_name(connection_.type) +
-                                                " ports are: " + (known.empty() ? "none" : known));
+        throw SetupError(connection_.location, "component '" + reference_.component + "' has no port '" +
+                                                   reference_.port + "', its " + kind_name(connection_.type) +
+                                                   " ports are: " + (known.empty() ? "none" : known));
     }
 
-    const Connection& connection_;
+    const ConnectionProfile& connection_;
     const PortReference& reference_;
     ComponentHost& host_;
 };
 
 template <class Source, class Target>
-void check_types(const Connection& connection, Source& source, Target& target) {
+void check_types(const ConnectionProfile& connection, Source& source, Target& target) {
     if (source.checkType(&target)) return;
     std::string text = "type mismatch: output " + connection.source.text() + " is " + type_name(source) +
                        ", input " + connection.target.text() + " is " + type_name(target);
     for (const std::string& more : {source.typeError(), target.typeError()})
         if (!more.empty()) text += "; " + more;
-    throw SetupError(connection.place, text);
+    throw SetupError(connection.location, text);
 }
 
 } // namespace
 
-std::unique_ptr<Link> connect(const Connection& connection, ComponentHost& source, ComponentHost& target,
-                              WorkerPool& workers) {
+std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection, ComponentHost& source,
+                                            ComponentHost& target, WorkerPool& workers) {
     const End from(connection, connection.source, source), to(connection, connection.target, target);
     if (connection.type == OPROS_DATA) {
         auto& out = from.port<OutputDataPortInterface>("an output");
         auto& in = to.port<InputDataPortInterface>("an input");
         check_types(connection, out, static_cast<DataPort&>(in));
-        return std::make_unique<DataLink>(out, in);
+        return std::make_unique<DataConnection>(out, in);
     }
     if (connection.type == OPROS_EVENT) {
         auto& out = from.port<OutputEventPortInterface>("an output");
         auto& in = to.port<InputEventPortInterface>("an input");
         check_types(connection, out, static_cast<EventPort&>(in));
-        return std::make_unique<EventLink>(out, in, target, workers.of(&target));
+        return std::make_unique<EventConnection>(out, in, target, workers.of(&target));
     }
     auto& required = from.port<RequiredServicePort>("a required");
     auto& provided = to.port<ProvidedServicePort>("a provided");
     try {
-        return std::make_unique<ServiceLink>(required, provided, target, workers);
+        return std::make_unique<ServiceConnection>(required, provided, target, workers);
     } catch (const SetupError&) {
         throw;
     } catch (const std::runtime_error& error) {
-        throw SetupError(connection.place, "service " + connection.source.text() + " -> " +
-                                               connection.target.text() + ": " + error.what());
+        throw SetupError(connection.location, "service " + connection.source.text() + " -> " +
+                                                  connection.target.text() + ": " + error.what());
     }
 }
 

@@ -10,6 +10,6 @@ namespace tandem::engine {
 /// Gives an error to the second of connections between the same ports, and to connections of a required port
 /// that has its provider already; a third and later ones are taken off the list, the second tells how many.
 /// Of those that have an error already, the first tells how many there are of it.
-void mark_repeated(std::vector<Connection>& connections);
+void mark_duplicate_connections(std::vector<ConnectionProfile>& connections);
 
 } // namespace tandem::engine

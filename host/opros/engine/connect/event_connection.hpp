@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/opros/engine/connect/link.hpp"
+#include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/worker.hpp"
 
@@ -12,11 +12,11 @@ namespace tandem::engine {
 
 /// From one output event port to one input event port: each event is copied and delivered by the receiver's
 /// worker, in order. When that has too many to deliver the newest are lost (OPROS_OUT_OF_RESOURCES).
-class EventLink : public Link, public IEventPortLink {
+class EventConnection : public Connection, public IEventPortLink {
   public:
-    EventLink(OutputEventPortInterface& source, InputEventPortInterface& destination, ComponentHost& receiver,
-              Worker& worker);
-    ~EventLink() override { source_.removeConnection(this); }
+    EventConnection(OutputEventPortInterface& source, InputEventPortInterface& destination,
+                    ComponentHost& receiver, Worker& worker);
+    ~EventConnection() override { source_.removeConnection(this); }
 
     ReturnType push(Event* data) override;
     ReturnType setSource(EventPort*) override { return OPROS_UNSUPPORTED_METHOD; }

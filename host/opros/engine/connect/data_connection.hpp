@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/opros/engine/connect/link.hpp"
+#include "host/opros/engine/connect/connection.hpp"
 
 #include <InputDataPortInterface.h>
 #include <OutputDataPortInterface.h>
@@ -9,14 +9,14 @@
 namespace tandem::engine {
 
 /// From one output data port to one input data port: a push is a push at the destination, in the same thread.
-class DataLink : public Link, public IDataPortLink {
+class DataConnection : public Connection, public IDataPortLink {
   public:
     /// The caller has checked the types.
-    DataLink(OutputDataPortInterface& source, InputDataPortInterface& destination)
+    DataConnection(OutputDataPortInterface& source, InputDataPortInterface& destination)
         : source_(source), destination_(&destination) {
         source_.addConnection(this);
     }
-    ~DataLink() override { source_.removeConnection(this); }
+    ~DataConnection() override { source_.removeConnection(this); }
 
     ReturnType push(opros_any& data) override {
         return destination_ ? destination_->push(data) : OPROS_SUCCESS;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/runtime/archive/bytes_left.hpp"
+#include "host/opros/runtime/archive/checked_input.hpp"
 
 #include <archive/opros_archive_common.h>
 
@@ -7,7 +7,7 @@
 
 namespace opros::archive {
 
-std::size_t bytes_left(std::istream& in) {
+std::size_t remaining_bytes(std::istream& in) {
     const auto here = in.tellg();
     in.seekg(0, std::ios::end);
     const auto end = in.tellg();
@@ -16,12 +16,12 @@ std::size_t bytes_left(std::istream& in) {
     return here < 0 || end < here ? 0 : static_cast<std::size_t>(end - here);
 }
 
-std::size_t checked(std::istream& in, unsigned long count) {
-    if (count > bytes_left(in)) throw archive_array_size_exception();
+std::size_t check_count(std::istream& in, unsigned long count) {
+    if (count > remaining_bytes(in)) throw archive_array_size_exception();
     return count;
 }
 
-void give_bytes(const std::string& bytes, char** p, long& size) {
+void copy_to_caller(const std::string& bytes, char** p, long& size) {
     if (*p == nullptr)
         *p = new char[bytes.size()];
     else if (static_cast<long>(bytes.size()) > size)
@@ -30,7 +30,7 @@ void give_bytes(const std::string& bytes, char** p, long& size) {
     size = static_cast<long>(bytes.size());
 }
 
-std::wstring to_wide(const std::string& bytes, unsigned long length) {
+std::wstring bytes_to_wstring(const std::string& bytes, unsigned long length) {
     if (bytes.size() / sizeof(wchar_t) != length || bytes.size() % sizeof(wchar_t) != 0)
         throw archive_format_exception();
     std::wstring text(length, L'\0');
