@@ -174,7 +174,7 @@ int run(const Arguments& a, char** arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
-    tandem::plugin::serve_probe(argc, argv, {{RTC::probe_load, RTC::try_module}});
+    tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
     spdlog::set_default_logger(
         std::make_shared<spdlog::logger>("rtm_host", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
     std::signal(SIGPIPE, SIG_IGN);

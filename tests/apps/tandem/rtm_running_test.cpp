@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sub-commands of `tandem rtm` for components that run, on a host in another process.
 #include "program.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 
 #include <algorithm>
 #include <arpa/inet.h>
@@ -14,7 +14,7 @@ namespace {
 
 /// A host, and `tandem rtm` with its manager as the only place to look.
 struct Running {
-    testing::OtherHost other{"Counter,Teller,Thrower"};
+    testing::RemoteHost other{"Counter,Reporter,Thrower"};
     std::string at = "rtcloc://127.0.0.1:" + other.port + "/";
 
     Result run(std::vector<std::string> arguments) {
@@ -77,16 +77,16 @@ class WrongServer {
 
 TEST_CASE("tandem rtm shows components and changes their states and parameters") {
     Running host;
-    REQUIRE(host.other.host.says("ready\n"));
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
     const auto list = host.good({"list", "--json"}).json();
     REQUIRE(list.size() == 3);
     CHECK(list[0]["instance"] == "Counter0");
     CHECK(list[0]["address"] == host.at + "Counter0");
     CHECK(list[0]["state"] == "INACTIVE");
     CHECK(host.good({"info", host.at + "Counter0", "--json"}).json()["ports"][0]["name"] == "Counter0.out");
-    CHECK(host.good({"tree"}).says("Teller0.in DataInPort IDL:RTC/TimedLong:1.0"));
+    CHECK(host.good({"tree"}).says("Reporter0.in DataInPort IDL:RTC/TimedLong:1.0"));
 
-    CHECK(host.good({"activate", "Counter0", "Teller0"}).says("Teller0 ACTIVE"));
+    CHECK(host.good({"activate", "Counter0", "Reporter0"}).says("Reporter0 ACTIVE"));
     CHECK(host.good({"deactivate", "Counter0"}).says("Counter0 INACTIVE"));
     CHECK_THAT(host.failed({"activate", "Thrower0"}),
                Catch::Contains("ERROR") && Catch::Contains("rtm reset"));
@@ -100,14 +100,16 @@ TEST_CASE("tandem rtm shows components and changes their states and parameters")
 
 TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     Running host;
-    REQUIRE(host.other.host.says("ready\n"));
-    host.good({"activate", "Counter0", "Teller0"});
-    const auto connection = host.good({"connect", "Counter0:out", "Teller0.in", "--json"}).json();
-    CHECK(connection[0]["ports"][1] == "Teller0.in");
-    CHECK(host.other.host.says("received 1"));
-    CHECK_THAT(host.failed({"connect", "Counter0:out", "Teller0:in"}), Catch::Contains("connected already"));
-    CHECK_THAT(host.failed({"connect", "Teller0:in", "Teller0:in"}), Catch::Contains("cannot be connected"));
-    CHECK_THAT(host.failed({"connect", "Counter0:in", "Teller0:in"}),
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    host.good({"activate", "Counter0", "Reporter0"});
+    const auto connection = host.good({"connect", "Counter0:out", "Reporter0.in", "--json"}).json();
+    CHECK(connection[0]["ports"][1] == "Reporter0.in");
+    CHECK(host.other.host.wait_for_output("received 1"));
+    CHECK_THAT(host.failed({"connect", "Counter0:out", "Reporter0:in"}),
+               Catch::Contains("connected already"));
+    CHECK_THAT(host.failed({"connect", "Reporter0:in", "Reporter0:in"}),
+               Catch::Contains("cannot be connected"));
+    CHECK_THAT(host.failed({"connect", "Counter0:in", "Reporter0:in"}),
                Catch::Contains("it has: Counter0.out"));
     const auto cat = host.good({"cat", "Counter0:out", "-n", "2", "--for", "20"});
     const auto second = nlohmann::json::parse(cat.output.substr(cat.output.find('\n')));
@@ -117,17 +119,17 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     host.good({"disconnect", "Counter0:out"});
     CHECK_THAT(host.failed({"disconnect", "Counter0:out"}), Catch::Contains("no such connection"));
     const auto sent =
-        host.good({"inject", "Teller0:in", "7", "{\"tm\":{\"sec\":1},\"data\":-8}", "-n", "3", "--json"});
+        host.good({"inject", "Reporter0:in", "7", "{\"tm\":{\"sec\":1},\"data\":-8}", "-n", "3", "--json"});
     CHECK(sent.json()["sent"] == 6);
-    CHECK_THAT(host.failed({"inject", "Teller0:in", "hello"}), Catch::Contains("TimedLong.data"));
-    CHECK_THAT(host.failed({"inject", "Teller0:in", "5000000000"}), Catch::Contains("does not fit"));
+    CHECK_THAT(host.failed({"inject", "Reporter0:in", "hello"}), Catch::Contains("TimedLong.data"));
+    CHECK_THAT(host.failed({"inject", "Reporter0:in", "5000000000"}), Catch::Contains("does not fit"));
     CHECK_THAT(host.failed({"inject", "Counter0:out", "7"}), Catch::Contains("expected a DataInPort"));
-    CHECK_THAT(host.failed({"cat", "Teller0:in"}), Catch::Contains("expected a DataOutPort"));
+    CHECK_THAT(host.failed({"cat", "Reporter0:in"}), Catch::Contains("expected a DataOutPort"));
 }
 
 TEST_CASE("tandem rtm list and tree show what answers and fail for a place that was named and does not") {
     Running host;
-    REQUIRE(host.other.host.says("ready\n"));
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
     for (const char* command : {"list", "tree"}) {
         const Result result = host.run({command, "--nameserver", "127.0.0.1:9"});
         CHECK(result.says("Counter0"));

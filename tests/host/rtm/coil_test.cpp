@@ -84,18 +84,18 @@ TEST_CASE("A coil Condition wakes who waits and gives up after its time") {
     coil::Mutex mutex;
     coil::Condition<coil::Mutex> condition(mutex);
     bool told = false;
-    std::thread teller;
+    std::thread signaller;
     {
         coil::Guard<coil::Mutex> guard(mutex);
         CHECK_FALSE(condition.wait(0, 1000000));
-        teller = std::thread([&] {
+        signaller = std::thread([&] {
             coil::Guard<coil::Mutex> inner(mutex);
             told = true;
             condition.signal();
         });
         for (int i = 0; i < 1000 && !told; ++i) condition.wait(0, 10000000);
     }
-    teller.join();
+    signaller.join();
     CHECK(told);
 }
 

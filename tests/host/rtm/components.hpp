@@ -35,9 +35,9 @@ class Counter : public RTC::DataFlowComponentBase {
 };
 
 /// Reads what comes, and keeps the sum.
-class Summer : public RTC::DataFlowComponentBase {
+class Accumulator : public RTC::DataFlowComponentBase {
   public:
-    explicit Summer(RTC::Manager* manager) : DataFlowComponentBase(manager), in_("in", value_) {}
+    explicit Accumulator(RTC::Manager* manager) : DataFlowComponentBase(manager), in_("in", value_) {}
     RTC::ReturnCode_t onInitialize() override {
         addInPort("in", in_);
         return RTC::RTC_OK;
@@ -115,47 +115,47 @@ class CalculatorConsumer : public RTC::DataFlowComponentBase {
 class Recorder : public RTC::DataFlowComponentBase {
   public:
     explicit Recorder(RTC::Manager* manager) : DataFlowComponentBase(manager) {}
-    RTC::ReturnCode_t onInitialize() override { return note("initialize"); }
-    RTC::ReturnCode_t onFinalize() override { return note("finalize"); }
-    RTC::ReturnCode_t onStartup(RTC::UniqueId) override { return note("startup"); }
-    RTC::ReturnCode_t onShutdown(RTC::UniqueId) override { return note("shutdown"); }
-    RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return note("activated"); }
-    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return note("deactivated"); }
-    RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return note("aborting"); }
-    RTC::ReturnCode_t onError(RTC::UniqueId) override { return note("error"); }
-    RTC::ReturnCode_t onReset(RTC::UniqueId) override { return note("reset"); }
-    RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return note("execute"); }
-    RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override { return note("update"); }
-    RTC::ReturnCode_t onRateChanged(RTC::UniqueId) override { return note("rate"); }
+    RTC::ReturnCode_t onInitialize() override { return record("initialize"); }
+    RTC::ReturnCode_t onFinalize() override { return record("finalize"); }
+    RTC::ReturnCode_t onStartup(RTC::UniqueId) override { return record("startup"); }
+    RTC::ReturnCode_t onShutdown(RTC::UniqueId) override { return record("shutdown"); }
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return record("activated"); }
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return record("deactivated"); }
+    RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return record("aborting"); }
+    RTC::ReturnCode_t onError(RTC::UniqueId) override { return record("error"); }
+    RTC::ReturnCode_t onReset(RTC::UniqueId) override { return record("reset"); }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return record("execute"); }
+    RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override { return record("update"); }
+    RTC::ReturnCode_t onRateChanged(RTC::UniqueId) override { return record("rate"); }
 
     /// The callbacks since the last call, and forgets them.
-    static std::string story() { return std::exchange(notes(), ""); }
-    static std::string& trouble_in() {
+    static std::string take_calls() { return std::exchange(calls(), ""); }
+    static std::string& failing_callback() {
         static auto* callback = new std::string;
         return *callback;
     }
-    static bool& throws() {
+    static bool& throws_exception() {
         static bool yes = false;
         return yes;
     }
 
   private:
-    // Never deleted: components of a static Stage note to the very end.
-    static std::string& notes() {
+    // Never deleted: components of a static ManagerFixture note to the very end.
+    static std::string& calls() {
         static auto* all = new std::string;
         return *all;
     }
-    static RTC::ReturnCode_t note(const char* callback) {
-        notes() += std::string(notes().empty() ? "" : " ") + callback;
-        const std::string troubles = " " + trouble_in() + " ";
-        if (troubles.find(std::string(" ") + callback + " ") == std::string::npos) return RTC::RTC_OK;
-        if (throws()) throw std::runtime_error("as told");
+    static RTC::ReturnCode_t record(const char* callback) {
+        calls() += std::string(calls().empty() ? "" : " ") + callback;
+        const std::string failing = " " + failing_callback() + " ";
+        if (failing.find(std::string(" ") + callback + " ") == std::string::npos) return RTC::RTC_OK;
+        if (throws_exception()) throw std::runtime_error("as told");
         return RTC::RTC_ERROR;
     }
 };
 
 template <class Component>
-void register_as(RTC::Manager& manager, const char* name) {
+void register_component_type(RTC::Manager& manager, const char* name) {
     coil::Properties profile;
     for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, name);
     profile.setProperty("description", "for tests");
@@ -166,12 +166,12 @@ void register_as(RTC::Manager& manager, const char* name) {
     manager.registerFactory(profile, RTC::Create<Component>, RTC::Delete<Component>);
 }
 
-inline void register_all(RTC::Manager& manager) {
-    register_as<Counter>(manager, "Counter");
-    register_as<Summer>(manager, "Summer");
-    register_as<CalculatorProvider>(manager, "CalculatorProvider");
-    register_as<CalculatorConsumer>(manager, "CalculatorConsumer");
-    register_as<Recorder>(manager, "Recorder");
+inline void register_test_components(RTC::Manager& manager) {
+    register_component_type<Counter>(manager, "Counter");
+    register_component_type<Accumulator>(manager, "Accumulator");
+    register_component_type<CalculatorProvider>(manager, "CalculatorProvider");
+    register_component_type<CalculatorConsumer>(manager, "CalculatorConsumer");
+    register_component_type<Recorder>(manager, "Recorder");
 }
 
 } // namespace testing

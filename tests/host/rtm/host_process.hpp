@@ -48,16 +48,17 @@ class HostProcess {
     }
 
     /// Does `text` come on standard output within the time?
-    bool says(const std::string& text, std::chrono::milliseconds bound = std::chrono::seconds(30)) {
+    bool wait_for_output(const std::string& text,
+                         std::chrono::milliseconds bound = std::chrono::seconds(30)) {
         const auto end = std::chrono::steady_clock::now() + bound;
         while (output.find(text) == std::string::npos)
             if (std::chrono::steady_clock::now() > end || !read_some())
                 return output.find(text) != std::string::npos;
         return true;
     }
-    void send(int signal) { kill(pid_, signal); }
+    void send_signal(int signal) { kill(pid_, signal); }
     /// SIGSTOP, and it has stopped when this returns: none of its threads answers any more.
-    bool freeze() {
+    bool suspend() {
         kill(pid_, SIGSTOP);
         for (int i = 0; i < 10000; ++i) {
             int status = 0;
@@ -67,19 +68,19 @@ class HostProcess {
         return false;
     }
     pid_t pid() const { return pid_; }
-    std::size_t descriptors() const {
+    std::size_t descriptor_count() const {
         const std::filesystem::directory_iterator all("/proc/" + std::to_string(pid_) + "/fd");
         return static_cast<std::size_t>(std::distance(begin(all), end(all)));
     }
     /// MB that it has in memory now; with `peak` the most that it ever had.
-    long memory(bool peak = false) const {
+    long memory_mb(bool peak = false) const {
         std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
         for (std::string line; std::getline(status, line);)
             if (line.compare(0, 6, peak ? "VmHWM:" : "VmRSS:") == 0) return std::stol(line.substr(6)) / 1024;
         return -1;
     }
     /// Exit code, or minus the signal that has ended it; -1000 when it does not end.
-    int wait(std::chrono::seconds bound = std::chrono::seconds(30)) {
+    int wait_for_exit(std::chrono::seconds bound = std::chrono::seconds(30)) {
         const auto end = std::chrono::steady_clock::now() + bound;
         int status = 0;
         while (waitpid(pid_, &status, WNOHANG) == 0) {

@@ -17,11 +17,11 @@ void say(const char* line) {
 }
 
 /// Says on standard output what it received, once it is 10.
-class Teller : public Summer {
+class Reporter : public Accumulator {
   public:
-    using Summer::Summer;
+    using Accumulator::Accumulator;
     RTC::ReturnCode_t onExecute(RTC::UniqueId id) override {
-        Summer::onExecute(id);
+        Accumulator::onExecute(id);
         if (received_ >= 10 && !told_) {
             std::printf("received %ld\n", received_.load());
             std::fflush(stdout);
@@ -52,7 +52,7 @@ class Thrower : public RTC::DataFlowComponentBase {
     }
 };
 
-class Hanger : public RTC::DataFlowComponentBase {
+class HangingComponent : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
@@ -99,10 +99,10 @@ class BadPeer : public RTC::DataFlowComponentBase {
 /// Never returns from the callback that the parameter `in` names; with `how` it throws std, int or corba
 /// there, ends the process by exit or abort, reads stdin, leaves a static object that does not end, or
 /// fails and then does not return from its destructor.
-class Sleeper : public RTC::DataFlowComponentBase {
+class FaultInjector : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
-    ~Sleeper() override {
+    ~FaultInjector() override {
         if (failed_) std::this_thread::sleep_for(std::chrono::hours(1));
     }
     RTC::ReturnCode_t onInitialize() override { return at("initialize"); }
@@ -161,11 +161,13 @@ class Sleeper : public RTC::DataFlowComponentBase {
 } // namespace
 
 extern "C" void TestComponentsInit(RTC::Manager* manager) {
-    register_all(*manager);
-    register_as<Teller>(*manager, "Teller");
-    register_as<Thrower>(*manager, "Thrower");
-    register_as<Hanger>(*manager, "Hanger");
-    register_as<Sleeper>(*manager, "Sleeper");
-    register_as<BadPeer>(*manager, "BadPeer");
+    register_test_components(*manager);
+    register_component_type<Reporter>(*manager, "Reporter");
+    register_component_type<Thrower>(*manager, "Thrower");
+    register_component_type<HangingComponent>(*manager, "HangingComponent");
+    register_component_type<FaultInjector>(*manager, "FaultInjector");
+    register_component_type<BadPeer>(*manager, "BadPeer");
 }
-extern "C" void OnlyTellers(RTC::Manager* manager) { register_as<Teller>(*manager, "Teller"); }
+extern "C" void OnlyReporters(RTC::Manager* manager) {
+    register_component_type<Reporter>(*manager, "Reporter");
+}

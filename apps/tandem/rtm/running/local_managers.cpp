@@ -81,9 +81,9 @@ std::vector<std::string> local_managers(CORBA::ORB_ptr orb) {
     std::vector<std::string> managers;
     for (const auto& address : candidates) {
         try {
-            RTM::Manager_var manager = RTC::manager_at(orb, address, 500);
+            RTM::Manager_var manager = RTC::resolve_manager(orb, address, 500);
             managers.push_back(address);
-        } catch (const RTC::NotThere&) {
+        } catch (const RTC::RemoteUnavailable&) {
             continue; // another CORBA server, a name server for one
         }
     }

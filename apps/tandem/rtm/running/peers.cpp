@@ -45,8 +45,8 @@ Peers::Peers(const PeerOptions& options, bool as_component)
     : call_ms_(static_cast<unsigned long>(options.seconds * 1000)), as_component_(as_component),
       named_(!options.name_servers.empty() || !options.managers.empty()),
       name_servers_(named_ ? options.name_servers : default_name_servers()), managers_(options.managers) {
-    path_server_ =
-        RTC::with_port(name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
+    path_server_ = RTC::with_default_port(
+        name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
     if (as_component) {
         orb_ = manager_orb(call_ms_);
     } else {
@@ -54,8 +54,8 @@ Peers::Peers(const PeerOptions& options, bool as_component)
         int argc = static_cast<int>(argv.size());
         orb_ = CORBA::ORB_init(argc, argv.get(), "omniORB4");
     }
-    for (auto& server : name_servers_) server = RTC::with_port(server, 2809);
-    for (auto& manager : managers_) manager = RTC::with_port(manager, 2810);
+    for (auto& server : name_servers_) server = RTC::with_default_port(server, 2809);
+    for (auto& manager : managers_) manager = RTC::with_default_port(manager, 2810);
     if (!named_) managers_ = local_managers(orb_.in());
 }
 
@@ -72,7 +72,7 @@ Peers::~Peers() {
 
 Component Peers::find(const std::string& name) const {
     auto found = [&](const std::string& address) {
-        Component component{RTC::find_component(orb_.in(), address, name_servers_, call_ms_), address, ""};
+        Component component{RTC::resolve_component(orb_.in(), address, name_servers_, call_ms_), address, ""};
         return calling(address, [&] {
             RTC::ComponentProfile_var profile = component.object->get_component_profile();
             component.instance = profile->instance_name;
@@ -87,7 +87,7 @@ Component Peers::find(const std::string& name) const {
     auto attempt = [&](const std::string& address) -> std::optional<Component> {
         try {
             return found(address);
-        } catch (const RTC::NotThere& e) {
+        } catch (const RTC::RemoteUnavailable& e) {
             reasons.push_back(e.what());
             return std::nullopt;
         }
@@ -169,7 +169,7 @@ std::string text_of(RTC::ReturnCode_t code) {
 }
 
 void give_up(const std::string& whom, const CORBA::Exception& e) {
-    throw std::runtime_error(whom + ": " + RTC::meaning(e));
+    throw std::runtime_error(whom + ": " + RTC::describe_exception(e));
 }
 
 } // namespace tandem::command

@@ -22,7 +22,7 @@ Seen look_at(const std::string& address, CORBA::Object_ptr object, unsigned long
         seen.ports = profile->port_profiles.length();
         seen.state = state_of(seen.object.in());
     } catch (const CORBA::Exception& e) {
-        seen.trouble = RTC::meaning(e);
+        seen.trouble = RTC::describe_exception(e);
     }
     return seen;
 }
@@ -55,10 +55,10 @@ Place place(const char* kind, const std::string& address, Look look) {
     Place place{kind, address, "", {}};
     try {
         look(place);
-    } catch (const RTC::NotThere& e) {
+    } catch (const RTC::RemoteUnavailable& e) {
         place.trouble = e.what();
     } catch (const CORBA::Exception& e) {
-        place.trouble = std::string(kind) + " " + address + ": " + RTC::meaning(e);
+        place.trouble = std::string(kind) + " " + address + ": " + RTC::describe_exception(e);
     }
     return place;
 }
@@ -69,12 +69,13 @@ std::vector<Place> survey(const Peers& peers) {
     std::vector<Place> places;
     for (const auto& address : peers.name_servers())
         places.push_back(place("name server", address, [&](Place& p) {
-            CosNaming::NamingContext_var root = RTC::name_server(peers.orb(), address, peers.call_ms());
+            CosNaming::NamingContext_var root =
+                RTC::resolve_name_server(peers.orb(), address, peers.call_ms());
             walk(root.in(), "rtcname://" + address, 6, peers.call_ms(), p.components);
         }));
     for (const auto& address : peers.managers())
         places.push_back(place("manager", address, [&](Place& p) {
-            RTM::Manager_var manager = RTC::manager_at(peers.orb(), address, peers.call_ms());
+            RTM::Manager_var manager = RTC::resolve_manager(peers.orb(), address, peers.call_ms());
             RTC::RTCList_var components = manager->get_components();
             for (CORBA::ULong i = 0; i < components->length(); ++i) {
                 p.components.push_back(look_at("", components[i], peers.call_ms()));

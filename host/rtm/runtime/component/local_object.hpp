@@ -9,10 +9,10 @@ namespace RTC {
 /// An object of this process found by its reference, or nothing. Its owner ends it when it likes; ports wait
 /// a second for those who hold them like this.
 template <class T>
-class Local {
+class LocalObject {
   public:
-    Local() = default;
-    explicit Local(const PortableServer::ServantBase_var& servant)
+    LocalObject() = default;
+    explicit LocalObject(const PortableServer::ServantBase_var& servant)
         : servant_(servant), object_(dynamic_cast<T*>(servant_.in())) {}
     T* get() const { return object_; }
     T* operator->() const { return object_; }
@@ -26,12 +26,12 @@ class Local {
 
 /// The object behind a reference when it lives in this process under the root POA.
 template <class T>
-Local<T> local_object(CORBA::Object_ptr reference) {
+LocalObject<T> local_object(CORBA::Object_ptr reference) {
     if (CORBA::is_nil(reference)) return {};
     try {
         PortableServer::ServantBase_var servant =
             Manager::instance().thePOA()->reference_to_servant(reference);
-        return Local<T>(servant);
+        return LocalObject<T>(servant);
     } catch (const PortableServer::POA::ObjectNotActive&) {
         return {};
     } catch (const PortableServer::POA::WrongAdapter&) {

@@ -37,7 +37,7 @@ std::istringstream contents(const std::filesystem::path& file) {
 // Blanks, and the zeros of a text in 16 bits.
 bool is_no_part_of_key(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
-void take(const std::string& place, const std::string& text, coil::Properties& out, Places* places) {
+void take(const std::string& place, const std::string& text, coil::Properties& out, SettingOrigins* places) {
     const std::size_t at = text.find_first_of(":=");
     const std::string key = coil::eraseBothEndsBlank(text.substr(0, at));
     if (at == std::string::npos || key.empty() || std::any_of(key.begin(), key.end(), is_no_part_of_key))
@@ -54,7 +54,7 @@ std::string printable(const std::string& text) {
     return out + (text.size() > 60 ? "..." : "");
 }
 
-void read_conf_file(const std::filesystem::path& file, coil::Properties& out, Places* places) {
+void read_conf_file(const std::filesystem::path& file, coil::Properties& out, SettingOrigins* places) {
     std::istringstream in = contents(file);
     std::string text;
     int line_number = 0, begun_at = 0;

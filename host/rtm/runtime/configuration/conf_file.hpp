@@ -10,6 +10,7 @@ std::string printable(const std::string& text);
 
 /// Reads a file of `key: value` lines as rtc.conf has them (`#` comment, `\` at the end continues) into
 /// `out`; where each stands into `places`. Throws ManagerError with file and line for what is no such line.
-void read_conf_file(const std::filesystem::path& file, coil::Properties& out, Places* places = nullptr);
+void read_conf_file(const std::filesystem::path& file, coil::Properties& out,
+                    SettingOrigins* places = nullptr);
 
 } // namespace RTC

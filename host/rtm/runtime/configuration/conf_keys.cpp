@@ -241,12 +241,12 @@ const ConfKey* find_conf_key(const std::string& key) {
     return nullptr;
 }
 
-bool value_fits(const std::string& key, std::string& value) {
+bool normalize_value(const std::string& key, std::string& value) {
     const ConfKey* known = find_conf_key(key);
     return known == nullptr || value.empty() || expectation(known->value, value).empty();
 }
 
-std::vector<std::string> check_settings(coil::Properties& config, const Places& places) {
+std::vector<std::string> check_settings(coil::Properties& config, const SettingOrigins& places) {
     std::vector<std::string> unknown;
     for (const auto& [key, place] : places) {
         if (const auto line = complaint(key)) unknown.push_back(place + ": " + *line);

@@ -9,7 +9,7 @@
 namespace RTC {
 
 /// Where a setting was made: `FILE:LINE` or `option -o`, by key.
-using Places = std::map<std::string, std::string>;
+using SettingOrigins = std::map<std::string, std::string>;
 
 struct ConfKey {
     enum Value { text, yes_no, seconds, hertz, whole, processors, level, policy };
@@ -23,10 +23,10 @@ const std::vector<ConfKey>& conf_keys();
 const ConfKey* find_conf_key(const std::string& key);
 
 /// May the key have this value? Words for yes and no become YES and NO.
-bool value_fits(const std::string& key, std::string& value);
+bool normalize_value(const std::string& key, std::string& value);
 
 /// Checks every setting that has a place. Words for yes and no become YES and NO. Returns one line for each
 /// key that nobody knows. Throws ManagerError, beginning with the place, for a value a key cannot have.
-std::vector<std::string> check_settings(coil::Properties& config, const Places& places);
+std::vector<std::string> check_settings(coil::Properties& config, const SettingOrigins& places);
 
 } // namespace RTC

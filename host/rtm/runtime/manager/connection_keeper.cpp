@@ -8,8 +8,8 @@
 namespace RTC {
 namespace {
 
-constexpr CORBA::ULong call_bound_ms = 1000;
-constexpr std::chrono::milliseconds goodbye_ms{2000}, least_goodbye_ms{50};
+constexpr CORBA::ULong call_timeout_ms = 1000;
+constexpr std::chrono::milliseconds max_disconnect_timeout{2000}, min_disconnect_timeout{50};
 
 bool has_connection(PortService_ptr port, const std::string& id) {
     ConnectorProfile_var profile = port->get_connector_profile(id.c_str());
@@ -19,7 +19,7 @@ bool has_connection(PortService_ptr port, const std::string& id) {
 /// The object behind the reference is gone for good, or its process is. A process that does not answer may
 /// live.
 bool is_dead(PortService_ptr port) {
-    omniORB::setClientCallTimeout(port, call_bound_ms);
+    omniORB::setClientCallTimeout(port, call_timeout_ms);
     try {
         return port->_non_existent();
     } catch (const CORBA::TIMEOUT&) {
@@ -31,40 +31,40 @@ bool is_dead(PortService_ptr port) {
 
 } // namespace
 
-void ConnectionKeeper::keep(const ConnectionLine& line, std::size_t other, const std::string& id,
-                            const std::string& why_not) {
+void ConnectionKeeper::keep_connected(const PreconnectEntry& line, std::size_t other, const std::string& id,
+                                      const std::string& why_not) {
     std::lock_guard<std::mutex> lock(mutex_);
-    new_kept_.push_back({line, other, id, {}, {}, why_not});
-    begin();
+    new_connections_.push_back({line, other, id, {}, {}, why_not});
+    start_thread();
 }
 
-void ConnectionKeeper::watch() {
+void ConnectionKeeper::start() {
     std::lock_guard<std::mutex> lock(mutex_);
-    begin();
+    start_thread();
 }
 
-void ConnectionKeeper::lost(const ConnectorProfile& profile) {
+void ConnectionKeeper::report_lost(const ConnectorProfile& profile) {
     std::lock_guard<std::mutex> lock(mutex_);
-    goodbyes_.push_back(profile);
-    begin();
+    pending_disconnects_.push_back(profile);
+    start_thread();
     wake_.notify_all();
 }
 
-void ConnectionKeeper::also(std::function<void()> task, std::chrono::nanoseconds every) {
+void ConnectionKeeper::add_periodic_task(std::function<void()> task, std::chrono::nanoseconds every) {
     std::lock_guard<std::mutex> lock(mutex_);
     tasks_.push_back({std::move(task), every, std::chrono::steady_clock::now() + every});
-    begin();
+    start_thread();
 }
 
-void ConnectionKeeper::begin() {
-    if (!thread_.joinable() && !ending_) thread_ = std::thread([this] { run(); });
+void ConnectionKeeper::start_thread() {
+    if (!thread_.joinable() && !stopping_) thread_ = std::thread([this] { run(); });
 }
 
 void ConnectionKeeper::stop() {
     {
         std::lock_guard<std::mutex> lock(mutex_);
-        ending_ = true;
-        goodbyes_until_ = std::chrono::steady_clock::now() + goodbye_ms;
+        stopping_ = true;
+        disconnect_deadline_ = std::chrono::steady_clock::now() + max_disconnect_timeout;
     }
     wake_.notify_all();
     if (thread_.joinable()) thread_.join();
@@ -73,22 +73,22 @@ void ConnectionKeeper::stop() {
 void ConnectionKeeper::run() {
     auto next = std::chrono::steady_clock::now() + interval_;
     std::unique_lock<std::mutex> lock(mutex_);
-    while (!ending_) {
-        wake_.wait_until(lock, next, [this] { return ending_ || !goodbyes_.empty(); });
-        if (ending_) return;
-        std::move(new_kept_.begin(), new_kept_.end(), std::back_inserter(kept_));
-        new_kept_.clear();
+    while (!stopping_) {
+        wake_.wait_until(lock, next, [this] { return stopping_ || !pending_disconnects_.empty(); });
+        if (stopping_) return;
+        std::move(new_connections_.begin(), new_connections_.end(), std::back_inserter(connections_));
+        new_connections_.clear();
         lock.unlock();
-        say_goodbye();
+        notify_disconnects();
         const auto now = std::chrono::steady_clock::now();
         if (now >= next) {
             next = now + interval_;
-            look_at_peers();
-            for (auto& kept : kept_)
-                if (!ending_) restore(kept);
+            check_peers();
+            for (auto& kept : connections_)
+                if (!stopping_) restore(kept);
         }
         lock.lock();
-        for (std::size_t i = 0; i < tasks_.size() && !ending_; ++i) {
+        for (std::size_t i = 0; i < tasks_.size() && !stopping_; ++i) {
             if (tasks_[i].due > now) continue;
             tasks_[i].due = now + tasks_[i].every;
             const auto task = tasks_[i].run;
@@ -99,19 +99,19 @@ void ConnectionKeeper::run() {
     }
 }
 
-void ConnectionKeeper::say_goodbye() {
-    std::vector<ConnectorProfile> leaving;
+void ConnectionKeeper::notify_disconnects() {
+    std::vector<ConnectorProfile> disconnected;
     {
         std::lock_guard<std::mutex> lock(mutex_);
-        leaving.swap(goodbyes_);
+        disconnected.swap(pending_disconnects_);
     }
-    for (auto& profile : leaving) {
-        for (auto& kept : kept_)
+    for (auto& profile : disconnected) {
+        for (auto& kept : connections_)
             if (kept.id == static_cast<const char*>(profile.connector_id)) kept.id.clear();
         for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
             PortService_ptr port = profile.ports[i];
-            if (local_object<PortBase>(port) != nullptr || ending_) continue;
-            omniORB::setClientCallTimeout(port, call_bound_ms);
+            if (local_object<PortBase>(port) != nullptr || stopping_) continue;
+            omniORB::setClientCallTimeout(port, call_timeout_ms);
             try {
                 port->notify_disconnect(profile.connector_id);
             } catch (const CORBA::SystemException&) {
@@ -121,10 +121,10 @@ void ConnectionKeeper::say_goodbye() {
     }
 }
 
-void ConnectionKeeper::look_at_peers() {
-    std::map<std::string, int> silent;
+void ConnectionKeeper::check_peers() {
+    std::map<std::string, int> unanswered;
     for (const auto& self : manager_.impl().references()) {
-        if (ending_) return;
+        if (stopping_) return;
         try {
             PortServiceList_var ports = self->get_ports();
             for (CORBA::ULong p = 0; p < ports->length(); ++p) {
@@ -134,12 +134,12 @@ void ConnectionKeeper::look_at_peers() {
                     const std::string id(connection.connector_id);
                     bool dead = false;
                     for (CORBA::ULong i = 0; i < connection.ports.length() && !dead; ++i)
-                        dead = local_object<PortBase>(connection.ports[i]) == nullptr && !ending_ &&
+                        dead = local_object<PortBase>(connection.ports[i]) == nullptr && !stopping_ &&
                                is_dead(connection.ports[i]);
                     if (!dead) continue;
                     // Twice in a row: a name that is being moved may miss a beat.
-                    silent[id] = silent_[id] + 1;
-                    if (silent[id] < 2) continue;
+                    unanswered[id] = unanswered_checks_[id] + 1;
+                    if (unanswered[id] < 2) continue;
                     if (auto port = local_object<PortBase>(ports[p])) port->forget(id.c_str());
                 }
             }
@@ -147,18 +147,18 @@ void ConnectionKeeper::look_at_peers() {
             continue; // the component is leaving
         }
     }
-    silent_.swap(silent);
+    unanswered_checks_.swap(unanswered);
 }
 
-std::chrono::milliseconds ConnectionKeeper::goodbye_bound() const {
-    const auto until = goodbyes_until_.load();
-    if (until == std::chrono::steady_clock::time_point{}) return goodbye_ms;
+std::chrono::milliseconds ConnectionKeeper::disconnect_timeout() const {
+    const auto until = disconnect_deadline_.load();
+    if (until == std::chrono::steady_clock::time_point{}) return max_disconnect_timeout;
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
-    return std::clamp(left, least_goodbye_ms, goodbye_ms);
+    return std::clamp(left, min_disconnect_timeout, max_disconnect_timeout);
 }
 
-bool ConnectionKeeper::stands(const Kept& kept) {
+bool ConnectionKeeper::is_connected(const KeptConnection& kept) {
     if (kept.id.empty()) return false;
     const bool first_here = !is_remote(kept.line.ports[0]);
     PortService_var here = find_port(manager_, kept.line.ports[first_here ? 0 : kept.other]);
@@ -166,39 +166,39 @@ bool ConnectionKeeper::stands(const Kept& kept) {
 }
 
 // Not when both ports are the ones that were connected: then somebody has disconnected them.
-bool ConnectionKeeper::may_return(const Kept& kept) {
+bool ConnectionKeeper::may_reconnect(const KeptConnection& kept) {
     if (kept.id.empty() || CORBA::is_nil(kept.first.in())) return true;
     PortService_var first = find_port(manager_, kept.line.ports[0]);
     PortService_var second = find_port(manager_, kept.line.ports[kept.other]);
     return !first->_is_equivalent(kept.first.in()) || !second->_is_equivalent(kept.second.in());
 }
 
-void ConnectionKeeper::restore(Kept& kept) {
+void ConnectionKeeper::restore(KeptConnection& kept) {
     Logger rtclog("connections");
     try {
-        if (stands(kept)) {
+        if (is_connected(kept)) {
             if (!CORBA::is_nil(kept.first.in())) return;
             kept.first = find_port(manager_, kept.line.ports[0]); // made at start, by connectOrThrow()
             kept.second = find_port(manager_, kept.line.ports[kept.other]);
             return;
         }
-        if (!may_return(kept)) return;
+        if (!may_reconnect(kept)) return;
         kept.first = find_port(manager_, kept.line.ports[0]);
         kept.second = find_port(manager_, kept.line.ports[kept.other]);
         kept.id = connect_ports(kept.line, kept.other, kept.first.in(), kept.second.in());
         RTC_INFO(
             ("%s and %s are connected", kept.line.ports[0].c_str(), kept.line.ports[kept.other].c_str()));
-        kept.said.clear();
-    } catch (
-        const std::runtime_error& e) { // NotThere, or a refusal that may be over when the other side is new
-        if (kept.said != e.what()) RTC_WARN(("%s; tried again until it works", e.what()));
-        kept.said = e.what();
+        kept.last_warning.clear();
+    } catch (const std::runtime_error&
+                 e) { // RemoteUnavailable, or a refusal that may be over when the other side is new
+        if (kept.last_warning != e.what()) RTC_WARN(("%s; tried again until it works", e.what()));
+        kept.last_warning = e.what();
     } catch (const CORBA::SystemException& e) {
-        const std::string why = meaning(e);
-        if (kept.said != why)
+        const std::string why = describe_exception(e);
+        if (kept.last_warning != why)
             RTC_WARN(
                 ("%s: %s; tried again until it works", kept.line.ports[kept.other].c_str(), why.c_str()));
-        kept.said = why;
+        kept.last_warning = why;
     }
 }
 

@@ -85,10 +85,10 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
                                    ECDelete<OpenHRPExecutionContext>);
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,
                                             coil::Destructor<CdrBufferBase, CdrRingBuffer>);
-    add_shared_composite(*manager);
+    register_shared_composite(*manager);
     manager->m_impl->naming_manager = std::make_unique<NamingManager>(manager.get());
     the_manager = manager.release();
-    start_keeper(*the_manager, *the_manager->m_impl);
+    start_connection_keeper(*the_manager, *the_manager->m_impl);
     publish_manager(*the_manager, *the_manager->m_impl);
     return *the_manager;
 }
@@ -118,7 +118,7 @@ coil::Properties Manager::Impl::settings() const {
     return config;
 }
 bool Manager::Impl::change_setting(const std::string& key, std::string value) {
-    if (key.empty() || !value_fits(key, value)) return false;
+    if (key.empty() || !normalize_value(key, value)) return false;
     std::lock_guard<std::recursive_mutex> lock(mutex);
     config.setProperty(key, value);
     return true;
@@ -205,15 +205,15 @@ Manager::TaskId Manager::addTask(std::function<void()> fn, std::chrono::nanoseco
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         m_impl->periodic_tasks.push_back(task);
     }
-    m_impl->repeat(*this, task, period);
+    m_impl->schedule_periodic(*this, task, period);
     return task.get();
 }
 
-void Manager::Impl::repeat(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
-                           std::chrono::nanoseconds period) {
+void Manager::Impl::schedule_periodic(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
+                                      std::chrono::nanoseconds period) {
     manager.invoke(
         [this, &manager, task, period] {
-            if (!task->tick(period)) return repeat(manager, task, period);
+            if (!task->tick(period)) return schedule_periodic(manager, task, period);
             std::lock_guard<std::recursive_mutex> lock(mutex);
             std::erase(periodic_tasks, task);
         },

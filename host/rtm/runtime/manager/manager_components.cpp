@@ -96,12 +96,12 @@ class NameTaken {
         std::lock_guard<std::recursive_mutex> lock(impl.mutex);
         const bool there =
             !impl.references([&](auto& one) { return name_ == one.getInstanceName(); }).empty();
-        if (there || !impl.coming.insert(name_).second)
+        if (there || !impl.names_being_created.insert(name_).second)
             throw ManagerError("there is already a component " + name_);
     }
     ~NameTaken() {
         std::lock_guard<std::recursive_mutex> lock(impl_.mutex);
-        impl_.coming.erase(name_);
+        impl_.names_being_created.erase(name_);
     }
 
   private:
@@ -156,7 +156,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
             throw ManagerError("component " + name + " does not start: its onInitialize has failed");
         listeners.forEach([](auto& listener) { listener.postInitialize(); });
     } catch (const ManagerError&) {
-        m_impl->destroy(component.getInstanceName(), [&component, factory] {
+        m_impl->destroy_component(component.getInstanceName(), [&component, factory] {
             component.finalizePorts();
             component.finalizeContexts();
             factory->destroy(&component);
@@ -189,7 +189,7 @@ bool Manager::registerComponent(RTObject_impl* comp) {
     RTObject_var ref = comp->getObjRef();
     bool all = true;
     for (const auto& name : names)
-        for (const auto& refusal : m_impl->naming->bind(name, ref.in())) {
+        for (const auto& refusal : m_impl->name_bindings->bind(name, ref.in())) {
             RTC_WARN(("%s", refusal.c_str()));
             all = false;
         }
@@ -200,7 +200,7 @@ bool Manager::registerComponent(RTObject_impl* comp) {
 bool Manager::unregisterComponent(RTObject_impl* comp) {
     coil::vstring names = comp->getNamingNames();
     m_impl->listeners.naming_.forEach([&](auto& listener) { listener.preUnbind(comp, names); });
-    for (const auto& name : names) m_impl->naming->unbind(name);
+    for (const auto& name : names) m_impl->name_bindings->unbind(name);
     m_impl->listeners.naming_.forEach([&](auto& listener) { listener.postUnbind(comp, names); });
     return true;
 }

@@ -60,7 +60,7 @@ struct CommandLine {
     std::string file;
     bool file_may_be_missing = false;
     coil::Properties settings;
-    Places places;
+    SettingOrigins places;
     void set(const std::string& option, const std::string& key, const std::string& value) {
         settings.setProperty(key, value);
         places[key] = "option " + option;
@@ -141,7 +141,7 @@ void read_configuration(Manager::Impl& impl, int argc, char** argv) {
     impl.config.setDefaults(defaults);
     CommandLine line = parse(argc, argv);
     const std::string file = line.file.empty() ? default_file() : line.file;
-    Places places;
+    SettingOrigins places;
     if (!file.empty() && !(line.file_may_be_missing && !std::filesystem::exists(file))) {
         read_conf_file(file, impl.config, &places);
         impl.conf_file = file;

@@ -16,8 +16,8 @@ bool names_port(const std::string& key) { // port, port1, port2 ...
 } // namespace
 
 // `A.p?port=B.q&key=value...`, or as 1.x has it `A.p:B.q(key=value&...)`.
-ConnectionLine parse_connection(const std::string& line) {
-    ConnectionLine parsed;
+PreconnectEntry parse_preconnect_entry(const std::string& line) {
+    PreconnectEntry parsed;
     const std::size_t question = line.find('?');
     std::string parameters;
     if (question != std::string::npos) {
@@ -88,7 +88,7 @@ std::pair<std::string, std::string> split_port_name(const std::string& name) {
     return {name.substr(0, dot), name.substr(dot + 1)};
 }
 
-std::vector<std::string> name_servers(Manager& manager) { return manager.impl().naming->servers(); }
+std::vector<std::string> name_servers(Manager& manager) { return manager.impl().name_bindings->servers(); }
 
 } // namespace
 
@@ -97,18 +97,18 @@ bool is_remote(const std::string& port_name) { return port_name.find("://") != s
 PortService_ptr find_port(Manager& manager, const std::string& port_name) {
     if (!is_remote(port_name)) return port_of(manager, port_name).getPortRef();
     const auto [component_name, port] = split_port_name(port_name);
-    RTObject_var component = find_component(manager.theORB(), component_name, name_servers(manager));
+    RTObject_var component = resolve_component(manager.theORB(), component_name, name_servers(manager));
     try {
         PortService_var found = CORBA_RTCUtil::get_port_by_name(component.in(), port);
         if (!CORBA::is_nil(found.in())) return found._retn();
-        throw NotThere(component_name + " has no port " + port +
-                       " (it has: " + coil::flatten(CORBA_RTCUtil::get_port_names(component.in())) + ")");
+        throw RemoteUnavailable(component_name + " has no port " + port + " (it has: " +
+                                coil::flatten(CORBA_RTCUtil::get_port_names(component.in())) + ")");
     } catch (const CORBA::SystemException& e) {
-        throw NotThere(port_name + ": " + meaning(e));
+        throw RemoteUnavailable(port_name + ": " + describe_exception(e));
     }
 }
 
-std::string connect_ports(const ConnectionLine& line, std::size_t other, PortService_ptr first,
+std::string connect_ports(const PreconnectEntry& line, std::size_t other, PortService_ptr first,
                           PortService_ptr second) {
     const std::string names = line.ports[0] + " and " + line.ports[other];
     ConnectorProfile profile;
@@ -127,12 +127,12 @@ std::string connect_ports(const ConnectionLine& line, std::size_t other, PortSer
             (here ? here->connectError()
                   : "the first refuses, with code " + std::to_string(static_cast<int>(result))));
     } catch (const CORBA::SystemException& e) {
-        throw NotThere(names + " cannot be connected: " + meaning(e));
+        throw RemoteUnavailable(names + " cannot be connected: " + describe_exception(e));
     }
 }
 
 void Manager::connectOrThrow(const std::string& text) {
-    const ConnectionLine line = parse_connection(text);
+    const PreconnectEntry line = parse_preconnect_entry(text);
     Logger& rtclog = m_impl->log;
     for (std::size_t other = 1; other < line.ports.size(); ++other) {
         const bool kept = is_remote(line.ports[0]) || is_remote(line.ports[other]);
@@ -140,10 +140,10 @@ void Manager::connectOrThrow(const std::string& text) {
             PortService_var first = find_port(*this, line.ports[0]);
             PortService_var second = find_port(*this, line.ports[other]);
             const std::string id = connect_ports(line, other, first.in(), second.in());
-            if (kept) m_impl->connections->keep(line, other, id, "");
-        } catch (const NotThere& e) {
+            if (kept) m_impl->connection_keeper->keep_connected(line, other, id, "");
+        } catch (const RemoteUnavailable& e) {
             RTC_WARN(("%s; connected when it comes", e.what()));
-            m_impl->connections->keep(line, other, "", e.what());
+            m_impl->connection_keeper->keep_connected(line, other, "", e.what());
         }
     }
 }

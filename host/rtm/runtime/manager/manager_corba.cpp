@@ -77,9 +77,10 @@ void start_orb(Manager::Impl& impl) {
     }
     const auto servers = coil::split(impl.config.getProperty("corba.nameservers"), ",", true);
     const bool wanted = coil::toBool(impl.config.getProperty("naming.enable"), "YES", "NO", !servers.empty());
-    impl.naming = std::make_unique<Naming>(impl.orb.in(), !wanted           ? coil::vstring()
-                                                          : servers.empty() ? coil::vstring{"localhost"}
-                                                                            : servers);
+    impl.name_bindings =
+        std::make_unique<NameBindings>(impl.orb.in(), !wanted           ? coil::vstring()
+                                                      : servers.empty() ? coil::vstring{"localhost"}
+                                                                        : servers);
 }
 
 void publish_manager(Manager& manager, Manager::Impl& impl) {
@@ -94,30 +95,32 @@ void publish_manager(Manager& manager, Manager::Impl& impl) {
     impl.servant->setObjRef(RTM::Manager_var(RTM::Manager::_narrow(reference.in())).in());
     Logger& rtclog = impl.log;
     for (const auto& name : manager_names(impl))
-        for (const auto& refusal : impl.naming->bind(name, reference.in())) RTC_WARN(("%s", refusal.c_str()));
+        for (const auto& refusal : impl.name_bindings->bind(name, reference.in()))
+            RTC_WARN(("%s", refusal.c_str()));
 }
 
-void withdraw_manager(Manager::Impl& impl) {
+void unpublish_manager(Manager::Impl& impl) {
     impl.naming_manager->unbindAll();
-    for (const auto& name : manager_names(impl)) impl.naming->unbind(name);
+    for (const auto& name : manager_names(impl)) impl.name_bindings->unbind(name);
 }
 
-void start_keeper(Manager& manager, Manager::Impl& impl) {
+void start_connection_keeper(Manager& manager, Manager::Impl& impl) {
     auto seconds = [&](const char* key, double usual) {
         double value = usual;
         if (!coil::stringTo(value, impl.config.getProperty(key).c_str()) || !(value > 0)) value = usual;
         return std::chrono::nanoseconds(static_cast<std::int64_t>(value * 1e9));
     };
-    impl.connections = std::make_unique<ConnectionKeeper>(manager, seconds("manager.peer_check_interval", 2));
+    impl.connection_keeper =
+        std::make_unique<ConnectionKeeper>(manager, seconds("manager.peer_check_interval", 2));
     auto yes = [&](const char* key, bool usual) {
         return coil::toBool(impl.config.getProperty(key), "YES", "NO", usual);
     };
     if (!yes("naming.update.enable", true)) return;
     const bool rebind = yes("naming.update.rebind", false);
-    impl.connections->also(
+    impl.connection_keeper->add_periodic_task(
         [&impl, rebind] {
             Logger& rtclog = impl.log;
-            for (const auto& line : impl.naming->update(rebind)) RTC_WARN(("%s", line.c_str()));
+            for (const auto& line : impl.name_bindings->update(rebind)) RTC_WARN(("%s", line.c_str()));
         },
         seconds("naming.update.interval", 10));
 }

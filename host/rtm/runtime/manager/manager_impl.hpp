@@ -5,7 +5,7 @@
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
-#include "host/rtm/runtime/naming/naming.hpp"
+#include "host/rtm/runtime/naming/name_bindings.hpp"
 #include <atomic>
 #include <map>
 #include <rtm/ManagerActionListener.h>
@@ -26,9 +26,9 @@ struct Manager::Impl {
     CORBA::ORB_var orb;
     PortableServer::POA_var poa, shortcut_poa;
     PortableServer::POAManager_var poa_manager;
-    std::unique_ptr<Naming> naming; // without servers when naming is off
+    std::unique_ptr<NameBindings> name_bindings; // without servers when naming is off
     std::unique_ptr<NamingManager> naming_manager;
-    std::unique_ptr<ConnectionKeeper> connections;
+    std::unique_ptr<ConnectionKeeper> connection_keeper;
     PortableServer::Servant_var<RTM::ManagerServant> servant;
 
     struct Module {
@@ -48,9 +48,9 @@ struct Manager::Impl {
     std::set<std::shared_ptr<tandem::plugin::Library>> libraries; // of those that were unloaded, too
     std::vector<std::shared_ptr<FactoryBase>> factories;
     std::map<std::string, ContextType> contexts;
-    std::vector<Component> components; // in the order of their creation
-    std::vector<Component> finalized;  // have left, wait for their deletion
-    std::set<std::string> coming;      // names of those that are being created
+    std::vector<Component> components;         // in the order of their creation
+    std::vector<Component> finalized;          // have left, wait for their deletion
+    std::set<std::string> names_being_created; // names of those that are being created
     std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks;
     std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
     std::atomic<bool> ever_had_components{false};
@@ -71,9 +71,9 @@ struct Manager::Impl {
     std::vector<std::filesystem::path> module_dirs() const;
     void run_due_tasks();
     /// Calls what ends with a component's destructor; one that does not return is told of and left behind.
-    void destroy(const std::string& name, std::function<void()> call);
-    void repeat(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
-                std::chrono::nanoseconds period);
+    void destroy_component(const std::string& name, std::function<void()> call);
+    void schedule_periodic(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
+                           std::chrono::nanoseconds period);
     /// To the components, which may leave meanwhile: to all, or to those that fit.
     std::vector<RTObject_var> references(const std::function<bool(RTObject_impl&)>& fits =
                                              [](RTObject_impl&) { return true; }) const;
@@ -84,10 +84,10 @@ void read_configuration(Manager::Impl& impl, int argc, char** argv);
 /// Throws ManagerError when the ORB cannot start, for an endpoint that is taken, say.
 void start_orb(Manager::Impl& impl);
 /// Begins to look after connections with other processes, and after the names in name servers.
-void start_keeper(Manager& manager, Manager::Impl& impl);
+void start_connection_keeper(Manager& manager, Manager::Impl& impl);
 /// Makes the manager reachable as corbaloc:...:PORT/manager, and in the name servers.
 void publish_manager(Manager& manager, Manager::Impl& impl);
-void withdraw_manager(Manager::Impl& impl);
+void unpublish_manager(Manager::Impl& impl);
 
 /// Throws ManagerError.
 void open_log_streams(Manager::Impl& impl);

@@ -50,10 +50,10 @@ void Manager::cleanupComponents() {
         leaving.swap(m_impl->finalized);
     }
     for (auto& one : leaving)
-        m_impl->destroy(one.object->getInstanceName(), [one] { one.factory->destroy(one.object); });
+        m_impl->destroy_component(one.object->getInstanceName(), [one] { one.factory->destroy(one.object); });
 }
 
-void Manager::Impl::destroy(const std::string& name, std::function<void()> call) {
+void Manager::Impl::destroy_component(const std::string& name, std::function<void()> call) {
     if (returns(std::move(call))) return;
     Logger& rtclog = log;
     RTC_ERROR(("%s: its destructor does not return; the component is left as it is", name.c_str()));
@@ -67,8 +67,8 @@ bool Manager::shutdown() {
         m_impl->shut_down = true;
     }
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.preShutdown(); });
-    m_impl->connections->stop(); // nothing is restored that is taken down now
-    withdraw_manager(*m_impl);
+    m_impl->connection_keeper->stop(); // nothing is restored that is taken down now
+    unpublish_manager(*m_impl);
     auto components = getComponents();
     std::reverse(components.begin(), components.end());
     bool all_ended = stopComponents(components);

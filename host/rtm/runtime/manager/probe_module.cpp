@@ -42,7 +42,7 @@ void probe_module(const tandem::plugin::Probe& how, const std::string& library, 
     // them.
     const auto patience = how.bound / 4;
     const std::string stuck =
-        tandem::plugin::probe(how, probe_load, library, {init, std::to_string(patience.count())});
+        tandem::plugin::probe(how, module_probe_task, library, {init, std::to_string(patience.count())});
     if (!stuck.empty())
         RTC_WARN(
             ("module %s: the destructor of %s does not return; the host will leave such components as they "
@@ -50,7 +50,7 @@ void probe_module(const tandem::plugin::Probe& how, const std::string& library, 
              library.c_str(), stuck.c_str()));
 }
 
-void try_module(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report) {
+void run_module_probe(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report) {
     const std::string init = task.arguments.at(0);
     const std::chrono::milliseconds patience(std::stol(task.arguments.at(1)));
     report.stage("its static constructors");

@@ -6,16 +6,16 @@
 
 namespace RTC {
 
-constexpr char probe_load[] = "load-rtm";
+constexpr char module_probe_task[] = "load-rtm";
 
 /// Tries the module in a child process. A destructor that does not return is a warning; throws
 /// tandem::plugin::Error for all else that goes wrong. [any-thread]
 void probe_module(const tandem::plugin::Probe& how, const std::string& library, const std::string& init,
                   Logger& rtclog);
 
-/// The task probe_load, its arguments the init function and the milliseconds for a destructor: loads the
+/// The task module_probe_task, its arguments the init function and the milliseconds for a destructor: loads the
 /// module and makes one component of each type that it registers, and deletes it. None is initialized, no
 /// name server hears of it.
-void try_module(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report);
+void run_module_probe(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report);
 
 } // namespace RTC

@@ -141,9 +141,9 @@ RTC::PortService_ptr get_port_by_url(const std::string& port_name) {
     }
     const auto servers = coil::split(manager.getConfig().getProperty("corba.nameservers"), ",", true);
     try {
-        RTC::RTObject_var rtc = RTC::find_component(manager.theORB(), component, servers);
+        RTC::RTObject_var rtc = RTC::resolve_component(manager.theORB(), component, servers);
         return get_port_by_name(rtc.in(), port);
-    } catch (const RTC::NotThere&) { // the answer is nil, as in OpenRTM-aist
+    } catch (const RTC::RemoteUnavailable&) { // the answer is nil, as in OpenRTM-aist
         return RTC::PortService::_nil();
     }
 }

@@ -11,7 +11,7 @@ void NamingManager::registerNameServer(const char* method, const char* name_serv
         RTC_ERROR(("name server %s: there is no method %s, only corba", name_server, method));
         return;
     }
-    m_manager->impl().naming->add_server(name_server);
+    m_manager->impl().name_bindings->add_server(name_server);
     update();
 }
 
@@ -21,7 +21,7 @@ void NamingManager::bind(const std::string& name, CORBA::Object_ptr object, cons
         std::lock_guard<std::mutex> lock(m_mutex);
         m_bound[name] = component;
     }
-    for (const auto& refusal : m_manager->impl().naming->bind(name, object))
+    for (const auto& refusal : m_manager->impl().name_bindings->bind(name, object))
         RTC_WARN(("%s", refusal.c_str()));
 }
 
@@ -39,11 +39,11 @@ void NamingManager::bindObject(const char* name, const RTM::ManagerServant* mgr)
 
 void NamingManager::update() {
     Logger& rtclog = m_manager->impl().log;
-    for (const auto& line : m_manager->impl().naming->update(true)) RTC_INFO(("%s", line.c_str()));
+    for (const auto& line : m_manager->impl().name_bindings->update(true)) RTC_INFO(("%s", line.c_str()));
 }
 
 void NamingManager::unbindObject(const char* name) {
-    m_manager->impl().naming->unbind(name);
+    m_manager->impl().name_bindings->unbind(name);
     std::lock_guard<std::mutex> lock(m_mutex);
     m_bound.erase(name);
 }
@@ -54,7 +54,7 @@ void NamingManager::unbindAll() {
         std::lock_guard<std::mutex> lock(m_mutex);
         all.swap(m_bound);
     }
-    for (const auto& entry : all) m_manager->impl().naming->unbind(entry.first);
+    for (const auto& entry : all) m_manager->impl().name_bindings->unbind(entry.first);
 }
 
 std::vector<RTObject_impl*> NamingManager::getObjects() {
@@ -74,8 +74,9 @@ RTCList NamingManager::string_to_component(const std::string& name) {
     } else {
         Logger& rtclog = m_manager->impl().log;
         try {
-            component = find_component(m_manager->impl().orb.in(), name, m_manager->impl().naming->servers());
-        } catch (const NotThere& e) {
+            component = resolve_component(m_manager->impl().orb.in(), name,
+                                          m_manager->impl().name_bindings->servers());
+        } catch (const RemoteUnavailable& e) {
             RTC_WARN(("%s", e.what()));
         }
     }

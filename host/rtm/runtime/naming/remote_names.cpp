@@ -14,11 +14,11 @@ RemoteName parse_remote_name(const std::string& name) {
             slash == std::string::npos ? "" : rest.substr(slash + 1)};
 }
 
-std::string with_port(const std::string& address, int port) {
+std::string with_default_port(const std::string& address, int port) {
     return address.find(':') == std::string::npos ? address + ":" + std::to_string(port) : address;
 }
 
-std::string meaning(const CORBA::Exception& e) {
+std::string describe_exception(const CORBA::Exception& e) {
     const std::string name = e._name();
     if (name == "TRANSIENT") return "nobody listens there";
     if (name == "TIMEOUT") return "no answer in time";
@@ -27,9 +27,9 @@ std::string meaning(const CORBA::Exception& e) {
     return "CORBA exception " + name;
 }
 
-CosNaming::Name to_name(const std::string& path) {
+CosNaming::Name to_corba_name(const std::string& path) {
     const auto parts = coil::split(path, "/", true);
-    if (parts.empty()) throw NotThere("an empty name; expected CONTEXT.host_cxt/NAME.rtc");
+    if (parts.empty()) throw RemoteUnavailable("an empty name; expected CONTEXT.host_cxt/NAME.rtc");
     CosNaming::Name name;
     name.length(static_cast<CORBA::ULong>(parts.size()));
     for (CORBA::ULong i = 0; i < name.length(); ++i) {
@@ -40,9 +40,9 @@ CosNaming::Name to_name(const std::string& path) {
     return name;
 }
 
-CosNaming::NamingContext_ptr name_server(CORBA::ORB_ptr orb, const std::string& address,
-                                         unsigned long milliseconds) {
-    const std::string where = with_port(address, 2809);
+CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
+                                                 unsigned long milliseconds) {
+    const std::string where = with_default_port(address, 2809);
     std::string why = "it is no name server";
     try {
         CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:" + where + "/NameService").c_str());
@@ -53,13 +53,13 @@ CosNaming::NamingContext_ptr name_server(CORBA::ORB_ptr orb, const std::string& 
             return root._retn();
         }
     } catch (const CORBA::Exception& e) {
-        why = meaning(e);
+        why = describe_exception(e);
     }
-    throw NotThere("name server " + where + ": " + why);
+    throw RemoteUnavailable("name server " + where + ": " + why);
 }
 
-RTM::Manager_ptr manager_at(CORBA::ORB_ptr orb, const std::string& address, unsigned long milliseconds) {
-    const std::string where = with_port(address, 2810);
+RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address, unsigned long milliseconds) {
+    const std::string where = with_default_port(address, 2810);
     std::string why = "it is no manager";
     try {
         CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:" + where + "/manager").c_str());
@@ -70,9 +70,9 @@ RTM::Manager_ptr manager_at(CORBA::ORB_ptr orb, const std::string& address, unsi
             return manager._retn();
         }
     } catch (const CORBA::Exception& e) {
-        why = meaning(e);
+        why = describe_exception(e);
     }
-    throw NotThere("manager " + where + ": " + why);
+    throw RemoteUnavailable("manager " + where + ": " + why);
 }
 
 namespace {
@@ -84,9 +84,9 @@ RTObject_ptr answered(CORBA::Object_ptr object, const std::string& name, unsigne
         RTObject_var component = RTObject::_narrow(object);
         if (!CORBA::is_nil(component.in()) && !component->_non_existent()) return component._retn();
     } catch (const CORBA::Exception& e) {
-        why = meaning(e) + "; is its process alive?";
+        why = describe_exception(e) + "; is its process alive?";
     }
-    throw NotThere(name + ": " + why);
+    throw RemoteUnavailable(name + ": " + why);
 }
 
 // All entries NAME.rtc below a context; `depth` bounds contexts that contain each other.
@@ -113,62 +113,65 @@ void search(CosNaming::NamingContext_ptr context, const std::string& wanted, int
 
 RTObject_ptr by_name_server(CORBA::ORB_ptr orb, const std::string& server, const std::string& path,
                             const std::string& name, unsigned long milliseconds) {
-    CosNaming::NamingContext_var root = name_server(orb, server, milliseconds);
+    CosNaming::NamingContext_var root = resolve_name_server(orb, server, milliseconds);
     try {
         if (path.compare(0, 2, "*/") == 0) {
             std::vector<CORBA::Object_var> found;
             search(root.in(), path.substr(2), 4, found);
             if (found.size() > 1)
-                throw NotThere(name + ": there are " + std::to_string(found.size()) +
-                               " of that name; give the whole path");
+                throw RemoteUnavailable(name + ": there are " + std::to_string(found.size()) +
+                                        " of that name; give the whole path");
             if (found.size() == 1) return answered(found[0].in(), name, milliseconds);
         } else {
             const bool has_kind = path.size() > 4 && path.compare(path.size() - 4, 4, ".rtc") == 0;
-            CORBA::Object_var object = root->resolve(to_name(has_kind ? path : path + ".rtc"));
+            CORBA::Object_var object = root->resolve(to_corba_name(has_kind ? path : path + ".rtc"));
             return answered(object.in(), name, milliseconds);
         }
     } catch (const CosNaming::NamingContext::NotFound&) {
         // said below
     } catch (const CORBA::Exception& e) {
-        throw NotThere("name server " + server + ": " + meaning(e));
+        throw RemoteUnavailable("name server " + server + ": " + describe_exception(e));
     }
-    throw NotThere(name + ": name server " + server + " has no such entry");
+    throw RemoteUnavailable(name + ": name server " + server + " has no such entry");
 }
 
 RTObject_ptr by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, const std::string& name,
                         unsigned long milliseconds) {
-    RTM::Manager_var manager = manager_at(orb, parsed.address, milliseconds);
+    RTM::Manager_var manager = resolve_manager(orb, parsed.address, milliseconds);
     try {
         RTCList_var found = manager->get_components_by_name(parsed.path.c_str());
         if (found->length() == 1) return answered(found[0], name, milliseconds);
-        throw NotThere(name + ": that manager has " +
-                       (found->length() == 0 ? "no such component"
-                                             : std::to_string(found->length()) + " components of that name"));
+        throw RemoteUnavailable(name + ": that manager has " +
+                                (found->length() == 0
+                                     ? "no such component"
+                                     : std::to_string(found->length()) + " components of that name"));
     } catch (const CORBA::Exception& e) {
-        throw NotThere("manager " + parsed.address + ": " + meaning(e));
+        throw RemoteUnavailable("manager " + parsed.address + ": " + describe_exception(e));
     }
 }
 
 } // namespace
 
-RTObject_ptr find_component(CORBA::ORB_ptr orb, const std::string& name,
-                            const std::vector<std::string>& servers, unsigned long milliseconds) {
+RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
+                               const std::vector<std::string>& servers, unsigned long milliseconds) {
     const RemoteName parsed = parse_remote_name(name);
     if (parsed.path.empty() || parsed.address.empty())
-        throw NotThere("`" + name + "`; expected rtcname://HOST:PORT/PATH/NAME or rtcloc://HOST:PORT/NAME");
+        throw RemoteUnavailable("`" + name +
+                                "`; expected rtcname://HOST:PORT/PATH/NAME or rtcloc://HOST:PORT/NAME");
     if (parsed.scheme == "rtcloc") return by_manager(orb, parsed, name, milliseconds);
     if (parsed.scheme != "rtcname")
-        throw NotThere("`" + name + "`: scheme " + parsed.scheme + " is unknown; expected rtcname or rtcloc");
+        throw RemoteUnavailable("`" + name + "`: scheme " + parsed.scheme +
+                                " is unknown; expected rtcname or rtcloc");
     if (parsed.address != "*") return by_name_server(orb, parsed.address, parsed.path, name, milliseconds);
     std::string why = name + ": no name server is configured (corba.nameservers)";
     for (const auto& server : servers) {
         try {
             return by_name_server(orb, server, parsed.path, name, milliseconds);
-        } catch (const NotThere& e) {
+        } catch (const RemoteUnavailable& e) {
             why = e.what();
         }
     }
-    throw NotThere(why);
+    throw RemoteUnavailable(why);
 }
 
 } // namespace RTC

@@ -12,7 +12,7 @@
 namespace RTC {
 
 /// Nobody answers under a name; what() is one line that says which and what to do. It may be there later.
-class NotThere : public std::runtime_error {
+class RemoteUnavailable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
@@ -24,24 +24,24 @@ struct RemoteName {
 RemoteName parse_remote_name(const std::string& name);
 
 /// `host`, `host:port` -> `host:port`.
-std::string with_port(const std::string& address, int port);
+std::string with_default_port(const std::string& address, int port);
 
-/// Root context of a name server; throws NotThere. Calls to it end after `milliseconds`.
-CosNaming::NamingContext_ptr name_server(CORBA::ORB_ptr orb, const std::string& address,
-                                         unsigned long milliseconds = 2000);
-/// `a.x/b.y` as a CORBA name. Throws NotThere for an empty one.
-CosNaming::Name to_name(const std::string& path);
+/// Root context of a name server; throws RemoteUnavailable. Calls to it end after `milliseconds`.
+CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
+                                                 unsigned long milliseconds = 2000);
+/// `a.x/b.y` as a CORBA name. Throws RemoteUnavailable for an empty one.
+CosNaming::Name to_corba_name(const std::string& path);
 
-/// The manager at corbaloc HOST:PORT/manager; throws NotThere.
-RTM::Manager_ptr manager_at(CORBA::ORB_ptr orb, const std::string& address,
-                            unsigned long milliseconds = 2000);
+/// The manager at corbaloc HOST:PORT/manager; throws RemoteUnavailable.
+RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
+                                 unsigned long milliseconds = 2000);
 
 /// The component that a name with scheme stands for; it has answered. `servers`: those meant by rtcname://*/.
-/// Throws NotThere.
-RTObject_ptr find_component(CORBA::ORB_ptr orb, const std::string& name,
-                            const std::vector<std::string>& servers, unsigned long milliseconds = 2000);
+/// Throws RemoteUnavailable.
+RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
+                               const std::vector<std::string>& servers, unsigned long milliseconds = 2000);
 
 /// What a failed call means, for the end of a line: `nobody listens there`, `no answer in time` ...
-std::string meaning(const CORBA::Exception& e);
+std::string describe_exception(const CORBA::Exception& e);
 
 } // namespace RTC

@@ -53,7 +53,7 @@ bool has_remote_port(const ConnectorProfile& profile) {
 
 // Who is told of the end of a connection may be the reason for it.
 void bound_calls(PortService_ptr port) {
-    const auto bound = Manager::instance().impl().connections->goodbye_bound();
+    const auto bound = Manager::instance().impl().connection_keeper->disconnect_timeout();
     omniORB::setClientCallTimeout(port, static_cast<CORBA::ULong>(bound.count()));
 }
 
@@ -80,7 +80,7 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         return refuse(result, reason.empty() ? "the other side has refused the connection" : reason);
     } catch (const CORBA::SystemException& e) {
         release(profile.connector_id);
-        return refuse(RTC_ERROR, "a port of the connection cannot be reached: " + meaning(e));
+        return refuse(RTC_ERROR, "a port of the connection cannot be reached: " + describe_exception(e));
     }
 }
 
@@ -129,7 +129,8 @@ ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
     tell(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
     // Kept even when it has failed later: the disconnection that follows finds by it what to undo.
     if (published == RTC_OK) updateConnectorProfile(profile);
-    if (subscribed == RTC_OK && has_remote_port(profile)) Manager::instance().impl().connections->watch();
+    if (subscribed == RTC_OK && has_remote_port(profile))
+        Manager::instance().impl().connection_keeper->start();
     return subscribed;
 }
 
@@ -139,7 +140,8 @@ ReturnCode_t PortBase::passOn(ConnectorProfile& profile) {
     try {
         return connectNext(profile);
     } catch (const CORBA::SystemException& e) {
-        return refuse(RTC_ERROR, std::string(getName()) + ": the next port of the connection: " + meaning(e));
+        return refuse(RTC_ERROR,
+                      std::string(getName()) + ": the next port of the connection: " + describe_exception(e));
     }
 }
 
@@ -194,7 +196,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
                            : profile.ports[i]->notify_disconnect(connector_id);
             break;
         } catch (const CORBA::SystemException& e) {
-            RTC_WARN(("disconnecting %s: a peer: %s", getName(), meaning(e).c_str()));
+            RTC_WARN(("disconnecting %s: a peer: %s", getName(), describe_exception(e).c_str()));
         }
     }
     if (release(connector_id)) result = RTC_OK; // the peers have not passed it on to us
@@ -230,7 +232,7 @@ void PortBase::forget(const char* connector_id) {
     if (m_onConnectionLost != nullptr) (*m_onConnectionLost)(profile);
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
         if (auto local = local_object<PortBase>(profile.ports[i])) local->release(connector_id);
-    Manager::instance().impl().connections->lost(profile);
+    Manager::instance().impl().connection_keeper->report_lost(profile);
 }
 
 ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
@@ -244,7 +246,7 @@ ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
             return local ? local->notify_disconnect(profile.connector_id)
                          : profile.ports[next]->notify_disconnect(profile.connector_id);
         } catch (const CORBA::SystemException& e) {
-            RTC_WARN(("disconnecting %s: a peer: %s", getName(), meaning(e).c_str()));
+            RTC_WARN(("disconnecting %s: a peer: %s", getName(), describe_exception(e).c_str()));
         }
     }
     return RTC_OK;

@@ -160,7 +160,7 @@ const char* const composite_profile[] = {"implementation_id",
 
 } // namespace
 
-void add_shared_composite(Manager& manager) {
+void register_shared_composite(Manager& manager) {
     coil::Properties profile(composite_profile);
     manager.registerFactory(profile, Create<PeriodicECSharedComposite>, Delete<PeriodicECSharedComposite>);
 }
@@ -215,4 +215,4 @@ ReturnCode_t PeriodicECSharedComposite::onFinalize() {
 
 } // namespace RTC
 
-void PeriodicECSharedCompositeInit(RTC::Manager* manager) { RTC::add_shared_composite(*manager); }
+void PeriodicECSharedCompositeInit(RTC::Manager* manager) { RTC::register_shared_composite(*manager); }

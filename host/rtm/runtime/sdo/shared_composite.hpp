@@ -6,6 +6,6 @@ namespace RTC {
 class Manager;
 
 /// Makes the component type PeriodicECSharedComposite known.
-void add_shared_composite(Manager& manager);
+void register_shared_composite(Manager& manager);
 
 } // namespace RTC

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Components that share the execution context of a composite.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 
 using namespace testing;
 
 namespace {
 
-RTC::RTObject_impl& composite(Stage& stage, const std::string& arguments) {
-    return stage.manager().createOrThrow("PeriodicECSharedComposite?" + arguments);
+RTC::RTObject_impl& composite(ManagerFixture& fixture, const std::string& arguments) {
+    return fixture.manager().createOrThrow("PeriodicECSharedComposite?" + arguments);
 }
 
 std::vector<std::string> port_names(RTC::RTObject_impl& rtc) {
@@ -32,11 +32,11 @@ RTC::LifeCycleState state_in(RTC::RTObject_impl& owner, RTC::RTObject_impl& memb
 } // namespace
 
 TEST_CASE("The members of a composite run in its context one after the other and show their exported ports") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in");
-    auto& whole = composite(stage, "members=Counter0, Summer0&exported_ports=Counter0.out");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in");
+    auto& whole = composite(fixture, "members=Counter0, Accumulator0&exported_ports=Counter0.out");
     CHECK(port_names(whole) == std::vector<std::string>{"Counter0.out"});
 
     RTC::ExecutionContext_var own = counter.get_context(0);
@@ -44,20 +44,20 @@ TEST_CASE("The members of a composite run in its context one after the other and
     RTC::ExecutionContextList_var others = counter.get_participating_contexts();
     CHECK(others->length() == 1);
 
-    REQUIRE(stage.activate(whole) == RTC::RTC_OK);
-    for (int i = 0; i < 11; ++i) stage.step(whole); // the members become active in the first
+    REQUIRE(fixture.activate(whole) == RTC::RTC_OK);
+    for (int i = 0; i < 11; ++i) fixture.step(whole); // the members become active in the first
     CHECK(counter.value_.data == 11);
-    CHECK(summer.received_ == 11);
+    CHECK(accumulator.received_ == 11);
     REQUIRE(whole.deactivate(0) == RTC::RTC_OK);
-    stage.step(whole);
+    fixture.step(whole);
     CHECK(state_in(whole, counter) == RTC::INACTIVE_STATE);
     CHECK(counter.value_.data == 11);
 }
 
 TEST_CASE("Members come and go through the organization of the composite") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& whole = composite(stage, "exported_ports=Counter0.out");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& whole = composite(fixture, "exported_ports=Counter0.out");
     SDOPackage::Organization_var organization = organization_of(whole);
     CHECK(port_names(whole).empty());
 
@@ -72,8 +72,8 @@ TEST_CASE("Members come and go through the organization of the composite") {
     SDOPackage::SDOSystemElement_var owner = organization->get_owner();
     CHECK(owner->_is_equivalent(RTC::RTObject_var(whole.getObjRef()).in()));
 
-    stage.activate(whole);
-    stage.step(whole);
+    fixture.activate(whole);
+    fixture.step(whole);
     CHECK(counter.value_.data == 1);
     CHECK(organization->remove_member("Counter0"));
     CHECK(port_names(whole).empty());
@@ -82,8 +82,8 @@ TEST_CASE("Members come and go through the organization of the composite") {
     RTC::ExecutionContext_var own = counter.get_context(0);
     CHECK(own->is_running());
     CHECK_THROWS_AS(organization->remove_member("Counter0"), SDOPackage::InvalidParameter);
-    REQUIRE(stage.activate(counter) == RTC::RTC_OK);
-    stage.step(counter);
+    REQUIRE(fixture.activate(counter) == RTC::RTC_OK);
+    fixture.step(counter);
     CHECK(counter.value_.data == 2);
     counter.deactivate(0);
     CHECK(organization->set_members(members));
@@ -93,35 +93,35 @@ TEST_CASE("Members come and go through the organization of the composite") {
 
 TEST_CASE(
     "A member that leaves the manager leaves its composite, and a composite that leaves frees its members") {
-    Stage stage;
-    auto& first = stage.create<Counter>("Counter");
-    auto& second = stage.create<Counter>("Counter");
-    auto& whole = composite(stage, "members=Counter0, Counter1");
-    stage.activate(whole);
-    stage.step(whole);
+    ManagerFixture fixture;
+    auto& first = fixture.create<Counter>("Counter");
+    auto& second = fixture.create<Counter>("Counter");
+    auto& whole = composite(fixture, "members=Counter0, Counter1");
+    fixture.activate(whole);
+    fixture.step(whole);
     CHECK(first.exit() == RTC::RTC_OK);
     SDOPackage::Organization_var organization = organization_of(whole);
     SDOPackage::SDOList_var left = organization->get_members();
     CHECK(left->length() == 1);
-    stage.step(whole);
+    fixture.step(whole);
     CHECK(second.value_.data == 2);
     CHECK(whole.exit() == RTC::RTC_OK);
-    stage.manager().cleanupComponents();
-    CHECK(stage.activate(second) == RTC::RTC_OK);
-    stage.step(second);
+    fixture.manager().cleanupComponents();
+    CHECK(fixture.activate(second) == RTC::RTC_OK);
+    fixture.step(second);
     CHECK(second.value_.data == 3);
 }
 
 TEST_CASE("The exported ports follow the configuration") {
-    Stage stage;
-    stage.create<Counter>("Counter");
-    stage.create<Summer>("Summer");
-    auto& whole = composite(stage, "members=Counter0, Summer0&exported_ports=Counter0.out");
+    ManagerFixture fixture;
+    fixture.create<Counter>("Counter");
+    fixture.create<Accumulator>("Accumulator");
+    auto& whole = composite(fixture, "members=Counter0, Accumulator0&exported_ports=Counter0.out");
     SDOPackage::Configuration_var configuration = whole.get_configuration();
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
     coil::Properties change;
-    change.setProperty("exported_ports", "Summer0.in");
+    change.setProperty("exported_ports", "Accumulator0.in");
     NVUtil::copyFromProperties(set->configuration_data, change);
     CHECK(configuration->set_configuration_set_values(set.in()));
-    CHECK(port_names(whole) == std::vector<std::string>{"Summer0.in"});
+    CHECK(port_names(whole) == std::vector<std::string>{"Accumulator0.in"});
 }

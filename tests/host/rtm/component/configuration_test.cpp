@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/configuration/conf_file.hpp"
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <filesystem>
 #include <fstream>
 
 using namespace testing;
 
 TEST_CASE("A change of configuration is seen by onExecute one cycle later, never in the middle") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter?conf.fast.step=10");
-    stage.activate(counter);
-    stage.step(counter);
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter?conf.fast.step=10");
+    fixture.activate(counter);
+    fixture.step(counter);
     CHECK(counter.value_.data == 1);
 
     SDOPackage::Configuration_var configuration = counter.get_configuration();
@@ -18,10 +18,10 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     REQUIRE(sets->length() == 2);
     CHECK(configuration->activate_configuration_set("fast"));
     CHECK(counter.step_ == 1);
-    stage.step(counter);
+    fixture.step(counter);
     CHECK(counter.value_.data == 2);
     CHECK(counter.step_ == 10);
-    stage.step(counter);
+    fixture.step(counter);
     CHECK(counter.value_.data == 12);
 
     SDOPackage::ConfigurationSet_var active = configuration->get_active_configuration_set();
@@ -30,7 +30,7 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     change.setProperty("step", "no number");
     NVUtil::copyFromProperties(active->configuration_data, change);
     CHECK(configuration->set_configuration_set_values(active.in()));
-    stage.step(counter);
+    fixture.step(counter);
     CHECK(counter.step_ == 1); // what cannot be read gives the default
     CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
 }
@@ -44,24 +44,24 @@ TEST_CASE("A parameter that the profile does not mention is listed with its defa
         }
         std::string greeting;
     };
-    Stage stage;
+    ManagerFixture fixture;
     coil::Properties profile;
     for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Quiet");
-    stage.manager().registerFactory(profile, RTC::Create<Quiet>, RTC::Delete<Quiet>);
-    auto& quiet = stage.create<Quiet>("Quiet");
+    fixture.manager().registerFactory(profile, RTC::Create<Quiet>, RTC::Delete<Quiet>);
+    auto& quiet = fixture.create<Quiet>("Quiet");
     SDOPackage::Configuration_var configuration = quiet.get_configuration();
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
     coil::Properties listed = NVUtil::toProperties(set->configuration_data);
     CHECK(listed.getProperty("greeting") == "hello");
     CHECK(listed.getProperty("step") == "1");
-    stage.activate(quiet);
-    stage.step(quiet);
+    fixture.activate(quiet);
+    fixture.step(quiet);
     CHECK(quiet.greeting == "hello");
     CHECK(quiet.value_.data == 1);
     listed.setProperty("greeting", "bye");
     NVUtil::copyFromProperties(set->configuration_data, listed);
     CHECK(configuration->set_configuration_set_values(set.in()));
-    stage.step(quiet);
+    fixture.step(quiet);
     CHECK(quiet.greeting == "bye");
 }
 
@@ -96,21 +96,21 @@ TEST_CASE("A line that is no setting is named with file and line") {
 
 TEST_CASE("A component's own file and the arguments of its creation configure it, the arguments win") {
     ConfFile file("conf.default.step: 5\nexec_cxt.periodic.rate: 33\n");
-    Stage stage(true, {"test.Counter.config_file:" + file.path.string()});
-    auto& one = stage.create<Counter>("Counter");
-    auto& two = stage.create<Counter>("Counter?step=7");
+    ManagerFixture fixture(true, {"test.Counter.config_file:" + file.path.string()});
+    auto& one = fixture.create<Counter>("Counter");
+    auto& two = fixture.create<Counter>("Counter?step=7");
     CHECK(one.step_ == 5);
     CHECK(two.step_ == 7);
     CHECK(one.getExecutionRate(0) == 33);
-    CHECK_THROWS_WITH(stage.create<Counter>("Counter?step"), Catch::Contains("key=value"));
-    CHECK_THROWS_WITH(stage.create<Counter>("Cuonter"),
+    CHECK_THROWS_WITH(fixture.create<Counter>("Counter?step"), Catch::Contains("key=value"));
+    CHECK_THROWS_WITH(fixture.create<Counter>("Cuonter"),
                       Catch::Contains("known: ") && Catch::Contains("Counter"));
 }
 
 TEST_CASE("A component whose own file is not there has its defaults") {
-    Stage stage(true,
-                {"test.Counter.config_file:not_handed_on.conf", "test.Counter0.config_file:nor_this.conf"});
-    CHECK(stage.create<Counter>("Counter").step_ == 1);
+    ManagerFixture fixture(
+        true, {"test.Counter.config_file:not_handed_on.conf", "test.Counter0.config_file:nor_this.conf"});
+    CHECK(fixture.create<Counter>("Counter").step_ == 1);
 }
 
 TEST_CASE("Properties are a tree with defaults") {
@@ -164,10 +164,10 @@ TEST_CASE("Strings are split, trimmed and converted as component sources expect"
 
 TEST_CASE("The active set is what configuration.active_config says and what describes parameters is passed "
           "through") {
-    Stage stage;
+    ManagerFixture fixture;
     auto& counter =
-        stage.create<Counter>("Counter?conf.fast.step=10&configuration.active_config=fast"
-                              "&conf.__widget__.step=slider.1&conf.__constraints__.step=0<=x<=10");
+        fixture.create<Counter>("Counter?conf.fast.step=10&configuration.active_config=fast"
+                                "&conf.__widget__.step=slider.1&conf.__constraints__.step=0<=x<=10");
     CHECK(counter.step_ == 10);
     SDOPackage::Configuration_var configuration = counter.get_configuration();
     SDOPackage::ConfigurationSet_var active = configuration->get_active_configuration_set();
@@ -179,7 +179,7 @@ TEST_CASE("The active set is what configuration.active_config says and what desc
     RTC::ComponentProfile_var profile = counter.get_component_profile();
     CHECK(NVUtil::toString(profile->properties, "conf.__constraints__.step") == "0<=x<=10");
     CHECK_THROWS_AS(configuration->activate_configuration_set("__widget__"), SDOPackage::InvalidParameter);
-    auto& other = stage.create<Counter>("Counter?configuration.active_config=none");
+    auto& other = fixture.create<Counter>("Counter?configuration.active_config=none");
     CHECK(other.step_ == 1);
 }
 
@@ -201,8 +201,8 @@ struct Heard : RTC::ConfigurationParamListener,
 } // namespace
 
 TEST_CASE("Listeners hear of sets that are added set activated and removed and of parameters that change") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
     std::string story;
     Heard changed(story, "changed"), set(story, "set"), added(story, "added"), updated(story, "updated"),
         removed(story, "removed"), activated(story, "activated");
@@ -221,10 +221,10 @@ TEST_CASE("Listeners hear of sets that are added set activated and removed and o
     CHECK(configuration->add_configuration_set(fresh));
     CHECK(configuration->activate_configuration_set("fresh"));
     CHECK(std::exchange(story, "") == "added(fresh) activated(fresh) ");
-    stage.activate(counter);
+    fixture.activate(counter);
     CHECK(std::exchange(story, "") == "changed(fresh.step) updated(fresh) ");
     CHECK(configuration->set_configuration_set_values(fresh));
-    stage.step(counter);
+    fixture.step(counter);
     CHECK(std::exchange(story, "") == "set(fresh) updated(fresh) ");
     CHECK(configuration->activate_configuration_set("default"));
     CHECK(configuration->remove_configuration_set("fresh"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kinds of execution contexts: who runs a cycle, when, and what is counted.
 #include "host/rt/periodic_tick.hpp"
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/ExtTrigExecutionContext.h>
 #include <rtm/OpenHRPExecutionContext.h>
@@ -36,9 +36,9 @@ struct Ticker : RTC::DataFlowComponentBase {
     std::chrono::milliseconds slow_for{0};
 };
 
-Ticker& ticker(Stage& stage, const std::string& arguments) {
-    register_as<Ticker>(stage.manager(), "Ticker");
-    return stage.create<Ticker>("Ticker?" + arguments);
+Ticker& ticker(ManagerFixture& fixture, const std::string& arguments) {
+    register_component_type<Ticker>(fixture.manager(), "Ticker");
+    return fixture.create<Ticker>("Ticker?" + arguments);
 }
 
 bool reaches(Ticker& ticker, long cycles) {
@@ -55,8 +55,8 @@ Context& context_of(RTC::RTObject_impl& rtc, std::size_t index = 0) {
 } // namespace
 
 TEST_CASE("A periodic context counts its cycles, and those that were overrun") {
-    Stage stage(false);
-    auto& one = ticker(stage, "exec_cxt.periodic.rate=1000");
+    ManagerFixture fixture(false);
+    auto& one = ticker(fixture, "exec_cxt.periodic.rate=1000");
     one.slow_cycle = 5;
     one.slow_for = std::chrono::milliseconds(20);
     auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
@@ -76,8 +76,8 @@ TEST_CASE("A periodic context counts its cycles, and those that were overrun") {
 }
 
 TEST_CASE("Cycles and skipped periods together are all the periods there were: no drift") {
-    Stage stage(false);
-    auto& one = ticker(stage, "exec_cxt.periodic.rate=2000");
+    ManagerFixture fixture(false);
+    auto& one = ticker(fixture, "exec_cxt.periodic.rate=2000");
     auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
     REQUIRE(one.activate(0) == RTC::RTC_OK);
     REQUIRE(reaches(one, 10));
@@ -101,8 +101,8 @@ TEST_CASE("Cycles and skipped periods together are all the periods there were: n
 }
 
 TEST_CASE("A change of the rate is told once, and time goes on at the new one") {
-    Stage stage(false);
-    auto& one = ticker(stage, "exec_cxt.periodic.rate=100");
+    ManagerFixture fixture(false);
+    auto& one = ticker(fixture, "exec_cxt.periodic.rate=100");
     REQUIRE(one.activate(0) == RTC::RTC_OK);
     CHECK(one.setExecutionRate(0, 500) == RTC::RTC_OK);
     CHECK(one.setExecutionRate(0, 0) == RTC::BAD_PARAMETER);
@@ -129,9 +129,9 @@ TEST_CASE("What is rehearsed before a tick calls neither the component nor its l
         void operator()(RTC::UniqueId, RTC::ReturnCode_t) override { ++calls; }
         long& calls;
     };
-    Stage stage(false, {}, std::chrono::milliseconds(1));
-    register_as<Actor>(stage.manager(), "Actor");
-    auto& one = stage.create<Actor>("Actor?exec_cxt.periodic.rate=500");
+    ManagerFixture fixture(false, {}, std::chrono::milliseconds(1));
+    register_component_type<Actor>(fixture.manager(), "Actor");
+    auto& one = fixture.create<Actor>("Actor?exec_cxt.periodic.rate=500");
     one.addPreComponentActionListener(RTC::PRE_ON_EXECUTE, new Before(one.before_execute));
     one.addPreComponentActionListener(RTC::PRE_ON_STATE_UPDATE, new Before(one.before_update));
     one.addPostComponentActionListener(RTC::POST_ON_EXECUTE, new After(one.after_execute));
@@ -154,9 +154,9 @@ TEST_CASE("What is rehearsed before a tick calls neither the component nor its l
 }
 
 TEST_CASE("A context that several start and stop at the same time does in the end what it was told last") {
-    Stage stage(false);
-    auto& one = ticker(stage, "exec_cxt.periodic.rate=1000");
-    REQUIRE(Stage::activate(one) == RTC::RTC_OK);
+    ManagerFixture fixture(false);
+    auto& one = ticker(fixture, "exec_cxt.periodic.rate=1000");
+    REQUIRE(ManagerFixture::activate(one) == RTC::RTC_OK);
     auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
     std::vector<std::thread> tools;
     for (int t = 0; t < 4; ++t)
@@ -185,9 +185,9 @@ TEST_CASE("A component that stops its context within a cycle can be started agai
         std::atomic<long> cycles{0};
         std::atomic<RTC::ReturnCode_t> stopped{RTC::RTC_ERROR}, started{RTC::RTC_ERROR};
     };
-    Stage stage(false);
-    register_as<Stopper>(stage.manager(), "Stopper");
-    auto& one = stage.create<Stopper>("Stopper?exec_cxt.periodic.rate=1000");
+    ManagerFixture fixture(false);
+    register_component_type<Stopper>(fixture.manager(), "Stopper");
+    auto& one = fixture.create<Stopper>("Stopper?exec_cxt.periodic.rate=1000");
     CORBA_RTCUtil::activate(RTC::RTObject_var(one.getObjRef()).in());
     auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
     for (long life = 1; life <= 3; ++life) {
@@ -201,11 +201,11 @@ TEST_CASE("A component that stops its context within a cycle can be started agai
 }
 
 TEST_CASE("Each tick of an externally triggered context is one cycle in the thread of the context") {
-    Stage stage(false);
-    auto& one = ticker(stage, "exec_cxt.periodic.type=ExtTrigExecutionContext");
+    ManagerFixture fixture(false);
+    auto& one = ticker(fixture, "exec_cxt.periodic.type=ExtTrigExecutionContext");
     auto& context = context_of<RTC::ExtTrigExecutionContext>(one);
     REQUIRE(one.activate(0) == RTC::RTC_OK);
-    CHECK(stage.state(one) == RTC::ACTIVE_STATE);
+    CHECK(fixture.state(one) == RTC::ACTIVE_STATE);
     CHECK(one.count() == 0);
     for (int i = 0; i < 100; ++i) context.tick();
     REQUIRE(reaches(one, 100));
@@ -218,9 +218,9 @@ TEST_CASE("Each tick of an externally triggered context is one cycle in the thre
 TEST_CASE("Each tick of a synchronously triggered context is one cycle in the thread of the caller") {
     const std::string type =
         GENERATE("SynchExtTriggerEC", "OpenHRPExecutionContext", "SimulatorExecutionContext");
-    static Stage stage(false);
-    register_as<Ticker>(stage.manager(), "Ticker");
-    auto& one = stage.create<Ticker>("Ticker?exec_cxt.periodic.type=" + type);
+    static ManagerFixture fixture(false);
+    register_component_type<Ticker>(fixture.manager(), "Ticker");
+    auto& one = fixture.create<Ticker>("Ticker?exec_cxt.periodic.type=" + type);
     RTC::ExecutionContext_var reference = one.get_context(0);
     auto context = OpenRTM::ExtTrigExecutionContextService::_narrow(reference.in());
     REQUIRE_FALSE(CORBA::is_nil(context));
@@ -234,30 +234,30 @@ TEST_CASE("Each tick of a synchronously triggered context is one cycle in the th
 }
 
 TEST_CASE("A component has the contexts that execution_contexts lists, each with its own options") {
-    Stage stage(false);
+    ManagerFixture fixture(false);
     auto& one =
-        ticker(stage, "execution_contexts=PeriodicExecutionContext(fast), ExtTrigExecutionContext(hand)"
-                      "&ec.fast.rate=250&ec.ExtTrigExecutionContext.sync_transition=NO");
+        ticker(fixture, "execution_contexts=PeriodicExecutionContext(fast), ExtTrigExecutionContext(hand)"
+                        "&ec.fast.rate=250&ec.ExtTrigExecutionContext.sync_transition=NO");
     REQUIRE(one.getOwnContexts().size() == 2);
     CHECK(context_of<RTC_exp::PeriodicExecutionContext>(one, 0).getRate() == 250);
     CHECK(context_of<RTC::ExtTrigExecutionContext>(one, 1).getProperties().getProperty("name") == "hand");
     CHECK(one.activate(0) == RTC::RTC_OK);
     CHECK(one.activate(1) == RTC::RTC_OK);
 
-    auto& none = stage.create<Ticker>("Ticker?execution_contexts=None");
+    auto& none = fixture.create<Ticker>("Ticker?execution_contexts=None");
     CHECK(none.getOwnContexts().empty());
-    CHECK_THROWS_WITH(stage.create<Ticker>("Ticker?execution_contexts=NoSuchEC(x)"),
+    CHECK_THROWS_WITH(fixture.create<Ticker>("Ticker?execution_contexts=NoSuchEC(x)"),
                       Catch::Contains("NoSuchEC"));
-    CHECK_THROWS_WITH(stage.create<Ticker>("Ticker?execution_contexts=NoSuchEC(x"),
+    CHECK_THROWS_WITH(fixture.create<Ticker>("Ticker?execution_contexts=NoSuchEC(x"),
                       Catch::Contains("type(name)"));
 }
 
 TEST_CASE("Without sync_transition a request returns before it is carried out") {
-    Stage stage(false);
-    auto& one = ticker(stage, "exec_cxt.periodic.rate=5&exec_cxt.sync_activation=NO");
+    ManagerFixture fixture(false);
+    auto& one = ticker(fixture, "exec_cxt.periodic.rate=5&exec_cxt.sync_activation=NO");
     REQUIRE(one.activate(0) == RTC::RTC_OK);
-    CHECK(stage.state(one) == RTC::INACTIVE_STATE); // the next cycle is up to 200 ms away
+    CHECK(fixture.state(one) == RTC::INACTIVE_STATE); // the next cycle is up to 200 ms away
     REQUIRE(reaches(one, 1));
     CHECK(one.deactivate(0) == RTC::RTC_OK);
-    CHECK(stage.state(one) == RTC::INACTIVE_STATE);
+    CHECK(fixture.state(one) == RTC::INACTIVE_STATE);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What libraries add to the manager: contexts, streams of log lines, tasks, names, numbering.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <chrono>
 #include <rtm/ExtTrigExecutionContext.h>
 #include <rtm/LogstreamBase.h>
@@ -46,8 +46,8 @@ TEST_CASE("an execution context type of a library is made when a component asks 
     RTC::ExecutionContextFactory::instance().addFactory(
         "NamedContext", coil::Creator<RTC::ExecutionContextBase, NamedContext>,
         coil::Destructor<RTC::ExecutionContextBase, NamedContext>);
-    Stage stage(false);
-    auto& counter = stage.create<Counter>("Counter?execution_contexts=NamedContext(mine)");
+    ManagerFixture fixture(false);
+    auto& counter = fixture.create<Counter>("Counter?execution_contexts=NamedContext(mine)");
     REQUIRE(counter.getOwnContexts().size() == 1);
     CHECK(dynamic_cast<NamedContext*>(counter.getOwnContexts()[0]) != nullptr);
 }
@@ -55,9 +55,9 @@ TEST_CASE("an execution context type of a library is made when a component asks 
 TEST_CASE("a log stream of a library gets every line from activation to shutdown") {
     register_lines();
     {
-        Stage stage(true, {"logger.logstream.lines.prefix:>"});
+        ManagerFixture fixture(true, {"logger.logstream.lines.prefix:>"});
         RTC::Logger("before").write(RTC::Logger::RTL_WARN, "a");
-        stage.manager().activateOrThrow();
+        fixture.manager().activateOrThrow();
         RTC::Logger("during").write(RTC::Logger::RTL_WARN, "b");
     }
     RTC::Logger("after").write(RTC::Logger::RTL_WARN, "c");
@@ -66,8 +66,8 @@ TEST_CASE("a log stream of a library gets every line from activation to shutdown
 
 TEST_CASE("a log stream that is not configured is not made") {
     register_lines();
-    Stage stage;
-    stage.manager().activateOrThrow();
+    ManagerFixture fixture;
+    fixture.manager().activateOrThrow();
     RTC::Logger("during").write(RTC::Logger::RTL_WARN, "b");
     CHECK(heard.empty());
 }
@@ -75,8 +75,8 @@ TEST_CASE("a log stream that is not configured is not made") {
 TEST_CASE("a log stream whose init fails is an error that names its key") {
     register_lines();
     init_succeeds = false;
-    Stage stage(true, {"logger.logstream.lines.prefix:>"});
-    CHECK_THROWS_WITH(stage.manager().activateOrThrow(), Catch::Contains("logger.logstream.lines"));
+    ManagerFixture fixture(true, {"logger.logstream.lines.prefix:>"});
+    CHECK_THROWS_WITH(fixture.manager().activateOrThrow(), Catch::Contains("logger.logstream.lines"));
 }
 
 TEST_CASE("a stream that was removed gets no more lines and one that logs does not hear itself") {
@@ -99,8 +99,8 @@ TEST_CASE("a stream that was removed gets no more lines and one that logs does n
 }
 
 TEST_CASE("a task runs in the manager's thread until it is removed") {
-    Stage stage(false, {"manager.shutdown_auto:NO", "manager.shutdown_on_nortcs:NO"});
-    RTC::Manager& manager = stage.manager();
+    ManagerFixture fixture(false, {"manager.shutdown_auto:NO", "manager.shutdown_on_nortcs:NO"});
+    RTC::Manager& manager = fixture.manager();
     std::atomic<int> runs{0};
     RTC::Manager::TaskId id = nullptr;
     id = manager.addTask(
@@ -117,20 +117,20 @@ TEST_CASE("a task runs in the manager's thread until it is removed") {
 }
 
 TEST_CASE("a numbering policy of one's own names the instances of a factory") {
-    Stage stage;
+    ManagerFixture fixture;
     coil::Properties profile;
     profile.setProperty("type_name", "Counter");
     RTC::FactoryCXX factory(profile, RTC::Create<Counter>, RTC::Delete<Counter>, new Tens);
-    RTC::RTObject_impl* component = factory.create(&stage.manager());
+    RTC::RTObject_impl* component = factory.create(&fixture.manager());
     REQUIRE(component != nullptr);
     CHECK(std::string(component->getInstanceName()) == "Counter10");
     factory.destroy(component);
 }
 
 TEST_CASE("the naming manager finds components of this process and knows what it has bound") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    RTC::NamingManager& naming = *stage.manager().getNaming();
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    RTC::NamingManager& naming = *fixture.manager().getNaming();
     const RTC::RTCList found = naming.string_to_component("Counter0");
     REQUIRE(found.length() == 1);
     CHECK(found[0]->_is_equivalent(RTC::RTObject_var(counter.getObjRef()).in()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // State machines of components: an oven's, told by events that come through a port.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/EventPort.h>
 
 using namespace testing;
@@ -210,28 +210,28 @@ TEST_CASE("States have data, and values can be handed to the state that is enter
 
 TEST_CASE(
     "Events come through a port, each over the connection that names it, and run when the component does") {
-    Stage stage;
-    register_as<Oven>(stage.manager(), "Oven");
-    auto& rtc = stage.create<Oven>("Oven");
-    auto& buttons = stage.create<Recorder>("Recorder");
+    ManagerFixture fixture;
+    register_component_type<Oven>(fixture.manager(), "Oven");
+    auto& rtc = fixture.create<Oven>("Oven");
+    auto& buttons = fixture.create<Recorder>("Recorder");
     RTC::TimedLong value{};
     RTC::OutPort<RTC::TimedLong> minute("minute", value), start("start", value), tick("tick", value);
     for (auto* port : {&minute, &start, &tick}) buttons.addOutPort(port->name(), *port);
-    stage.connect("Recorder0.minute?port=Oven0.event&fsm_event_name=minutes");
-    stage.connect("Recorder0.start?port=Oven0.event&fsm_event_name=start");
-    stage.connect("Recorder0.tick?port=Oven0.event&fsm_event_name=tick&interface_type=direct");
-    stage.activate(rtc);
+    fixture.connect("Recorder0.minute?port=Oven0.event&fsm_event_name=minutes");
+    fixture.connect("Recorder0.start?port=Oven0.event&fsm_event_name=start");
+    fixture.connect("Recorder0.tick?port=Oven0.event&fsm_event_name=tick&interface_type=direct");
+    fixture.activate(rtc);
     told();
 
     value.data = 1;
     CHECK(minute.write());
     CHECK(start.write());
     CHECK(told().empty());
-    stage.step(rtc);
+    fixture.step(rtc);
     CHECK(told() == "-Idle +Programmed +Heating ");
     CHECK(rtc.fsm.box().minutes == 1);
     tick.write();
-    stage.step(rtc);
+    fixture.step(rtc);
     CHECK(told() == "-Heating -Programmed +Idle ");
     for (auto* port : {&minute, &start, &tick}) buttons.removePort(*port);
 }
@@ -250,9 +250,9 @@ struct StateHeard : RTC::PostFsmActionListener {
 
 TEST_CASE("A component's listeners hear of the states its machine enters, a full queue of events keeps its "
           "bounds") {
-    Stage stage;
-    register_as<Oven>(stage.manager(), "Oven");
-    auto& rtc = stage.create<Oven>("Oven");
+    ManagerFixture fixture;
+    register_component_type<Oven>(fixture.manager(), "Oven");
+    auto& rtc = fixture.create<Oven>("Oven");
     std::string entered;
     rtc.addPostFsmActionListener(RTC::PostFsmActionListenerType::POST_ON_ENTRY, new StateHeard(entered));
     rtc.fsm->open();

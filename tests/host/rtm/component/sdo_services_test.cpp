@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SDO services: what a component offers to tools, and what tools give it to use.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/SdoServiceConsumerBase.h>
 #include <rtm/SdoServiceProviderBase.h>
 
@@ -56,8 +56,8 @@ TEST_CASE("A component offers the SDO services whose providers a library has bro
         "IDL:test/Offered:1.0", coil::Creator<RTC::SdoServiceProviderBase, Offered>,
         coil::Destructor<RTC::SdoServiceProviderBase, Offered>);
     {
-        Stage stage;
-        RTC::RTObject_var rtc = stage.create<Counter>("Counter").getObjRef();
+        ManagerFixture fixture;
+        RTC::RTObject_var rtc = fixture.create<Counter>("Counter").getObjRef();
         SDOPackage::ServiceProfileList_var profiles = rtc->get_service_profiles();
         REQUIRE(profiles->length() == 1);
         CHECK(std::string(profiles[0].id) == "IDL:test/Offered:1.0");
@@ -70,8 +70,8 @@ TEST_CASE("A component offers the SDO services whose providers a library has bro
 }
 
 TEST_CASE("A component adds and removes SDO services of its own") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
     CHECK(counter.addSdoServiceProvider(profile_of("mine", "IDL:test/Offered:1.0"), new Offered));
     SDOPackage::ServiceProfile_var found = counter.get_service_profile("mine");
     CHECK(std::string(found->interface_type) == "IDL:test/Offered:1.0");
@@ -85,8 +85,8 @@ TEST_CASE("A component uses the SDO services that a tool gives it until they are
     RTC::SdoServiceConsumerFactory::instance().addFactory(
         "IDL:test/Used:1.0", coil::Creator<RTC::SdoServiceConsumerBase, Used>,
         coil::Destructor<RTC::SdoServiceConsumerBase, Used>);
-    Stage stage;
-    RTC::RTObject_var rtc = stage.create<Counter>("Counter").getObjRef();
+    ManagerFixture fixture;
+    RTC::RTObject_var rtc = fixture.create<Counter>("Counter").getObjRef();
     SDOPackage::Configuration_var configuration = rtc->get_configuration();
     CHECK_FALSE(configuration->add_service_profile(profile_of("a", "IDL:test/Unknown:1.0")));
     CHECK(configuration->add_service_profile(profile_of("a", "IDL:test/Used:1.0")));

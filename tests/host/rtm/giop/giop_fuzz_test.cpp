@@ -3,8 +3,8 @@
 // keeps every connection of others and grows neither in memory nor in descriptors. TANDEM_STRESS=100 makes it
 // 10^6 messages.
 #include "giop_mutator.hpp"
-#include "tests/host/rtm/fixture.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <cstdlib>
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/NVUtil.h>
@@ -33,19 +33,19 @@ SDOPackage::NVList some_properties() {
 }
 
 /// The components that are there to be broken, and sound calls of everything they and their manager offer.
-class Victims {
+class FuzzTargets {
   public:
-    Victims(const OtherHost& host, CORBA::ORB_ptr orb)
+    FuzzTargets(const RemoteHost& host, CORBA::ORB_ptr orb)
         : orb_(CORBA::ORB::_duplicate(orb)), manager_(host.manager(orb)) {}
 
     /// Ends and makes anew the components, and lists their calls.
     std::vector<Call> renewed() {
         calls_.clear();
         add_manager();
-        for (const char* type : {"Counter", "Summer", "CalculatorProvider", "CalculatorConsumer"}) {
-            const std::string name = std::string("Victim") + type;
+        for (const char* type : {"Counter", "Accumulator", "CalculatorProvider", "CalculatorConsumer"}) {
+            const std::string name = std::string("Target") + type;
             manager_->delete_component(name.c_str());
-            REQUIRE(soon([&] {
+            REQUIRE(eventually([&] {
                 RTC::RTCList_var left = manager_->get_components_by_name(name.c_str());
                 return left->length() == 0;
             }));
@@ -184,16 +184,16 @@ class Victims {
 };
 
 /// A client without manners, on one connection after the other.
-class Nuisance {
+class FuzzClient {
   public:
-    Nuisance(std::string port, unsigned seed) : port_(std::move(port)), mutator_(seed) {}
-    ~Nuisance() { hang_up(); }
+    FuzzClient(std::string port, unsigned seed) : port_(std::move(port)), mutator_(seed) {}
+    ~FuzzClient() { hang_up(); }
 
     void send_one(const std::vector<Call>& calls) {
         for (const auto& message : mutator_.next(calls)) {
-            if (fd_ < 0) fd_ = connected(port_);
+            if (fd_ < 0) fd_ = connect_loopback(port_);
             REQUIRE(fd_ >= 0);
-            const bool taken = sent(fd_, message);
+            const bool taken = send_all(fd_, message);
             char answer[4096];
             while (recv(fd_, answer, sizeof answer, MSG_DONTWAIT) > 0) continue;
             if (!taken) hang_up(); // the host has hung up
@@ -220,48 +220,50 @@ TEST_CASE("A host outlives broken GIOP messages to all its servants and serves i
     // frames that tell its leaks from ours are missing. What our code leaks, the host's growth shows.
     setenv("LSAN_OPTIONS", "detect_leaks=0", 1);
     // References in broken messages may name any address: only those of this machine are called.
-    OtherHost other("Counter", free_port(),
-                    {"manager.components.preactivation:Counter0", "logger.enable:NO",
-                     "corba.args:-ORBclientTransportRule \"127.0.0.1/255.255.255.255 tcp\" "
-                     "-ORBclientTransportRule \"* none\" -ORBclientCallTimeOutPeriod 1000"});
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage(false, {"exec_cxt.periodic.rate:200"});
-    auto* orb = stage.manager().theORB();
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Summer0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out&buffer.length=10000");
-    REQUIRE(Stage::activate(summer) == RTC::RTC_OK);
+    RemoteHost other("Counter", unused_port(),
+                     {"manager.components.preactivation:Counter0", "logger.enable:NO",
+                      "corba.args:-ORBclientTransportRule \"127.0.0.1/255.255.255.255 tcp\" "
+                      "-ORBclientTransportRule \"* none\" -ORBclientCallTimeOutPeriod 1000"});
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false, {"exec_cxt.periodic.rate:200"});
+    auto* orb = fixture.manager().theORB();
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port +
+                    "/Counter0.out&buffer.length=10000");
+    REQUIRE(ManagerFixture::activate(accumulator) == RTC::RTC_OK);
     RTC::RTObject_var counter = other.component(orb, "Counter0");
-    REQUIRE(soon([&] { return summer.received_ > 10; }));
+    REQUIRE(eventually([&] { return accumulator.received_ > 10; }));
 
-    Victims victims(other, orb);
-    victims.renewed();
-    const std::size_t descriptors = other.host.descriptors();
-    const long memory = other.host.memory();
+    FuzzTargets targets(other, orb);
+    targets.renewed();
+    const std::size_t descriptors = other.host.descriptor_count();
+    const long memory = other.host.memory_mb();
     for (long round = 0; round < messages / each_round; ++round) {
         INFO("round " << round << "; the host: " << other.host.errors);
-        const auto calls = victims.renewed();
+        const auto calls = targets.renewed();
         REQUIRE(calls.size() > 200);
-        Nuisance nuisance(other.port, static_cast<unsigned>(20261121 + round));
-        for (long i = 0; i < each_round; ++i) nuisance.send_one(calls);
+        FuzzClient client(other.port, static_cast<unsigned>(20261121 + round));
+        for (long i = 0; i < each_round; ++i) client.send_one(calls);
         REQUIRE(CORBA_RTCUtil::is_in_active(counter.in()));
     }
-    const long before = summer.received_;
-    RTC::ConnectorProfileList_var standing = summer.in_.get_connector_profiles();
+    const long before = accumulator.received_;
+    RTC::ConnectorProfileList_var standing = accumulator.in_.get_connector_profiles();
     CHECK(standing->length() == 1);
-    CHECK(soon([&] { return summer.received_ > before + 10; }));
+    CHECK(eventually([&] { return accumulator.received_ > before + 10; }));
     // 1 + 2 + ... + n: none was lost or changed. The one that is being added may be in one count only.
-    RTC::RTObject_var here = summer.getObjRef();
+    RTC::RTObject_var here = accumulator.getObjRef();
     CORBA_RTCUtil::deactivate(here.in());
-    const long n = summer.received_, first = summer.value_.data - n + 1;
-    CHECK(summer.sum_ == n * (first + summer.value_.data) / 2);
-    victims.renewed();
+    const long n = accumulator.received_, first = accumulator.value_.data - n + 1;
+    CHECK(accumulator.sum_ == n * (first + accumulator.value_.data) / 2);
+    targets.renewed();
     // omniORB forgets 3 to 5 of 10^6 connections that end with a broken message: their sockets stay, half
     // closed, and its scan for idle connections only shuts them down.
     const auto bound = descriptors + 4 + static_cast<std::size_t>(messages / 100000);
-    const bool flat = soon([&] { return other.host.descriptors() <= bound; });
-    CAPTURE(descriptors, other.host.descriptors());
+    const bool flat = eventually([&] { return other.host.descriptor_count() <= bound; });
+    CAPTURE(descriptors, other.host.descriptor_count());
     CHECK(flat);
-    INFO("MB before " << memory << ", after " << other.host.memory() << ", peak " << other.host.memory(true));
+    INFO("MB before " << memory << ", after " << other.host.memory_mb() << ", peak "
+                      << other.host.memory_mb(true));
     // omniORB never frees the GIOP_S, with its 8 kB buffers, of a connection that ends after its reply was
     // sent (giopStrand::releaseServer): 130 to 200 B for each of these messages, nearly all that
     // LeakSanitizer finds. The rest is the allocator's, after messages that took 1 GB while they were
@@ -269,10 +271,10 @@ TEST_CASE("A host outlives broken GIOP messages to all its servants and serves i
     // The address sanitizer's allocator gives even less back: 660 MB more after 10^6.
     const long kept = 200 + messages / 4000;
 #ifdef __SANITIZE_ADDRESS__
-    CHECK(other.host.memory() < memory + 2 * kept);
+    CHECK(other.host.memory_mb() < memory + 2 * kept);
 #else
-    CHECK(other.host.memory() < memory + kept);
+    CHECK(other.host.memory_mb() < memory + kept);
 #endif
-    other.host.send(SIGTERM);
-    CHECK(other.host.wait() == 0);
+    other.host.send_signal(SIGTERM);
+    CHECK(other.host.wait_for_exit() == 0);
 }

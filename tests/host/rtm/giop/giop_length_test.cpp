@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A length within an `any` that is not so, in a request that is otherwise sound.
 #include "giop_message.hpp"
-#include "tests/host/rtm/fixture.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 
 using namespace testing;
 
 TEST_CASE("A string in an any that says to be longer than its message is refused and the host lives on") {
-    OtherHost other("Summer");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    auto* orb = stage.manager().theORB();
-    RTC::RTObject_var summer = other.component(orb, "Summer0");
-    SDOPackage::Configuration_var configuration = summer->get_configuration();
+    RemoteHost other("Accumulator");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto* orb = fixture.manager().theORB();
+    RTC::RTObject_var accumulator = other.component(orb, "Accumulator0");
+    SDOPackage::Configuration_var configuration = accumulator->get_configuration();
     SDOPackage::ConfigurationSet set;
     set.id = CORBA::string_dup("late");
     set.description = CORBA::string_dup("");
@@ -29,9 +29,9 @@ TEST_CASE("A string in an any that says to be longer than its message is refused
                 arguments.size() - text.size() - 1 - 4; // the string is the last of the message
             for (std::size_t i = 0; i < 4; ++i)
                 arguments[at + i] = static_cast<unsigned char>(length >> 8 * (little ? i : 3 - i));
-            const int fd = connected(other.port);
+            const int fd = connect_loopback(other.port);
             REQUIRE(fd >= 0);
-            CHECK(sent(fd, request(sound.key, sound.operation, arguments, 2, little)));
+            CHECK(send_all(fd, request(sound.key, sound.operation, arguments, 2, little)));
             unsigned char answer[24] = {};
             CHECK(recv(fd, answer, sizeof answer, MSG_WAITALL) == 24);
             CHECK(answer[7] == 1);                        // a reply ...

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Requests that are well-formed and ask for too much: for memory, for a circle, for a clock that cannot be.
 #include "giop_message.hpp"
-#include "tests/host/rtm/fixture.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <limits>
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/NVUtil.h>
@@ -35,13 +35,13 @@ Call with_length(Call call, std::size_t at, std::uint32_t length) {
 } // namespace
 
 TEST_CASE("A length that is not so takes no memory and is refused") {
-    OtherHost other("Summer");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    auto* orb = stage.manager().theORB();
-    RTC::RTObject_var summer = other.component(orb, "Summer0");
+    RemoteHost other("Accumulator");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto* orb = fixture.manager().theORB();
+    RTC::RTObject_var accumulator = other.component(orb, "Accumulator0");
     RTM::Manager_var manager = other.manager(orb);
-    RTC::PortService_var in = CORBA_RTCUtil::get_port_by_name(summer.in(), "in");
+    RTC::PortService_var in = CORBA_RTCUtil::get_port_by_name(accumulator.in(), "in");
     RTC::ConnectorProfile profile = connection({in.in()});
     REQUIRE(in->notify_connect(profile) == RTC::RTC_OK);
     CORBA::Object_var inlet =
@@ -50,42 +50,44 @@ TEST_CASE("A length that is not so takes no memory and is refused") {
                           call("manager", "set_configuration", CORBA::ULong(0)),
                           call(object_key(orb, in.in()), "notify_disconnect", CORBA::ULong(0)),
                           call(object_key(orb, in.in()), "notify_connect", "c", "c", CORBA::ULong(0))};
-    const long before = other.host.memory(true);
+    const long before = other.host.memory_mb(true);
     for (const auto& one : sound)
         for (const std::uint32_t length : {0x7fffffffu, 0x80000000u, 0xffffffffu, 0x3ffffffu})
             for (const bool little : {false, true}) {
                 CAPTURE(one.operation, length, little);
                 const Call broken = with_length(one, one.arguments[little].size() - 4, length);
-                const int fd = connected(other.port);
+                const int fd = connect_loopback(other.port);
                 REQUIRE(fd >= 0);
-                CHECK(sent(fd, request(broken.key, broken.operation, broken.arguments[little], 2, little)));
+                CHECK(
+                    send_all(fd, request(broken.key, broken.operation, broken.arguments[little], 2, little)));
                 unsigned char answer[24] = {};
                 CHECK(recv(fd, answer, sizeof answer, MSG_WAITALL) == 24);
                 CHECK(answer[7] == 1);  // a reply ...
                 CHECK(answer[16] == 2); // ... of a system exception, in the order of this machine
                 close(fd);
             }
-    CHECK(other.host.memory(true) < before + 50);
+    CHECK(other.host.memory_mb(true) < before + 50);
     RTC::RTCList_var components = manager->get_components();
     CHECK(components->length() == 1);
 }
 
 TEST_CASE("What no component can do is refused and its host lives on") {
-    OtherHost other("Summer,Counter");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    auto* orb = stage.manager().theORB();
-    RTC::RTObject_var summer = other.component(orb, "Summer0"), counter = other.component(orb, "Counter0");
-    RTC::PortService_var in = CORBA_RTCUtil::get_port_by_name(summer.in(), "in"),
+    RemoteHost other("Accumulator,Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto* orb = fixture.manager().theORB();
+    RTC::RTObject_var accumulator = other.component(orb, "Accumulator0"),
+                      counter = other.component(orb, "Counter0");
+    RTC::PortService_var in = CORBA_RTCUtil::get_port_by_name(accumulator.in(), "in"),
                          out = CORBA_RTCUtil::get_port_by_name(counter.in(), "out");
-    const long before = other.host.memory(true);
+    const long before = other.host.memory_mb(true);
 
-    RTC::ExecutionContextList_var contexts = summer->get_owned_contexts();
+    RTC::ExecutionContextList_var contexts = accumulator->get_owned_contexts();
     for (const double rate : {0., -1., 1e10, 1e308, 1e-300, std::numeric_limits<double>::infinity(),
                               std::numeric_limits<double>::quiet_NaN()})
         CHECK(contexts[0]->set_rate(rate) == RTC::BAD_PARAMETER);
     CHECK(contexts[0]->set_rate(1000) == RTC::RTC_OK);
-    CHECK(summer->initialize() == RTC::PRECONDITION_NOT_MET);
+    CHECK(accumulator->initialize() == RTC::PRECONDITION_NOT_MET);
 
     RTC::ConnectorProfile twice = connection({in.in(), in.in()});
     CHECK(in->connect(twice) != RTC::RTC_OK);
@@ -121,55 +123,55 @@ TEST_CASE("What no component can do is refused and its host lives on") {
         set.id = CORBA::string_dup(id);
         CHECK_FALSE(configuration->add_configuration_set(set));
     }
-    INFO("MB before " << before << ", peak " << other.host.memory(true));
+    INFO("MB before " << before << ", peak " << other.host.memory_mb(true));
 #ifdef __SANITIZE_THREAD__
     constexpr long more = 300; // a key of 2 MB, and the million nodes it makes, are shadowed
 #else
     constexpr long more = 100;
 #endif
-    CHECK(other.host.memory(true) < before + more);
-    CHECK(stage.manager().getComponents().empty());
-    other.host.send(SIGTERM);
-    CHECK(other.host.wait() == 0);
+    CHECK(other.host.memory_mb(true) < before + more);
+    CHECK(fixture.manager().getComponents().empty());
+    other.host.send_signal(SIGTERM);
+    CHECK(other.host.wait_for_exit() == 0);
 }
 
 TEST_CASE(
     "Connections that say nothing and more than there are descriptors for do not touch those that stand") {
-    OtherHost other("Counter", free_port(), {"manager.components.preactivation:Counter0"});
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage(false, {"exec_cxt.periodic.rate:200"});
-    auto* orb = stage.manager().theORB();
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Summer0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out");
-    REQUIRE(Stage::activate(summer) == RTC::RTC_OK);
+    RemoteHost other("Counter", unused_port(), {"manager.components.preactivation:Counter0"});
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false, {"exec_cxt.periodic.rate:200"});
+    auto* orb = fixture.manager().theORB();
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out");
+    REQUIRE(ManagerFixture::activate(accumulator) == RTC::RTC_OK);
     RTM::Manager_var manager = other.manager(orb);
     REQUIRE_FALSE(manager->is_master());
-    REQUIRE(soon([&] { return summer.received_ > 10; }));
-    const std::size_t before = other.host.descriptors();
+    REQUIRE(eventually([&] { return accumulator.received_ > 10; }));
+    const std::size_t before = other.host.descriptor_count();
     const rlimit few{before + 60, before + 60};
     REQUIRE(prlimit(other.host.pid(), RLIMIT_NOFILE, &few, nullptr) == 0);
 
     const Bytes whole = request("manager", "get_components", {}, 2, true);
     std::vector<int> open;
     for (std::size_t i = 0; i < 120; ++i) { // twice as many as it can take
-        const int fd = connected(other.port);
+        const int fd = connect_loopback(other.port);
         if (fd < 0) continue; // the queue of those that wait is full as well
         open.push_back(fd);
-        sent(fd, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(i % whole.size())));
+        send_all(fd, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(i % whole.size())));
     }
     CHECK(open.size() > 60);
     for (int i = 0; i < 20; ++i) CHECK_FALSE(manager->is_master());
-    const long received = summer.received_;
-    CHECK(soon([&] { return summer.received_ > received + 20; }));
+    const long received = accumulator.received_;
+    CHECK(eventually([&] { return accumulator.received_ > received + 20; }));
     for (const int fd : open) close(fd);
-    CHECK(soon([&] { return other.host.descriptors() <= before + 1; }));
-    const int fd = connected(other.port);
+    CHECK(eventually([&] { return other.host.descriptor_count() <= before + 1; }));
+    const int fd = connect_loopback(other.port);
     REQUIRE(fd >= 0);
-    CHECK(sent(fd, whole));
+    CHECK(send_all(fd, whole));
     unsigned char answer[12] = {};
     CHECK(recv(fd, answer, sizeof answer, MSG_WAITALL) == 12);
     close(fd);
-    RTC::RTObject_var here = summer.getObjRef();
+    RTC::RTObject_var here = accumulator.getObjRef();
     CORBA_RTCUtil::deactivate(here.in());
-    CHECK(summer.sum_ > 0);
+    CHECK(accumulator.sum_ > 0);
 }

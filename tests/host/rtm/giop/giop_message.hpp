@@ -158,7 +158,7 @@ inline std::vector<Bytes> in_fragments(const Bytes& whole, std::size_t first, st
 }
 
 /// A socket to the port on the loopback interface, or -1.
-inline int connected(const std::string& port) {
+inline int connect_loopback(const std::string& port) {
     const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -172,7 +172,7 @@ inline int connected(const std::string& port) {
     return -1;
 }
 
-inline bool sent(int fd, const Bytes& message) {
+inline bool send_all(int fd, const Bytes& message) {
     return send(fd, message.data(), message.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(message.size());
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/configuration/conf_file.hpp"
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <filesystem>
 #include <fstream>
 
@@ -12,7 +12,7 @@ namespace {
 std::vector<std::string> checked(const std::string& text, coil::Properties& conf) {
     const auto file = std::filesystem::temp_directory_path() / ("tandem_keys." + std::to_string(getpid()));
     std::ofstream(file) << text;
-    RTC::Places places;
+    RTC::SettingOrigins places;
     RTC::read_conf_file(file, conf, &places);
     std::filesystem::remove(file);
     return RTC::check_settings(conf, places);

@@ -27,16 +27,16 @@ struct Folder {
 
 const char* const pair_conf =
     "manager.modules.preload: TestComponents.so\n"
-    "manager.components.precreate: Counter, Teller\n"
-    "manager.components.preconnect: Counter0.out?port=Teller0.in&interface_type=corba_cdr&"
+    "manager.components.precreate: Counter, Reporter\n"
+    "manager.components.preconnect: Counter0.out?port=Reporter0.in&interface_type=corba_cdr&"
     "dataflow_type=push&subscription_type=flush\n"
-    "manager.components.preactivation: Counter0, Teller0\n"
+    "manager.components.preactivation: Counter0, Reporter0\n"
     "exec_cxt.periodic.rate: 200\n";
 
 // What rtm_host says to a configuration it cannot use: exactly one line, and exit code 1.
 std::string refusal(const std::vector<std::string>& arguments) {
     HostProcess host(arguments);
-    REQUIRE(host.wait() == 1);
+    REQUIRE(host.wait_for_exit() == 1);
     CHECK(host.output.find("ready") == std::string::npos);
     CHECK(std::count(host.errors.begin(), host.errors.end(), '\n') == 1);
     return host.errors;
@@ -53,11 +53,11 @@ TEST_CASE("rtm_host runs what rtc.conf names, and a signal ends it in order") {
     const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
     Folder folder;
     HostProcess host({"-f", folder.conf(pair_conf)});
-    REQUIRE(host.says("ready\n"));
-    REQUIRE(host.says("received "));
-    host.send(signal);
-    CHECK(host.wait() == 0);
-    CHECK(host.output.find("Teller0 deactivated\nTeller0 finalized\n") != std::string::npos);
+    REQUIRE(host.wait_for_output("ready\n"));
+    REQUIRE(host.wait_for_output("received "));
+    host.send_signal(signal);
+    CHECK(host.wait_for_exit() == 0);
+    CHECK(host.output.find("Reporter0 deactivated\nTeller0 finalized\n") != std::string::npos);
 }
 
 TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
@@ -70,12 +70,13 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
     CHECK_THAT(refusal("manager.modules.preload: BadModule.so\n"), Contains("BadModuleInit"));
     CHECK_THAT(refusal("manager.modules.preload: TestComponents.so(NoSuchInit)\n"), Contains("NoSuchInit"));
     CHECK_THAT(refusal("manager.modules.preload: "
-                       "TestComponents.so(OnlyTellers)\nmanager.components.precreate: Counter\n"),
-               Contains("Counter") && Contains("known: ") && Contains("Teller"));
+                       "TestComponents.so(OnlyReporters)\nmanager.components.precreate: Counter\n"),
+               Contains("Counter") && Contains("known: ") && Contains("Reporter"));
     CHECK_THAT(
-        refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter, Teller\n"
-                "manager.components.preconnect: Counter0.out?port=Teller0.inn\n"),
-        Contains("Teller0 has no port inn (it has: in)"));
+        refusal(
+            "manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter, Reporter\n"
+            "manager.components.preconnect: Counter0.out?port=Reporter0.inn\n"),
+        Contains("Reporter0 has no port inn (it has: in)"));
     CHECK_THAT(refusal("manager.modules.preload: TestComponents.so\nmanager.components.precreate: Counter\n"
                        "manager.components.preactivation: Counter1\n"),
                Contains("there is no component Counter1 (there are: Counter0)"));
@@ -91,23 +92,23 @@ TEST_CASE("A component that throws goes to the error state, its host lives on") 
     HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
                                         "manager.components.precreate: Thrower\n"
                                         "manager.components.preactivation: Thrower0\n")});
-    REQUIRE(host.says("ready\n"));
-    REQUIRE(host.says("aborting\n"));
-    host.send(SIGTERM);
-    CHECK(host.wait() == 0);
+    REQUIRE(host.wait_for_output("ready\n"));
+    REQUIRE(host.wait_for_output("aborting\n"));
+    host.send_signal(SIGTERM);
+    CHECK(host.wait_for_exit() == 0);
     CHECK(host.errors.find("Thrower0: onExecute threw: on purpose") != std::string::npos);
 }
 
 TEST_CASE("A component that hangs does not keep its host from leaving") {
     Folder folder;
     HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
-                                        "manager.components.precreate: Teller, Hanger\n"
-                                        "manager.components.preactivation: Teller0, Hanger0\n")});
-    REQUIRE(host.says("hanging\n"));
-    REQUIRE(host.says("ready\n"));
-    host.send(SIGTERM);
-    CHECK(host.wait() == 0);
-    CHECK(host.output.find("Teller0 finalized") != std::string::npos);
+                                        "manager.components.precreate: Reporter, HangingComponent\n"
+                                        "manager.components.preactivation: Reporter0, HangingComponent0\n")});
+    REQUIRE(host.wait_for_output("hanging\n"));
+    REQUIRE(host.wait_for_output("ready\n"));
+    host.send_signal(SIGTERM);
+    CHECK(host.wait_for_exit() == 0);
+    CHECK(host.output.find("Reporter0 finalized") != std::string::npos);
 }
 
 TEST_CASE("Whichever callback a component does not return from the others end in order and the host leaves") {
@@ -120,23 +121,23 @@ TEST_CASE("Whichever callback a component does not return from the others end in
         folders.push_back(std::make_unique<Folder>(callback));
         hosts.push_back(std::make_unique<HostProcess>(std::vector<std::string>{
             "-f", folders.back()->conf("manager.modules.preload: TestComponents.so\n"
-                                       "manager.components.precreate: Teller, Sleeper?in=" +
+                                       "manager.components.precreate: Reporter, FaultInjector?in=" +
                                        callback +
                                        "\n"
-                                       "manager.components.preactivation: Teller0, Sleeper0\n"
+                                       "manager.components.preactivation: Reporter0, FaultInjector0\n"
                                        "exec_cxt.periodic.rate: 100\n")}));
     }
     for (std::size_t i = 0; i < hosts.size(); ++i) {
         const bool at_the_end = i >= 8; // these only when the host is told to leave
         CAPTURE(callbacks[i]);
-        CHECK(hosts[i]->says(at_the_end ? "ready\n" : "asleep\n"));
-        hosts[i]->send(SIGTERM);
+        CHECK(hosts[i]->wait_for_output(at_the_end ? "ready\n" : "asleep\n"));
+        hosts[i]->send_signal(SIGTERM);
     }
     for (std::size_t i = 0; i < hosts.size(); ++i) {
         CAPTURE(callbacks[i], hosts[i]->output, hosts[i]->errors);
-        CHECK(hosts[i]->wait() == 0);
+        CHECK(hosts[i]->wait_for_exit() == 0);
         CHECK(hosts[i]->output.find("asleep\n") != std::string::npos);
-        CHECK(hosts[i]->output.find("Teller0 finalized") != std::string::npos);
+        CHECK(hosts[i]->output.find("Reporter0 finalized") != std::string::npos);
     }
 }
 
@@ -151,30 +152,31 @@ TEST_CASE("Whatever a component throws and wherever its host says it in one line
             in[0] = static_cast<char>(std::tolower(in[0]));
             folders.push_back(std::make_unique<Folder>(callback));
             hosts.push_back(std::make_unique<HostProcess>(std::vector<std::string>{
-                "-f", folders.back()->conf("manager.modules.preload: TestComponents.so\n"
-                                           "manager.components.precreate: Counter, Teller, Sleeper?how=" +
-                                           how + "&in=" + in +
-                                           "\nmanager.components.preconnect: Counter0.out?port=Teller0.in\n"
-                                           "manager.components.preactivation: Counter0, Teller0, Sleeper0\n"
-                                           "exec_cxt.periodic.rate: 100\n")}));
+                "-f",
+                folders.back()->conf("manager.modules.preload: TestComponents.so\n"
+                                     "manager.components.precreate: Counter, Reporter, FaultInjector?how=" +
+                                     how + "&in=" + in +
+                                     "\nmanager.components.preconnect: Counter0.out?port=Reporter0.in\n"
+                                     "manager.components.preactivation: Counter0, Reporter0, FaultInjector0\n"
+                                     "exec_cxt.periodic.rate: 100\n")}));
         }
         for (auto& host : hosts) {
-            CHECK(host->says("ready\n"));
-            CHECK(host->says("received ")); // the others go on
-            host->send(SIGTERM);
+            CHECK(host->wait_for_output("ready\n"));
+            CHECK(host->wait_for_output("received ")); // the others go on
+            host->send_signal(SIGTERM);
         }
         const std::string said = how == "int"   ? "something that is not"
                                  : how == "std" ? ": on purpose"
                                                 : "NO_MEMORY";
         for (std::size_t i = 0; i < hosts.size(); ++i) {
             CAPTURE(how, callbacks[i], hosts[i]->output, hosts[i]->errors);
-            CHECK(hosts[i]->wait() == 0);
-            const std::string line = "Sleeper0: on" + callbacks[i] + " threw";
+            CHECK(hosts[i]->wait_for_exit() == 0);
+            const std::string line = "FaultInjector0: on" + callbacks[i] + " threw";
             const std::size_t at = hosts[i]->errors.find(line);
             REQUIRE(at != std::string::npos);
             CHECK(hosts[i]->errors.find(said, at) != std::string::npos);
             CHECK(hosts[i]->errors.find(line, at + 1) == std::string::npos);
-            CHECK(hosts[i]->output.find("Teller0 finalized") != std::string::npos);
+            CHECK(hosts[i]->output.find("Reporter0 finalized") != std::string::npos);
         }
     }
 }
@@ -184,21 +186,22 @@ TEST_CASE("A component that throws where it is to initialize does not let its ho
     for (const std::string how : {"int", "corba", "std"}) {
         Folder folder;
         HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
-                                            "manager.components.precreate: Sleeper?in=initialize&how=" +
+                                            "manager.components.precreate: FaultInjector?in=initialize&how=" +
                                             how + "\n")});
-        CHECK(host.wait() == 1);
-        CHECK_THAT(host.errors, Contains("Sleeper0: onInitialize threw") && Contains("does not start"));
+        CHECK(host.wait_for_exit() == 1);
+        CHECK_THAT(host.errors, Contains("FaultInjector0: onInitialize threw") && Contains("does not start"));
     }
 }
 
 TEST_CASE("A component that cannot initialize nor be destroyed does not hold its host") {
     using Catch::Contains;
     Folder folder;
-    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
-                                        "manager.components.precreate: Sleeper?in=initialize&how=fail\n")});
-    CHECK(host.wait() == 1);
-    CHECK_THAT(host.errors, Contains("Sleeper0: its destructor does not return") &&
-                                Contains("Sleeper0 does not start: its onInitialize has failed"));
+    HostProcess host(
+        {"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                           "manager.components.precreate: FaultInjector?in=initialize&how=fail\n")});
+    CHECK(host.wait_for_exit() == 1);
+    CHECK_THAT(host.errors, Contains("FaultInjector0: its destructor does not return") &&
+                                Contains("FaultInjector0 does not start: its onInitialize has failed"));
 }
 
 TEST_CASE("A component that ends the process ends it with its own code and in time") {
@@ -208,14 +211,15 @@ TEST_CASE("A component that ends the process ends it with its own code and in ti
         for (const auto& callback : callbacks) {
             CAPTURE(how, callback);
             Folder folder;
-            HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
-                                                "manager.components.precreate: Teller, Sleeper?in=" +
-                                                callback + "&how=" + how +
-                                                "\nmanager.components.preactivation: Teller0, Sleeper0\n"
-                                                "exec_cxt.periodic.rate: 100\n")});
-            host.says("ready\n", std::chrono::seconds(2));
-            host.send(SIGTERM);
-            CHECK(host.wait() == code);
+            HostProcess host(
+                {"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                   "manager.components.precreate: Reporter, FaultInjector?in=" +
+                                   callback + "&how=" + how +
+                                   "\nmanager.components.preactivation: Reporter0, FaultInjector0\n"
+                                   "exec_cxt.periodic.rate: 100\n")});
+            host.wait_for_output("ready\n", std::chrono::seconds(2));
+            host.send_signal(SIGTERM);
+            CHECK(host.wait_for_exit() == code);
         }
 }
 
@@ -225,16 +229,17 @@ TEST_CASE("Neither a read of stdin nor a static destructor holds the host for ev
           {"static", "is there\n", 1, "does not come back from its static destructors"}}) {
         CAPTURE(how);
         Folder folder;
-        HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
-                                            "manager.components.precreate: Teller, Sleeper?in=execute&how=" +
-                                            std::string(how) +
-                                            "\nmanager.components.preactivation: Teller0, Sleeper0\n")});
-        REQUIRE(host.says("ready\n"));
-        REQUIRE(host.says(said));
-        host.send(SIGTERM);
-        CHECK(host.wait() == code);
+        HostProcess host(
+            {"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                               "manager.components.precreate: Reporter, FaultInjector?in=execute&how=" +
+                               std::string(how) +
+                               "\nmanager.components.preactivation: Reporter0, FaultInjector0\n")});
+        REQUIRE(host.wait_for_output("ready\n"));
+        REQUIRE(host.wait_for_output(said));
+        host.send_signal(SIGTERM);
+        CHECK(host.wait_for_exit() == code);
         CHECK(host.errors.find(line) != std::string::npos);
-        CHECK(host.output.find("Teller0 deactivated\n") != std::string::npos);
+        CHECK(host.output.find("Reporter0 deactivated\n") != std::string::npos);
     }
 }
 
@@ -242,34 +247,34 @@ TEST_CASE("In lock-step components run when they are told to and at no other tim
     Folder folder;
     const std::string socket = (folder.path / "steps").string();
     HostProcess host({"-f", folder.conf(pair_conf), "--lockstep", socket});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.wait_for_output("ready\n"));
     tandem::rt::StepClient conductor(socket, std::chrono::seconds(10));
     for (int i = 0; i < 9; ++i) {
         conductor.step("Counter0");
-        conductor.step("Teller0");
+        conductor.step("Reporter0");
     }
-    CHECK_FALSE(host.says("received", std::chrono::seconds(0)));
+    CHECK_FALSE(host.wait_for_output("received", std::chrono::seconds(0)));
     conductor.step("Counter0");
-    conductor.step("Teller0");
-    CHECK(host.says("received 10\n", std::chrono::seconds(10)));
+    conductor.step("Reporter0");
+    CHECK(host.wait_for_output("received 10\n", std::chrono::seconds(10)));
     CHECK_THROWS_WITH(conductor.step("Nobody"), Catch::Contains("there is no component Nobody"));
-    host.send(SIGTERM);
-    CHECK(host.wait() == 0);
+    host.send_signal(SIGTERM);
+    CHECK(host.wait_for_exit() == 0);
 }
 
 TEST_CASE("A manager without components leaves by itself unless it is told to stay") {
     const std::string soon = "manager.auto_shutdown_duration:0.2";
-    CHECK(HostProcess({"-o", soon}).wait() == 0);
-    CHECK(HostProcess({"-i", "-f", "/no/such/rtc.conf", "-o", soon}).wait() == 0);
+    CHECK(HostProcess({"-o", soon}).wait_for_exit() == 0);
+    CHECK(HostProcess({"-i", "-f", "/no/such/rtc.conf", "-o", soon}).wait_for_exit() == 0);
     for (const std::vector<std::string>& stay : {std::vector<std::string>{"-d"},
                                                  {"-o", "manager.shutdown_auto:NO"},
                                                  {"-o", "manager.is_master:YES"}}) {
         auto arguments = stay;
         arguments.insert(arguments.end(), {"-o", soon});
         HostProcess host(arguments);
-        REQUIRE(host.says("ready\n"));
-        CHECK(host.wait(std::chrono::seconds(1)) == -1000);
-        host.send(SIGTERM);
-        CHECK(host.wait() == 0);
+        REQUIRE(host.wait_for_output("ready\n"));
+        CHECK(host.wait_for_exit(std::chrono::seconds(1)) == -1000);
+        host.send_signal(SIGTERM);
+        CHECK(host.wait_for_exit() == 0);
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager as tools use it: modules, components, settings, its end and its return.
-#include "tests/host/rtm/fixture.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/NVUtil.h>
 
@@ -28,10 +28,10 @@ std::size_t components(RTM::Manager_ptr manager, const char* name) {
 } // namespace
 
 TEST_CASE("A tool sees which modules there are and loads and unloads them") {
-    OtherHost other("", free_port(), {"manager.is_master:YES", "manager.modules.preload:"});
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    RemoteHost other("", unused_port(), {"manager.is_master:YES", "manager.modules.preload:"});
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    RTM::Manager_var manager = other.manager(fixture.manager().theORB());
     auto loadable = [&] {
         RTM::ModuleProfileList_var list = manager->get_loadable_modules();
         return listed(list.in(), "module_file_name");
@@ -61,21 +61,21 @@ TEST_CASE("A tool sees which modules there are and loads and unloads them") {
         REQUIRE_FALSE(CORBA::is_nil(counter.in()));
         CHECK(manager->unload_module("TestComponents.so") == RTC::PRECONDITION_NOT_MET);
         CHECK(manager->delete_component("one") == RTC::RTC_OK);
-        CHECK(soon([&] { return manager->unload_module("TestComponents.so") == RTC::RTC_OK; }));
+        CHECK(eventually([&] { return manager->unload_module("TestComponents.so") == RTC::RTC_OK; }));
         CHECK(manager->unload_module("TestComponents.so") == RTC::BAD_PARAMETER);
         CHECK(loaded().empty());
         CHECK_FALSE(has(types(), "Counter"));
         CHECK(has(types(), "PeriodicECSharedComposite")); // not of a module
     }
-    other.host.send(SIGTERM);
-    CHECK(other.host.wait() == 0);
+    other.host.send_signal(SIGTERM);
+    CHECK(other.host.wait_for_exit() == 0);
 }
 
 TEST_CASE("A tool creates and configures and deletes components and changes settings") {
-    OtherHost other("Counter");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    RemoteHost other("Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    RTM::Manager_var manager = other.manager(fixture.manager().theORB());
     RTC::RTObject_var made = manager->create_component("Counter?instance_name=x&step=5&manager_name=manager");
     REQUIRE_FALSE(CORBA::is_nil(made.in()));
     CHECK(CORBA_RTCUtil::get_default_rate(made.in()) == 200);
@@ -98,58 +98,59 @@ TEST_CASE("A tool creates and configures and deletes components and changes sett
     CHECK(components(manager.in(), "x") == 0);
     CHECK(manager->fork() == RTC::UNSUPPORTED);
     CHECK(manager->shutdown() == RTC::RTC_OK);
-    CHECK(other.host.wait() == 0);
+    CHECK(other.host.wait_for_exit() == 0);
 }
 
 TEST_CASE("A tool restarts the host which comes back as it was at first") {
-    OtherHost other("Counter");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    auto* orb = stage.manager().theORB();
+    RemoteHost other("Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto* orb = fixture.manager().theORB();
     RTM::Manager_var manager = other.manager(orb);
-    RTC::RTObject_var added = manager->create_component("Teller");
-    CHECK(components(manager.in(), "Teller0") == 1);
-    const std::size_t descriptors = other.host.descriptors();
+    RTC::RTObject_var added = manager->create_component("Reporter");
+    CHECK(components(manager.in(), "Reporter0") == 1);
+    const std::size_t descriptors = other.host.descriptor_count();
     CHECK(manager->restart() == RTC::RTC_OK);
-    REQUIRE(other.host.says("Teller0 finalized\nready\n"));
-    CHECK(soon([&] { // the first call may still go to the connection that was
+    REQUIRE(other.host.wait_for_output("Reporter0 finalized\nready\n"));
+    CHECK(eventually([&] { // the first call may still go to the connection that was
         try {
             return components(manager.in(), "Counter0") == 1;
         } catch (const CORBA::SystemException&) {
             return false;
         }
     }));
-    CHECK(components(manager.in(), "Teller0") == 0);
-    CHECK(other.host.descriptors() <= descriptors + 1);
-    other.host.send(SIGTERM);
-    CHECK(other.host.wait() == 0);
+    CHECK(components(manager.in(), "Reporter0") == 0);
+    CHECK(other.host.descriptor_count() <= descriptors + 1);
+    other.host.send_signal(SIGTERM);
+    CHECK(other.host.wait_for_exit() == 0);
 }
 
 TEST_CASE("A tool that asks for a component that cannot initialize nor be destroyed gets none") {
-    OtherHost other("Counter");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    RTM::Manager_var manager = other.manager(stage.manager().theORB());
-    RTC::RTObject_var none = manager->create_component("Sleeper?in=initialize&how=fail&instance_name=never");
+    RemoteHost other("Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    RTM::Manager_var manager = other.manager(fixture.manager().theORB());
+    RTC::RTObject_var none =
+        manager->create_component("FaultInjector?in=initialize&how=fail&instance_name=never");
     CHECK(CORBA::is_nil(none.in()));
     CHECK(components(manager.in(), "never") == 0);
     RTC::RTObject_var another = manager->create_component("Counter?instance_name=never");
     CHECK_FALSE(CORBA::is_nil(another.in()));
-    other.host.send(SIGTERM);
-    CHECK(other.host.wait() == 0);
+    other.host.send_signal(SIGTERM);
+    CHECK(other.host.wait_for_exit() == 0);
     CHECK_THAT(other.host.errors, Catch::Contains("never: its destructor does not return"));
 }
 
 TEST_CASE("Only one of many that ask at once gets a component of the name they want") {
-    OtherHost other("Counter");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    RTM::Manager_var manager = other.manager(stage.manager().theORB());
+    RemoteHost other("Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    RTM::Manager_var manager = other.manager(fixture.manager().theORB());
     std::atomic<int> made{0};
     std::vector<std::thread> tools;
     for (int i = 0; i < 8; ++i)
         tools.emplace_back([&] {
-            RTC::RTObject_var one = manager->create_component("Summer?instance_name=only");
+            RTC::RTObject_var one = manager->create_component("Accumulator?instance_name=only");
             if (!CORBA::is_nil(one.in())) ++made;
         });
     for (auto& tool : tools) tool.join();

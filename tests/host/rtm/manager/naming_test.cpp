@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names in CORBA name servers that come later, go, and come back empty.
 #include "host/rtm/runtime/naming/remote_names.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <catch2/catch.hpp>
 #include <coil/stringutil.h>
 #include <filesystem>
@@ -48,10 +48,10 @@ struct Observer {
     ~Observer() { orb->destroy(); }
     bool sees(const std::string& server, const std::string& path) {
         try {
-            CosNaming::NamingContext_var root = RTC::name_server(orb.in(), server);
-            CORBA::Object_var object = root->resolve(RTC::to_name(path));
+            CosNaming::NamingContext_var root = RTC::resolve_name_server(orb.in(), server);
+            CORBA::Object_var object = root->resolve(RTC::to_corba_name(path));
             return !CORBA::is_nil(object.in()) && !object->_non_existent();
-        } catch (const RTC::NotThere&) {
+        } catch (const RTC::RemoteUnavailable&) {
             return false;
         } catch (const CORBA::Exception&) {
             return false;
@@ -64,11 +64,11 @@ struct Observer {
 
 TEST_CASE(
     "Names are bound in a name server that comes later and in one that has lost them and go at the end") {
-    const std::string port = free_port(), server = "127.0.0.1:" + port;
-    OtherHost host("Counter", free_port(),
-                   {"corba.nameservers:" + server, "naming.update.interval:0.1",
-                    "naming.formats:t.host_cxt/%n.rtc", "manager.naming_formats:t.host_cxt/%n.mgr"});
-    REQUIRE(host.host.says("ready\n")); // it does not wait for the server
+    const std::string port = unused_port(), server = "127.0.0.1:" + port;
+    RemoteHost host("Counter", unused_port(),
+                    {"corba.nameservers:" + server, "naming.update.interval:0.1",
+                     "naming.formats:t.host_cxt/%n.rtc", "manager.naming_formats:t.host_cxt/%n.mgr"});
+    REQUIRE(host.host.wait_for_output("ready\n")); // it does not wait for the server
     Observer observer;
     auto both = [&] {
         return observer.sees(server, "t.host_cxt/Counter0.rtc") &&
@@ -76,21 +76,21 @@ TEST_CASE(
     };
     {
         const NameServer names(port);
-        CHECK(soon(both));
+        CHECK(eventually(both));
         RTC::RTObject_var counter =
-            RTC::find_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/Counter0", {});
+            RTC::resolve_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/Counter0", {});
         CHECK_FALSE(CORBA::is_nil(counter.in()));
-        counter = RTC::find_component(observer.orb.in(), "rtcname://*/*/Counter0", {server});
+        counter = RTC::resolve_component(observer.orb.in(), "rtcname://*/*/Counter0", {server});
         CHECK_FALSE(CORBA::is_nil(counter.in()));
         CHECK_THROWS_WITH(
-            RTC::find_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/No0", {}),
+            RTC::resolve_component(observer.orb.in(), "rtcname://" + server + "/t.host_cxt/No0", {}),
             Catch::Contains("has no such entry"));
     }
     const NameServer names(port);
-    CHECK(soon(both));
-    host.host.send(SIGTERM);
-    CHECK(host.host.wait() == 0);
-    CosNaming::NamingContext_var root = RTC::name_server(observer.orb.in(), server);
+    CHECK(eventually(both));
+    host.host.send_signal(SIGTERM);
+    CHECK(host.host.wait_for_exit() == 0);
+    CosNaming::NamingContext_var root = RTC::resolve_name_server(observer.orb.in(), server);
     for (const char* gone : {"t.host_cxt/Counter0.rtc", "t.host_cxt/manager.mgr"})
-        CHECK_THROWS_AS(root->resolve(RTC::to_name(gone)), CosNaming::NamingContext::NotFound);
+        CHECK_THROWS_AS(root->resolve(RTC::to_corba_name(gone)), CosNaming::NamingContext::NotFound);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A host that is killed and started again beside one that lives on: what their rtc.conf connects is connected
 // again, whichever of the two it is that says so, and nothing is left of the connections before.
-#include "tests/host/rtm/fixture.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <algorithm>
 #include <filesystem>
 #include <rtm/CORBA_RTCUtil.h>
@@ -35,12 +35,12 @@ void restart(const std::string& component, const std::string& port, const std::v
     std::size_t files = 0;
     for (int life = 0; life < lives; ++life) {
         INFO("life " << life);
-        OtherHost other(component, port, settings);
-        REQUIRE(other.host.says("ready\n"));
+        RemoteHost other(component, port, settings);
+        REQUIRE(other.host.wait_for_output("ready\n"));
         CHECK(works(other));
-        other.host.send(SIGKILL);
-        other.host.wait();
-        CHECK(soon([&] { return left() == 0; }));
+        other.host.send_signal(SIGKILL);
+        other.host.wait_for_exit();
+        CHECK(eventually([&] { return left() == 0; }));
         if (life == 1) files = open_files();
         if (life > 1) CHECK(open_files() <= files + 2); // an idle connection of the ORB may be open or not
     }
@@ -49,61 +49,69 @@ void restart(const std::string& component, const std::string& port, const std::v
 } // namespace
 
 TEST_CASE("A sender that is killed and started again is read again by push and by pull") {
-    const std::string port = free_port();
-    Stage stage(false, {quick_watch, "exec_cxt.periodic.rate:200"});
-    std::vector<Summer*> summers;
+    const std::string port = unused_port();
+    ManagerFixture fixture(false, {quick_watch, "exec_cxt.periodic.rate:200"});
+    std::vector<Accumulator*> accumulators;
     for (const auto& way : ways) {
-        summers.push_back(&stage.create<Summer>("Summer"));
-        stage.connect(std::string(summers.back()->getInstanceName()) + ".in?port=" + at(port) +
-                      "Counter0.out" + way);
+        accumulators.push_back(&fixture.create<Accumulator>("Accumulator"));
+        fixture.connect(std::string(accumulators.back()->getInstanceName()) + ".in?port=" + at(port) +
+                        "Counter0.out" + way);
     }
     restart(
         "Counter", port, {"manager.components.preactivation:Counter0"},
-        [&](OtherHost&) {
-            return std::all_of(summers.begin(), summers.end(), [](Summer* summer) {
-                return soon([&] { return connections(summer->in_) == 1 && summer->in_.read(); });
+        [&](RemoteHost&) {
+            return std::all_of(accumulators.begin(), accumulators.end(), [](Accumulator* accumulator) {
+                return eventually(
+                    [&] { return connections(accumulator->in_) == 1 && accumulator->in_.read(); });
             });
         },
         [&] {
-            return connections(summers[0]->in_) + connections(summers[1]->in_) + connections(summers[2]->in_);
+            return connections(accumulators[0]->in_) + connections(accumulators[1]->in_) +
+                   connections(accumulators[2]->in_);
         });
 }
 
 TEST_CASE("A receiver that is killed and started again gets data again whoever connects them") {
-    const std::string here = free_port(), port = free_port();
-    Stage stage(false, {quick_watch, "exec_cxt.periodic.rate:200", "corba.endpoints:127.0.0.1:" + here});
-    auto& counter = stage.create<Counter>("Counter");
+    const std::string here = unused_port(), port = unused_port();
+    ManagerFixture fixture(false,
+                           {quick_watch, "exec_cxt.periodic.rate:200", "corba.endpoints:127.0.0.1:" + here});
+    auto& counter = fixture.create<Counter>("Counter");
     CORBA_RTCUtil::activate(RTC::RTObject_var(counter.getObjRef()).in());
     const auto left = [&] { return connections(counter.out_); };
-    const std::string activation = "manager.components.preactivation:Teller0";
+    const std::string activation = "manager.components.preactivation:Reporter0";
     for (const auto& way : ways) {
         INFO("its own host connects it " << way);
         const bool tells = way.find("pull") == std::string::npos; // it reads what isNew() announces
         restart(
-            "Teller", free_port(),
-            {activation, "manager.components.preconnect:Teller0.in?port=" + at(here) + "Counter0.out" + way},
-            [&](OtherHost& other) { return (!tells || other.host.says("received ")) && left() == 1; }, left);
+            "Reporter", unused_port(),
+            {activation,
+             "manager.components.preconnect:Reporter0.in?port=" + at(here) + "Counter0.out" + way},
+            [&](RemoteHost& other) {
+                return (!tells || other.host.wait_for_output("received ")) && left() == 1;
+            },
+            left);
     }
     for (const auto& way : ways)
-        stage.connect("Counter0.out?port=" + at(port) + "Teller0.in" + way + "&allow_dup_connection=YES");
+        fixture.connect("Counter0.out?port=" + at(port) + "Reporter0.in" + way + "&allow_dup_connection=YES");
     restart(
-        "Teller", port, {activation},
-        [&](OtherHost& other) {
-            return other.host.says("received ") && soon([&] { return left() == ways.size(); });
+        "Reporter", port, {activation},
+        [&](RemoteHost& other) {
+            return other.host.wait_for_output("received ") &&
+                   eventually([&] { return left() == ways.size(); });
         },
         left);
 }
 
 TEST_CASE("A service is called again when its process was killed and started again") {
-    const std::string port = free_port(), here = free_port();
-    Stage stage(false, {quick_watch, "corba.endpoints:127.0.0.1:" + here});
-    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
-    const auto answers = [&](OtherHost&) {
+    const std::string port = unused_port(), here = unused_port();
+    ManagerFixture fixture(false, {quick_watch, "corba.endpoints:127.0.0.1:" + here});
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    const auto answers = [&](RemoteHost&) {
         Testing::Numbers numbers;
         numbers.length(2);
         numbers[0] = 1.5;
         numbers[1] = 2;
-        return soon([&] {
+        return eventually([&] {
             try {
                 return connections(consumer.port_) == 1 && consumer.calculator_->sum(numbers) == 3.5;
             } catch (const CORBA::SystemException&) {
@@ -117,23 +125,23 @@ TEST_CASE("A service is called again when its process was killed and started aga
             {activation, "manager.components.preconnect:CalculatorProvider0.calculator?port=" + at(here) +
                              "CalculatorConsumer0.calculator"},
             answers, left);
-    stage.connect("CalculatorConsumer0.calculator?port=" + at(port) + "CalculatorProvider0.calculator");
+    fixture.connect("CalculatorConsumer0.calculator?port=" + at(port) + "CalculatorProvider0.calculator");
     restart("CalculatorProvider", port, {activation}, answers, left);
 }
 
 TEST_CASE("However many of its peers hang a host ends in order") {
-    const std::string port = free_port();
-    std::vector<std::unique_ptr<OtherHost>> peers;
+    const std::string port = unused_port();
+    std::vector<std::unique_ptr<RemoteHost>> peers;
     std::string lines;
     for (int i = 0; i < 4; ++i) {
-        peers.push_back(std::make_unique<OtherHost>("Teller"));
-        REQUIRE(peers.back()->host.says("ready\n"));
-        lines += (i > 0 ? "," : "") + ("Counter0.out?port=" + at(peers.back()->port)) + "Teller0.in";
+        peers.push_back(std::make_unique<RemoteHost>("Reporter"));
+        REQUIRE(peers.back()->host.wait_for_output("ready\n"));
+        lines += (i > 0 ? "," : "") + ("Counter0.out?port=" + at(peers.back()->port)) + "Reporter0.in";
     }
-    OtherHost host("Counter", port, {quick_watch, "manager.components.preconnect:" + lines});
-    REQUIRE(host.host.says("ready\n"));
-    for (auto& peer : peers) REQUIRE(peer->host.freeze());
-    host.host.send(SIGTERM);
-    CHECK(host.host.wait() == 0);
+    RemoteHost host("Counter", port, {quick_watch, "manager.components.preconnect:" + lines});
+    REQUIRE(host.host.wait_for_output("ready\n"));
+    for (auto& peer : peers) REQUIRE(peer->host.suspend());
+    host.host.send_signal(SIGTERM);
+    CHECK(host.host.wait_for_exit() == 0);
     CHECK_THAT(host.host.errors, !Catch::Contains("does not return")); // each component has 4 s for its end
 }

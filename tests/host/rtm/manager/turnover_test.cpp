@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Components with every kind of port come, are connected, work and go again, many times: nothing of them
 // stays. TANDEM_STRESS=10 makes it 1000 lives.
-#include "tests/host/rtm/fixture.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <cstdlib>
 #include <rtm/CORBA_RTCUtil.h>
 
@@ -29,7 +29,7 @@ long kilobytes(const char* pid) {
     return -1;
 }
 
-std::size_t descriptors() {
+std::size_t open_descriptors() {
     const std::filesystem::directory_iterator all("/proc/self/fd");
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
@@ -40,44 +40,45 @@ RTC::ReturnCode_t joined(RTC::RTObject_ptr a, const char* port_a, RTC::RTObject_
     return CORBA_RTCUtil::connect("c", coil::Properties(), first.in(), second.in());
 }
 
-const char* const types[] = {"Counter", "Summer", "CalculatorProvider", "CalculatorConsumer"};
+const char* const types[] = {"Counter", "Accumulator", "CalculatorProvider", "CalculatorConsumer"};
 
 } // namespace
 
 TEST_CASE("Nothing stays of components that come and are connected and go") {
-    Stage stage(false, {"exec_cxt.periodic.rate:1000"});
+    ManagerFixture fixture(false, {"exec_cxt.periodic.rate:1000"});
     auto life = [&](int number) {
         const char* const flow = number % 2 == 0 ? "push" : "pull";
         const char* const type = number % 3 == 0 ? "direct" : "corba_cdr";
-        auto& counter = stage.create<Counter>("Counter");
-        auto& summer = stage.create<Summer>("Summer");
-        auto& provider = stage.create<CalculatorProvider>("CalculatorProvider");
-        auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
-        stage.connect(std::string("Counter0.out?port=Summer0.in&dataflow_type=") + flow +
-                      "&interface_type=" + type);
-        stage.connect("CalculatorConsumer0.calculator?port=CalculatorProvider0.calculator");
-        const std::vector<RTC::RTObject_impl*> all{&counter, &summer, &provider, &consumer};
-        for (auto* one : all) REQUIRE(Stage::activate(*one) == RTC::RTC_OK);
-        REQUIRE(soon([&] { return summer.received_ > 0; }));
+        auto& counter = fixture.create<Counter>("Counter");
+        auto& accumulator = fixture.create<Accumulator>("Accumulator");
+        auto& provider = fixture.create<CalculatorProvider>("CalculatorProvider");
+        auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
+        fixture.connect(std::string("Counter0.out?port=Accumulator0.in&dataflow_type=") + flow +
+                        "&interface_type=" + type);
+        fixture.connect("CalculatorConsumer0.calculator?port=CalculatorProvider0.calculator");
+        const std::vector<RTC::RTObject_impl*> all{&counter, &accumulator, &provider, &consumer};
+        for (auto* one : all) REQUIRE(ManagerFixture::activate(*one) == RTC::RTC_OK);
+        REQUIRE(eventually([&] { return accumulator.received_ > 0; }));
         for (auto* one : all) REQUIRE(one->deactivate(0) == RTC::RTC_OK);
         for (auto* one : all) REQUIRE(one->exit() == RTC::RTC_OK);
-        stage.manager().cleanupComponents();
+        fixture.manager().cleanupComponents();
     };
     for (int i = 0; i < 30; ++i) life(i); // what is made once
-    const std::size_t open = descriptors();
+    const std::size_t open = open_descriptors();
     const long memory = kilobytes("self");
     const int n = lives();
     for (int i = 0; i < n; ++i) life(i);
     INFO("kB before " << memory << ", after " << kilobytes("self"));
-    CHECK(soon([&] { return descriptors() == open; })); // a tool that looks for managers here comes and goes
+    CHECK(eventually(
+        [&] { return open_descriptors() == open; })); // a tool that looks for managers here comes and goes
     CHECK(kilobytes("self") < memory + 1000 + 2 * n + quarantine);
 }
 
 TEST_CASE("Nothing stays of components that a tool makes and deletes") {
-    OtherHost other("Counter", free_port(), {"exec_cxt.periodic.rate:1000"});
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    auto* orb = stage.manager().theORB();
+    RemoteHost other("Counter", unused_port(), {"exec_cxt.periodic.rate:1000"});
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto* orb = fixture.manager().theORB();
     RTM::Manager_var manager = other.manager(orb);
     auto life = [&](int number) {
         std::vector<RTC::RTObject_var> all;
@@ -99,29 +100,30 @@ TEST_CASE("Nothing stays of components that a tool makes and deletes") {
     };
     const std::string pid = std::to_string(other.host.pid());
     for (int i = 0; i < 30; ++i) life(i);
-    const std::size_t open = other.host.descriptors();
+    const std::size_t open = other.host.descriptor_count();
     const long memory = kilobytes(pid.c_str());
     const int n = lives();
     for (int i = 0; i < n; ++i) life(i);
     RTC::RTCList_var left = manager->get_components();
     CHECK(left->length() == 1);
     INFO("kB before " << memory << ", after " << kilobytes(pid.c_str()));
-    CHECK(soon([&] { return other.host.descriptors() <= open + 1; }));
+    CHECK(eventually([&] { return other.host.descriptor_count() <= open + 1; }));
     CHECK(kilobytes(pid.c_str()) < memory + 2000 + 2 * n + quarantine);
 }
 
 TEST_CASE("Components are made and ended by many threads at once") {
-    Stage stage(false, {"exec_cxt.periodic.rate:1000"});
+    ManagerFixture fixture(false, {"exec_cxt.periodic.rate:1000"});
     std::atomic<int> done{0};
     std::vector<std::thread> threads;
     for (int t = 0; t < 8; ++t)
         threads.emplace_back([&, t] {
             for (int i = 0; i < 25; ++i) {
                 const std::string number = std::to_string(t) + "_" + std::to_string(i);
-                auto* counter = stage.manager().createComponent(("Counter?instance_name=c" + number).c_str());
-                auto* summer = stage.manager().createComponent("Summer");
-                if (counter == nullptr || summer == nullptr) return;
-                RTC::RTObject_var a = counter->getObjRef(), b = summer->getObjRef();
+                auto* counter =
+                    fixture.manager().createComponent(("Counter?instance_name=c" + number).c_str());
+                auto* accumulator = fixture.manager().createComponent("Accumulator");
+                if (counter == nullptr || accumulator == nullptr) return;
+                RTC::RTObject_var a = counter->getObjRef(), b = accumulator->getObjRef();
                 const bool well = joined(a.in(), "out", b.in(), "in") == RTC::RTC_OK &&
                                   CORBA_RTCUtil::activate(a.in()) == RTC::RTC_OK &&
                                   CORBA_RTCUtil::activate(b.in()) == RTC::RTC_OK &&
@@ -131,6 +133,6 @@ TEST_CASE("Components are made and ended by many threads at once") {
         });
     for (auto& thread : threads) thread.join();
     CHECK(done == 8 * 25);
-    stage.manager().cleanupComponents();
-    CHECK(stage.manager().getComponents().empty());
+    fixture.manager().cleanupComponents();
+    CHECK(fixture.manager().getComponents().empty());
 }

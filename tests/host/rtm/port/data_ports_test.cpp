@@ -1,137 +1,138 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/CdrRingBuffer.h>
 
 using namespace testing;
 
 TEST_CASE("What an OutPort writes is new in the InPort at once and read once") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
     CHECK_FALSE(counter.out_.write());
-    CHECK_FALSE(summer.in_.isNew());
-    stage.connect("Counter0.out?port=Summer0.in");
+    CHECK_FALSE(accumulator.in_.isNew());
+    fixture.connect("Counter0.out?port=Accumulator0.in");
 
     counter.value_.data = 42;
     REQUIRE(counter.out_.write());
-    REQUIRE(summer.in_.isNew());
-    REQUIRE(summer.in_.read());
-    CHECK(summer.value_.data == 42);
-    CHECK(summer.in_.isEmpty());
-    CHECK(summer.in_.read()); // readback is the default policy
-    CHECK(summer.value_.data == 42);
+    REQUIRE(accumulator.in_.isNew());
+    REQUIRE(accumulator.in_.read());
+    CHECK(accumulator.value_.data == 42);
+    CHECK(accumulator.in_.isEmpty());
+    CHECK(accumulator.in_.read()); // readback is the default policy
+    CHECK(accumulator.value_.data == 42);
 }
 
 namespace {
 
 /// What arrives of 1, 2, 3 through a buffer of length 2.
-long through_two(Stage& stage, const std::string& policy, Counter& counter) {
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in&buffer.length=2&buffer.write.full_policy=" + policy);
+long through_two(ManagerFixture& fixture, const std::string& policy, Counter& counter) {
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in&buffer.length=2&buffer.write.full_policy=" + policy);
     for (int i = 1; i <= 3; ++i) {
         counter.value_.data = i;
         counter.out_.write();
     }
-    stage.activate(summer);
-    stage.step(summer);
-    return summer.sum_;
+    fixture.activate(accumulator);
+    fixture.step(accumulator);
+    return accumulator.sum_;
 }
 
 } // namespace
 
 TEST_CASE("A full buffer that overwrites keeps the newest values") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    CHECK(through_two(stage, "overwrite", counter) == 2 + 3);
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    CHECK(through_two(fixture, "overwrite", counter) == 2 + 3);
     CHECK(counter.out_.getStatus(0) == RTC::DataPortStatus::PORT_OK);
 }
 
 TEST_CASE("A full buffer that does nothing refuses new values and says so") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    CHECK(through_two(stage, "do_nothing", counter) == 1 + 2);
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    CHECK(through_two(fixture, "do_nothing", counter) == 1 + 2);
     CHECK(counter.out_.getStatus(0) == RTC::DataPortStatus::BUFFER_FULL);
 }
 
 TEST_CASE("Components in step pass every value on, in order") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter?step=2");
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in");
-    REQUIRE(stage.activate(counter) == RTC::RTC_OK);
-    REQUIRE(stage.activate(summer) == RTC::RTC_OK);
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter?step=2");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in");
+    REQUIRE(fixture.activate(counter) == RTC::RTC_OK);
+    REQUIRE(fixture.activate(accumulator) == RTC::RTC_OK);
     for (int i = 0; i < 100; ++i) {
-        stage.step(counter);
-        stage.step(summer);
+        fixture.step(counter);
+        fixture.step(accumulator);
     }
-    CHECK(summer.received_ == 100);
-    CHECK(summer.sum_ == 2 * 100 * 101 / 2);
+    CHECK(accumulator.received_ == 100);
+    CHECK(accumulator.sum_ == 2 * 100 * 101 / 2);
 }
 
 TEST_CASE("One OutPort serves several InPorts, one InPort several OutPorts") {
-    Stage stage;
-    auto& a = stage.create<Counter>("Counter");
-    auto& b = stage.create<Counter>("Counter");
-    auto& x = stage.create<Summer>("Summer");
-    auto& y = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in&port=Summer1.in");
-    stage.connect("Counter1.out?port=Summer1.in");
+    ManagerFixture fixture;
+    auto& a = fixture.create<Counter>("Counter");
+    auto& b = fixture.create<Counter>("Counter");
+    auto& x = fixture.create<Accumulator>("Accumulator");
+    auto& y = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in&port=Accumulator1.in");
+    fixture.connect("Counter1.out?port=Accumulator1.in");
     a.value_.data = 1;
     a.out_.write();
     b.value_.data = 10;
     b.out_.write();
-    for (auto* summer : {&x, &y}) {
-        stage.activate(*summer);
-        stage.step(*summer);
+    for (auto* accumulator : {&x, &y}) {
+        fixture.activate(*accumulator);
+        fixture.step(*accumulator);
     }
     CHECK(x.sum_ == 1);
     CHECK(y.sum_ == 11);
 }
 
 TEST_CASE("A pull connection delivers when the reader asks") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in&dataflow_type=pull");
-    CHECK_FALSE(summer.in_.isNew());
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in&dataflow_type=pull");
+    CHECK_FALSE(accumulator.in_.isNew());
     counter.value_.data = 7;
     REQUIRE(counter.out_.write());
-    CHECK(summer.in_.isNew());
-    REQUIRE(summer.in_.read());
-    CHECK(summer.value_.data == 7);
+    CHECK(accumulator.in_.isNew());
+    REQUIRE(accumulator.in_.read());
+    CHECK(accumulator.value_.data == 7);
 }
 
 TEST_CASE("Ports that do not fit are refused with both types, and nothing stays connected") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    fixture.create<Accumulator>("Accumulator");
     RTC::TimedDouble value;
     RTC::InPort<RTC::TimedDouble> real("real", value);
     counter.addInPort("real", real);
-    CHECK_THROWS_WITH(stage.connect("Counter0.out?port=Counter0.real"),
+    CHECK_THROWS_WITH(fixture.connect("Counter0.out?port=Counter0.real"),
                       Catch::Contains("IDL:RTC/TimedLong:1.0") && Catch::Contains("IDL:RTC/TimedDouble:1.0"));
-    CHECK_THROWS_WITH(stage.connect("Counter0.real?port=Summer0.in"), Catch::Contains("DataInPort"));
-    CHECK_THROWS_WITH(stage.connect("Counter0.out?port=Summer0.im"), Catch::Contains("it has: in"));
-    CHECK_THROWS_WITH(stage.connect("Counter0.out?port=Summer0.in&buffer_type=none_such"),
+    CHECK_THROWS_WITH(fixture.connect("Counter0.real?port=Accumulator0.in"), Catch::Contains("DataInPort"));
+    CHECK_THROWS_WITH(fixture.connect("Counter0.out?port=Accumulator0.im"), Catch::Contains("it has: in"));
+    CHECK_THROWS_WITH(fixture.connect("Counter0.out?port=Accumulator0.in&buffer_type=none_such"),
                       Catch::Contains("none_such"));
     CHECK(counter.out_.connectors().empty());
-    stage.connect("Counter0.out?port=Summer0.in");
-    CHECK_THROWS_WITH(stage.connect("Counter0.out?port=Summer0.in"), Catch::Contains("already connected"));
+    fixture.connect("Counter0.out?port=Accumulator0.in");
+    CHECK_THROWS_WITH(fixture.connect("Counter0.out?port=Accumulator0.in"),
+                      Catch::Contains("already connected"));
     counter.removePort(real);
 }
 
 TEST_CASE("Disconnecting tells both sides, and writing goes on without the receiver") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in");
-    const std::string id = summer.in_.getConnectorIds().at(0);
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in");
+    const std::string id = accumulator.in_.getConnectorIds().at(0);
     CHECK(counter.out_.getConnectorIds().at(0) == id);
-    CHECK(summer.in_.disconnect(id.c_str()) == RTC::RTC_OK);
+    CHECK(accumulator.in_.disconnect(id.c_str()) == RTC::RTC_OK);
     CHECK(counter.out_.connectors().empty());
-    CHECK(summer.in_.connectors().empty());
+    CHECK(accumulator.in_.connectors().empty());
     CHECK_FALSE(counter.out_.write());
-    CHECK_FALSE(summer.in_.read());
+    CHECK_FALSE(accumulator.in_.read());
 }
 
 namespace {
@@ -191,65 +192,66 @@ struct Joined : RTC::ConnectorListener {
 } // namespace
 
 TEST_CASE("Listeners of 1.2 may change the stream and those of 1.0 hear streams and connections") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
     std::vector<long> sizes;
     std::vector<std::string> joined;
-    summer.in_.addConnectorDataListener(RTC::ON_RECEIVED, new AddsTo());
-    summer.in_.addConnectorDataListener(RTC::ON_BUFFER_WRITE, new HeardStream(sizes));
+    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new AddsTo());
+    accumulator.in_.addConnectorDataListener(RTC::ON_BUFFER_WRITE, new HeardStream(sizes));
     counter.out_.addConnectorListener(RTC::ON_CONNECT, new Joined(joined));
-    stage.connect("Counter0.out?port=Summer0.in");
+    fixture.connect("Counter0.out?port=Accumulator0.in");
     CHECK(joined.size() == 1);
     counter.value_.data = 5;
     counter.out_.write();
     CHECK(sizes == std::vector<long>{12});
-    summer.in_.read();
-    CHECK(summer.value_.data == 1005);
+    accumulator.in_.read();
+    CHECK(accumulator.value_.data == 1005);
 }
 
 TEST_CASE("Listeners hear values or bytes, in the 2.x and the 1.x form, and may change what is received") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
     std::vector<long> sent, received, bytes;
     counter.out_.addConnectorDataListener(RTC::ON_SEND, new HeardAsIn1x(sent));
-    summer.in_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Heard(received));
-    summer.in_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_BUFFER_WRITE,
-                                        new HeardBytes(bytes));
-    stage.connect("Counter0.out?port=Summer0.in");
+    accumulator.in_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED,
+                                             new Heard(received));
+    accumulator.in_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_BUFFER_WRITE,
+                                             new HeardBytes(bytes));
+    fixture.connect("Counter0.out?port=Accumulator0.in");
     counter.value_.data = 5;
     counter.out_.write();
     CHECK(sent == std::vector<long>{5});
     CHECK(received == std::vector<long>{5});
     CHECK(bytes == std::vector<long>{12});
-    summer.in_.read();
-    CHECK(summer.value_.data == 105);
+    accumulator.in_.read();
+    CHECK(accumulator.value_.data == 105);
 }
 
 TEST_CASE("A timestamp policy puts the time in, and the writer's variable stays as it was") {
     const std::string policy = GENERATE("on_write", "on_send", "on_received", "on_read");
-    static Stage stage;
-    static auto& counter = stage.create<Counter>("Counter");
-    static auto& summer = stage.create<Summer>("Summer");
+    static ManagerFixture fixture;
+    static auto& counter = fixture.create<Counter>("Counter");
+    static auto& accumulator = fixture.create<Accumulator>("Accumulator");
     counter.out_.disconnect_all();
-    stage.connect("Counter0.out?port=Summer0.in&timestamp_policy=" + policy);
+    fixture.connect("Counter0.out?port=Accumulator0.in&timestamp_policy=" + policy);
     counter.value_.tm = RTC::Time{0, 0};
     counter.out_.write();
-    summer.in_.read();
-    CHECK(summer.value_.tm.sec > 1000000000u);
+    accumulator.in_.read();
+    CHECK(accumulator.value_.tm.sec > 1000000000u);
     CHECK(counter.value_.tm.sec == 0);
 }
 
 TEST_CASE("The subscription type new delivers from a thread of its own") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in&subscription_type=new");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in&subscription_type=new");
     counter.value_.data = 9;
     REQUIRE(counter.out_.write());
-    for (int i = 0; i < 5000 && !summer.in_.isNew(); ++i)
+    for (int i = 0; i < 5000 && !accumulator.in_.isNew(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    REQUIRE(summer.in_.read());
-    CHECK(summer.value_.data == 9);
+    REQUIRE(accumulator.in_.read());
+    CHECK(accumulator.value_.data == 9);
 }

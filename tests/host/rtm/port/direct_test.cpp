@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interface type direct: values from port to port within the process.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/support/allocations.hpp"
 
 using namespace testing;
@@ -13,10 +13,11 @@ struct Pair {
     RTC::OutPort<T> out{"a", sent};
     RTC::InPort<T> in{"b", received};
     RTC::RTObject_impl& owner;
-    Pair(Stage& stage, const std::string& properties) : owner(stage.create<Recorder>("Recorder")) {
+    Pair(ManagerFixture& fixture, const std::string& properties)
+        : owner(fixture.create<Recorder>("Recorder")) {
         owner.addOutPort("a", out);
         owner.addInPort("b", in);
-        stage.connect("Recorder0.a?port=Recorder0.b&" + properties);
+        fixture.connect("Recorder0.a?port=Recorder0.b&" + properties);
     }
     ~Pair() { // before cleanupComponents(), which deletes the owner
         owner.removePort(out);
@@ -35,10 +36,10 @@ long allocations_of(const std::function<void()>& once) {
 
 TEST_CASE("Within the process values of fixed size are written and read without allocation") {
     const std::string interface = GENERATE("direct", "corba_cdr");
-    static Stage stage;
+    static ManagerFixture fixture;
     CAPTURE(interface);
     {
-        Pair<RTC::TimedLong> pair(stage, "interface_type=" + interface);
+        Pair<RTC::TimedLong> pair(fixture, "interface_type=" + interface);
         CHECK(allocations_of([&] {
                   pair.sent.data++;
                   if (!pair.out.write() || !pair.in.isNew() || !pair.in.read())
@@ -47,9 +48,9 @@ TEST_CASE("Within the process values of fixed size are written and read without 
         CHECK(pair.received.data == 1100);
         pair.owner.exit();
     }
-    stage.manager().cleanupComponents();
+    fixture.manager().cleanupComponents();
     {
-        Pair<RTC::TimedDoubleSeq> pair(stage, "interface_type=" + interface);
+        Pair<RTC::TimedDoubleSeq> pair(fixture, "interface_type=" + interface);
         pair.sent.data.length(3);
         pair.sent.data[2] = 0;
         CHECK(allocations_of([&] {
@@ -60,16 +61,16 @@ TEST_CASE("Within the process values of fixed size are written and read without 
         CHECK(pair.received.data[2] == 550);
         pair.owner.exit();
     }
-    stage.manager().cleanupComponents();
+    fixture.manager().cleanupComponents();
 }
 
 TEST_CASE("A direct connection keeps the buffer's policies") {
     const auto row = GENERATE(std::pair("overwrite", std::vector<long>{2, 3}),
                               std::pair("do_nothing", std::vector<long>{1, 2}),
                               std::pair("block&buffer.write.timeout=0.001", std::vector<long>{1, 2}));
-    static Stage stage;
+    static ManagerFixture fixture;
     {
-        Pair<RTC::TimedLong> pair(stage,
+        Pair<RTC::TimedLong> pair(fixture,
                                   std::string("interface_type=direct&buffer.length=2&buffer.read.empty_"
                                               "policy=do_nothing&buffer.write.full_policy=") +
                                       row.first);
@@ -81,7 +82,7 @@ TEST_CASE("A direct connection keeps the buffer's policies") {
         CHECK_FALSE(pair.in.read());
         pair.owner.exit();
     }
-    stage.manager().cleanupComponents();
+    fixture.manager().cleanupComponents();
 }
 
 namespace {
@@ -97,8 +98,8 @@ struct AddHundred : RTC::ConnectorDataListenerT<RTC::TimedLong> {
 } // namespace
 
 TEST_CASE("Listeners hear the values of a direct connection and may change them") {
-    Stage stage;
-    Pair<RTC::TimedLong> pair(stage, "interface_type=direct");
+    ManagerFixture fixture;
+    Pair<RTC::TimedLong> pair(fixture, "interface_type=direct");
     auto* received = new AddHundred;
     auto* read = new AddHundred;
     pair.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
@@ -115,18 +116,18 @@ TEST_CASE("Listeners hear the values of a direct connection and may change them"
 }
 
 TEST_CASE("An OutPort may have direct connections beside others") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& a = stage.create<Summer>("Summer");
-    auto& b = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in&interface_type=direct");
-    stage.connect("Counter0.out?port=Summer1.in");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& a = fixture.create<Accumulator>("Accumulator");
+    auto& b = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=direct");
+    fixture.connect("Counter0.out?port=Accumulator1.in");
     for (counter.value_.data = 1; counter.value_.data <= 5; ++counter.value_.data)
         REQUIRE(counter.out_.write());
-    for (auto* summer : {&a, &b}) {
-        stage.activate(*summer);
-        stage.step(*summer);
-        CHECK(summer->sum_ == 15);
+    for (auto* accumulator : {&a, &b}) {
+        fixture.activate(*accumulator);
+        fixture.step(*accumulator);
+        CHECK(accumulator->sum_ == 15);
     }
     CHECK(a.in_.disconnect_all() == RTC::RTC_OK);
     CHECK(counter.out_.write());
@@ -135,14 +136,14 @@ TEST_CASE("An OutPort may have direct connections beside others") {
 
 TEST_CASE("A time-stamp policy works on a direct connection as on any other") {
     const std::string policy = GENERATE("on_write", "on_send", "on_received", "on_read");
-    static Stage stage;
+    static ManagerFixture fixture;
     {
-        Pair<RTC::TimedLong> pair(stage, "interface_type=direct&timestamp_policy=" + policy);
+        Pair<RTC::TimedLong> pair(fixture, "interface_type=direct&timestamp_policy=" + policy);
         REQUIRE(pair.out.write());
         REQUIRE(pair.in.read());
         CHECK(pair.received.tm.sec > 1000000000u);
         CHECK(pair.sent.tm.sec == 0);
         pair.owner.exit();
     }
-    stage.manager().cleanupComponents();
+    fixture.manager().cleanupComponents();
 }

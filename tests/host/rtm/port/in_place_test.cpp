@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Long messages in a buffer that lets them be made and read where they lie.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <deque>
 #include <rtm/CdrRingBuffer.h>
 #include <rtm/InPlaceBuffer.h>
@@ -82,7 +82,7 @@ struct Images {
         rtc.removePort(in);
     }
     void connect(const std::string& more = "") {
-        stage.connect("Counter0.image_out?port=Counter0.image_in&inport.buffer_type=place" + more);
+        fixture.connect("Counter0.image_out?port=Counter0.image_in&inport.buffer_type=place" + more);
         place = Place::made_last();
     }
     bool send(CORBA::ULong bytes, CORBA::Octet shade) {
@@ -97,8 +97,8 @@ struct Images {
         return std::all_of(begin, begin + bytes, [&](CORBA::Octet byte) { return byte == shade; });
     }
 
-    Stage stage;
-    Counter& rtc = stage.create<Counter>("Counter");
+    ManagerFixture fixture;
+    Counter& rtc = fixture.create<Counter>("Counter");
     RTC::TimedOctetSeq sent{}, received{};
     RTC::OutPort<RTC::TimedOctetSeq> out;
     RTC::InPort<RTC::TimedOctetSeq> in;
@@ -177,7 +177,7 @@ TEST_CASE("A second connection of an OutPort gets long messages as well") {
     RTC::InPort<RTC::TimedOctetSeq> second("second_in", other);
     images.rtc.addInPort("second_in", second);
     images.connect();
-    images.stage.connect("Counter0.image_out?port=Counter0.second_in");
+    images.fixture.connect("Counter0.image_out?port=Counter0.second_in");
     for (CORBA::Octet shade = 1; shade <= 3; ++shade) {
         REQUIRE(images.send(50'000, shade));
         REQUIRE(images.receive(50'000, shade));

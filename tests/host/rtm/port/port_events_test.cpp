@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who is told of what: connectors, connections, component actions, configuration; and the callbacks of ports.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 
 using namespace testing;
 
@@ -48,16 +48,17 @@ void hear_all(Port& port, std::string& story) {
 struct Ends {
     std::string out, in;
     Counter& counter;
-    Summer& summer;
-    Ends(Stage& stage, const std::string& properties)
-        : counter(stage.create<Counter>("Counter")), summer(stage.create<Summer>("Summer")) {
+    Accumulator& accumulator;
+    Ends(ManagerFixture& fixture, const std::string& properties)
+        : counter(fixture.create<Counter>("Counter")),
+          accumulator(fixture.create<Accumulator>("Accumulator")) {
         hear_all(counter.out_, out);
-        hear_all(summer.in_, in);
-        stage.connect("Counter0.out?port=Summer0.in&" + properties);
+        hear_all(accumulator.in_, in);
+        fixture.connect("Counter0.out?port=Accumulator0.in&" + properties);
     }
     ~Ends() {
         counter.exit();
-        summer.exit();
+        accumulator.exit();
         RTC::Manager::instance().cleanupComponents();
     }
     Words take() {
@@ -70,11 +71,12 @@ struct Ends {
 
 TEST_CASE("A flush connection tells of sending and receiving, and of what the buffer does") {
     const std::string interface = GENERATE("corba_cdr", "direct");
-    static Stage stage;
+    static ManagerFixture fixture;
     CAPTURE(interface);
-    Ends ends(stage, "buffer.length=2&buffer.write.full_policy=do_nothing&buffer.read.empty_policy=do_nothing"
-                     "&interface_type=" +
-                         interface);
+    Ends ends(fixture,
+              "buffer.length=2&buffer.write.full_policy=do_nothing&buffer.read.empty_policy=do_nothing"
+              "&interface_type=" +
+                  interface);
     CHECK(ends.take() == Words{"ON_CONNECT ", "ON_CONNECT "});
     ends.counter.out_.write();
     CHECK(ends.take() == Words{"ON_SEND ON_RECEIVED ", "ON_RECEIVED ON_BUFFER_WRITE "});
@@ -82,65 +84,66 @@ TEST_CASE("A flush connection tells of sending and receiving, and of what the bu
     ends.take();
     CHECK_FALSE(ends.counter.out_.write());
     CHECK(ends.take()[0] == "ON_SEND ON_RECEIVER_FULL ");
-    ends.summer.in_.read();
+    ends.accumulator.in_.read();
     CHECK(ends.take() == Words{"", "ON_BUFFER_READ "});
-    ends.summer.in_.read();
+    ends.accumulator.in_.read();
     ends.take();
-    ends.summer.in_.read();
+    ends.accumulator.in_.read();
     CHECK(ends.take() == Words{"", "ON_BUFFER_EMPTY "});
-    ends.summer.in_.disconnect_all();
+    ends.accumulator.in_.disconnect_all();
     CHECK(ends.take() == Words{"ON_DISCONNECT ", "ON_DISCONNECT "});
 }
 
 TEST_CASE("A buffer that overwrites or times out says so") {
     const std::string interface = GENERATE("corba_cdr", "direct");
-    static Stage stage;
+    static ManagerFixture fixture;
     CAPTURE(interface);
     {
-        Ends ends(stage, "buffer.length=1&interface_type=" + interface);
+        Ends ends(fixture, "buffer.length=1&interface_type=" + interface);
         ends.counter.out_.write();
         ends.take();
         ends.counter.out_.write();
         CHECK(ends.take()[1].find("ON_BUFFER_OVERWRITE") != std::string::npos);
     }
-    Ends ends(stage, "buffer.length=1&buffer.write.full_policy=block&buffer.write.timeout=0.001&"
-                     "buffer.read.empty_policy=block&buffer.read.timeout=0.001&interface_type=" +
-                         interface);
+    Ends ends(fixture, "buffer.length=1&buffer.write.full_policy=block&buffer.write.timeout=0.001&"
+                       "buffer.read.empty_policy=block&buffer.read.timeout=0.001&interface_type=" +
+                           interface);
     ends.counter.out_.write();
     ends.take();
     CHECK_FALSE(ends.counter.out_.write());
     const Words late = ends.take();
     CHECK(late[0] == "ON_SEND ON_RECEIVER_TIMEOUT ");
     CHECK(late[1].find("ON_BUFFER_WRITE_TIMEOUT") != std::string::npos);
-    ends.summer.in_.read();
+    ends.accumulator.in_.read();
     ends.take();
-    CHECK_FALSE(ends.summer.in_.read());
+    CHECK_FALSE(ends.accumulator.in_.read());
     CHECK(ends.take()[1] == "ON_BUFFER_READ_TIMEOUT ");
 }
 
 TEST_CASE("A pull connection tells of its buffer on the sending side") {
-    Stage stage;
-    Ends ends(stage, "dataflow_type=pull&buffer.read.empty_policy=do_nothing");
+    ManagerFixture fixture;
+    Ends ends(fixture, "dataflow_type=pull&buffer.read.empty_policy=do_nothing");
     ends.take();
     ends.counter.out_.write();
     CHECK(ends.take() == Words{"ON_BUFFER_WRITE ", ""});
-    ends.summer.in_.read();
+    ends.accumulator.in_.read();
     CHECK(ends.take() == Words{"ON_BUFFER_READ ON_SEND ", "ON_RECEIVED "});
-    ends.summer.in_.read();
+    ends.accumulator.in_.read();
     CHECK(ends.take()[0] == "ON_BUFFER_EMPTY ON_SENDER_EMPTY ");
 }
 
 namespace {
 
 // What comes of 1 ... 6 through a publisher, in the order of its coming.
-std::vector<long> published(Stage& stage, const std::string& properties, std::size_t at_least) {
-    Ends ends(stage, "buffer.length=16&" + properties);
+std::vector<long> published(ManagerFixture& fixture, const std::string& properties, std::size_t at_least) {
+    Ends ends(fixture, "buffer.length=16&" + properties);
     for (ends.counter.value_.data = 1; ends.counter.value_.data <= 6; ++ends.counter.value_.data)
         REQUIRE(ends.counter.out_.write());
     std::vector<long> got;
     for (int i = 0; i < 3000 && got.size() < at_least; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        while (ends.summer.in_.isNew() && ends.summer.in_.read()) got.push_back(ends.summer.value_.data);
+        while (ends.accumulator.in_.isNew() && ends.accumulator.in_.read())
+            got.push_back(ends.accumulator.value_.data);
     }
     return got;
 }
@@ -148,20 +151,21 @@ std::vector<long> published(Stage& stage, const std::string& properties, std::si
 } // namespace
 
 TEST_CASE("A periodic subscription sends what its policy chooses at each period") {
-    Stage stage;
+    ManagerFixture fixture;
     const std::string periodic = "subscription_type=periodic&publisher.push_rate=20&publisher.push_policy=";
-    CHECK(published(stage, periodic + "all", 6) == std::vector<long>{1, 2, 3, 4, 5, 6});
-    CHECK(published(stage, periodic + "fifo", 3).front() == 1);
-    CHECK(published(stage, periodic + "skip&publisher.skip_count=1", 3) == std::vector<long>{2, 4, 6});
-    CHECK(published(stage, periodic + "new", 1).back() == 6);
-    CHECK(published(stage, "subscription_type=periodic&push_rate=20", 1).back() == 6); // new, as OpenRTM-aist
+    CHECK(published(fixture, periodic + "all", 6) == std::vector<long>{1, 2, 3, 4, 5, 6});
+    CHECK(published(fixture, periodic + "fifo", 3).front() == 1);
+    CHECK(published(fixture, periodic + "skip&publisher.skip_count=1", 3) == std::vector<long>{2, 4, 6});
+    CHECK(published(fixture, periodic + "new", 1).back() == 6);
+    CHECK(published(fixture, "subscription_type=periodic&push_rate=20", 1).back() ==
+          6); // new, as OpenRTM-aist
 }
 
 TEST_CASE("A subscription to new data loses none when all are to be sent") {
-    Stage stage;
-    CHECK(published(stage, "subscription_type=new&publisher.push_policy=all", 6) ==
+    ManagerFixture fixture;
+    CHECK(published(fixture, "subscription_type=new&publisher.push_policy=all", 6) ==
           std::vector<long>{1, 2, 3, 4, 5, 6});
-    CHECK(published(stage, "subscription_type=new", 1).back() <= 6);
+    CHECK(published(fixture, "subscription_type=new", 1).back() <= 6);
 }
 
 namespace {
@@ -186,9 +190,9 @@ struct RetStep : RTC::PortConnectRetListener {
 } // namespace
 
 TEST_CASE("The steps of a connection are told in order") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    fixture.create<Accumulator>("Accumulator");
     std::string story;
     using T = RTC::PortConnectListenerType;
     using R = RTC::PortConnectRetListenerType;
@@ -202,11 +206,11 @@ TEST_CASE("The steps of a connection are told in order") {
     port.addPortConnectRetListener(R::ON_CONNECTED, new RetStep(story, "connected"));
     port.addPortConnectRetListener(R::ON_DISCONNECT_NEXT, new RetStep(story, "unnext"));
     port.addPortConnectRetListener(R::ON_DISCONNECTED, new RetStep(story, "disconnected"));
-    stage.connect("Counter0.out?port=Summer0.in");
+    fixture.connect("Counter0.out?port=Accumulator0.in");
     CHECK(std::exchange(story, "") == "notify(out) publish next subscribe connected ");
     port.disconnect_all();
     CHECK(std::exchange(story, "") == "leave(out) unnext unsubscribe(out) disconnected ");
-    CHECK_THROWS(stage.connect("Counter0.out?port=Summer0.in&buffer_type=none"));
+    CHECK_THROWS(fixture.connect("Counter0.out?port=Accumulator0.in&buffer_type=none"));
     CHECK(story.find("next! subscribe! connected! ") != std::string::npos);
 }
 
@@ -229,31 +233,31 @@ struct Noted : RTC::OnWrite<RTC::TimedLong>, RTC::OnRead<RTC::TimedLong> {
 
 TEST_CASE("The callbacks of ports see and change what is written and read") {
     const std::string interface = GENERATE("corba_cdr", "direct");
-    static Stage stage;
-    static auto& counter = stage.create<Counter>("Counter");
-    static auto& summer = stage.create<Summer>("Summer");
+    static ManagerFixture fixture;
+    static auto& counter = fixture.create<Counter>("Counter");
+    static auto& accumulator = fixture.create<Accumulator>("Accumulator");
     counter.out_.disconnect_all();
-    stage.connect("Counter0.out?port=Summer0.in&interface_type=" + interface);
+    fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=" + interface);
     Doubled doubled;
     Noted noted;
     counter.out_.setOnWrite(&noted);
     counter.out_.setOnWriteConvert(&doubled);
-    summer.in_.setOnRead(&noted);
-    summer.in_.setOnReadConvert(&doubled);
+    accumulator.in_.setOnRead(&noted);
+    accumulator.in_.setOnReadConvert(&doubled);
     counter.value_.data = 3;
     REQUIRE(counter.out_.write());
-    REQUIRE(summer.in_.isNew("Counter0.out-Summer0.in"));
-    CHECK_FALSE(summer.in_.isNew("another"));
-    REQUIRE(summer.in_.read("Counter0.out-Summer0.in"));
-    CHECK(summer.in_.getStatus(0) == RTC::DataPortStatus::PORT_OK);
-    CHECK(summer.value_.data == 12);
+    REQUIRE(accumulator.in_.isNew("Counter0.out-Accumulator0.in"));
+    CHECK_FALSE(accumulator.in_.isNew("another"));
+    REQUIRE(accumulator.in_.read("Counter0.out-Accumulator0.in"));
+    CHECK(accumulator.in_.getStatus(0) == RTC::DataPortStatus::PORT_OK);
+    CHECK(accumulator.value_.data == 12);
     CHECK(counter.value_.data == 3);
     CHECK(noted.written == 3);
     CHECK(noted.reads == 1);
     counter.out_.setOnWrite(nullptr);
     counter.out_.setOnWriteConvert(nullptr);
-    summer.in_.setOnRead(nullptr);
-    summer.in_.setOnReadConvert(nullptr);
+    accumulator.in_.setOnRead(nullptr);
+    accumulator.in_.setOnReadConvert(nullptr);
 }
 
 namespace {
@@ -274,8 +278,8 @@ struct After : RTC::PostComponentActionListener {
 } // namespace
 
 TEST_CASE("Listeners of component actions are called before and after each of them") {
-    Stage stage;
-    auto& rtc = stage.create<Recorder>("Recorder");
+    ManagerFixture fixture;
+    auto& rtc = fixture.create<Recorder>("Recorder");
     std::string story;
     for (int i = 0;
          i < static_cast<int>(RTC::PreComponentActionListenerType::PRE_COMPONENT_ACTION_LISTENER_NUM); ++i) {
@@ -284,17 +288,17 @@ TEST_CASE("Listeners of component actions are called before and after each of th
         rtc.addPostComponentActionListener(static_cast<RTC::PostComponentActionListenerType>(i),
                                            new After(story));
     }
-    stage.activate(rtc);
-    stage.step(rtc);
+    fixture.activate(rtc);
+    fixture.step(rtc);
     CHECK(std::exchange(story, "") == "<><><>");
-    Recorder::trouble_in() = "execute";
-    stage.step(rtc);
+    Recorder::failing_callback() = "execute";
+    fixture.step(rtc);
     CHECK(std::exchange(story, "") == "<!");
-    stage.step(rtc);
+    fixture.step(rtc);
     CHECK(std::exchange(story, "") == "<><><>"); // deactivated, aborting, error
     rtc.setExecutionRate(0, 10);
     CHECK(std::exchange(story, "") == "<>");
-    Recorder::trouble_in() = "";
+    Recorder::failing_callback() = "";
     rtc.reset(0);
     CHECK(std::exchange(story, "") == "<>");
     rtc.exit();
@@ -316,24 +320,24 @@ TEST_CASE(
         }
         std::string story;
     };
-    Stage stage;
+    ManagerFixture fixture;
     coil::Properties profile;
     for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Listening");
-    stage.manager().registerFactory(profile, RTC::Create<Listening>, RTC::Delete<Listening>);
-    auto& listening = stage.create<Listening>("Listening");
+    fixture.manager().registerFactory(profile, RTC::Create<Listening>, RTC::Delete<Listening>);
+    auto& listening = fixture.create<Listening>("Listening");
     auto* hears = listening.addPortConnectListener(RTC::ON_NOTIFY_CONNECT, listening, &Listening::connecting);
     listening.addPortConnectRetListener(RTC::ON_CONNECTED, listening, &Listening::connected);
     listening.addPostComponentActionListener(RTC::POST_ON_ACTIVATED, listening, &Listening::activated);
-    stage.create<Summer>("Summer");
-    stage.create<Summer>("Summer");
+    fixture.create<Accumulator>("Accumulator");
+    fixture.create<Accumulator>("Accumulator");
 
-    stage.connect("Listening0.out?port=Summer0.in");
+    fixture.connect("Listening0.out?port=Accumulator0.in");
     CHECK(std::exchange(listening.story, "") ==
-          "Listening0.out by Listening0.out-Summer0.in;Listening0.out ok;");
+          "Listening0.out by Listening0.out-Accumulator0.in;Listening0.out ok;");
     listening.removePortConnectListener(RTC::ON_NOTIFY_CONNECT, hears);
-    stage.connect("Listening0.out?port=Summer1.in");
+    fixture.connect("Listening0.out?port=Accumulator1.in");
     CHECK(std::exchange(listening.story, "") == "Listening0.out ok;");
-    Stage::activate(listening);
+    ManagerFixture::activate(listening);
     CHECK(listening.story == "activated 0 ok;");
 }
 

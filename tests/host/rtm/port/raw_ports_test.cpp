@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a bridge needs: ports of a type known at run time, buffers of its own, signatures.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/CdrRingBuffer.h>
 #include <rtm/InterfaceSignatures.h>
 
@@ -54,15 +54,15 @@ struct BridgeBuffer : RTC::CdrRingBuffer {
 } // namespace
 
 TEST_CASE("Raw ports of a type known at run time exchange the bytes with typed ports") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
     RawIn in("raw_in", "IDL:RTC/TimedLong:1.0");
     RawOut out("raw_out", "IDL:RTC/TimedLong:1.0");
     counter.addInPort("raw_in", in);
     counter.addOutPort("raw_out", out);
-    stage.connect("Counter0.out?port=Counter0.raw_in");
-    stage.connect("Counter0.raw_out?port=Summer0.in");
+    fixture.connect("Counter0.out?port=Counter0.raw_in");
+    fixture.connect("Counter0.raw_out?port=Accumulator0.in");
 
     counter.value_.data = 77;
     counter.out_.write();
@@ -72,38 +72,38 @@ TEST_CASE("Raw ports of a type known at run time exchange the bytes with typed p
     CHECK(in.bytes.getEndian());
     out.bytes = in.bytes;
     REQUIRE(out.write());
-    REQUIRE(summer.in_.read());
-    CHECK(summer.value_.data == 77);
+    REQUIRE(accumulator.in_.read());
+    CHECK(accumulator.value_.data == 77);
 
     out.bytes.setDataLength(5); // not a TimedLong
     out.write();
-    CHECK_FALSE(summer.in_.read());
-    CHECK(summer.in_.getStatus(0) == RTC::DataPortStatus::BUFFER_ERROR);
+    CHECK_FALSE(accumulator.in_.read());
+    CHECK(accumulator.in_.getStatus(0) == RTC::DataPortStatus::BUFFER_ERROR);
     counter.removePort(in);
     counter.removePort(out);
 }
 
 TEST_CASE(
     "A connector that names a buffer type gets its own buffer from the factory, beside the shared one") {
-    Stage stage;
+    ManagerFixture fixture;
     RTC::CdrBufferFactory::instance().addFactory("bridge", coil::Creator<RTC::CdrBufferBase, BridgeBuffer>,
                                                  coil::Destructor<RTC::CdrBufferBase, BridgeBuffer>);
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
     RawOut out("raw_out", "IDL:RTC/TimedLong:1.0");
     counter.addOutPort("raw_out", out);
-    stage.connect("Counter0.raw_out?port=Summer0.in&inport.buffer_type=bridge&buffer.ring=link/7");
-    stage.connect("Counter0.out?port=Summer0.in");
+    fixture.connect("Counter0.raw_out?port=Accumulator0.in&inport.buffer_type=bridge&buffer.ring=link/7");
+    fixture.connect("Counter0.out?port=Accumulator0.in");
     CHECK(BridgeBuffer::initialised_with() == "link/7");
 
-    CHECK_FALSE(summer.in_.isNew());
+    CHECK_FALSE(accumulator.in_.isNew());
     BridgeBuffer::next() = {3, 4};
     counter.value_.data = 50;
     counter.out_.write();
-    stage.activate(summer);
-    stage.step(summer);
-    CHECK(summer.sum_ == 57);
-    CHECK(summer.received_ == 3);
+    fixture.activate(accumulator);
+    fixture.step(accumulator);
+    CHECK(accumulator.sum_ == 57);
+    CHECK(accumulator.received_ == 3);
     counter.removePort(out);
 }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two processes: components of another rtm_host by CORBA alone.
-#include "tests/host/rtm/fixture.hpp"
-#include "tests/host/rtm/other_host.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
+#include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 
 using namespace testing;
 
 namespace {
 
-struct Other : OtherHost {
-    RTC::RTObject_ptr component(Stage& stage, const char* name) {
-        return OtherHost::component(stage.manager().theORB(), name);
+struct Other : RemoteHost {
+    RTC::RTObject_ptr component(ManagerFixture& fixture, const char* name) {
+        return RemoteHost::component(fixture.manager().theORB(), name);
     }
 };
 
@@ -18,9 +18,9 @@ struct Other : OtherHost {
 
 TEST_CASE("A component of another process shows its profile, ports, contexts and configuration") {
     Other other;
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    RTC::RTObject_var counter = other.component(stage, "Counter0");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    RTC::RTObject_var counter = other.component(fixture, "Counter0");
     REQUIRE_FALSE(CORBA::is_nil(counter.in()));
     CHECK(counter->_is_a("IDL:openrtm.aist.go.jp/OpenRTM/DataFlowComponent:1.0"));
     RTC::ComponentProfile_var profile = counter->get_component_profile();
@@ -37,14 +37,14 @@ TEST_CASE("A component of another process shows its profile, ports, contexts and
 
 TEST_CASE("A manager finds its components by instance name with and without their category") {
     Other other;
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    RTM::Manager_var there = other.manager(stage.manager().theORB());
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    RTM::Manager_var there = other.manager(fixture.manager().theORB());
     const auto found = [&](const std::string& name) {
         return RTC::RTCList_var(there->get_components_by_name(name.c_str()))->length();
     };
     RTC::ComponentProfile_var profile =
-        RTC::RTObject_var(other.component(stage, "Counter0"))->get_component_profile();
+        RTC::RTObject_var(other.component(fixture, "Counter0"))->get_component_profile();
     CHECK(found("Counter0") == 1);
     CHECK(found("*/Counter0") == 1);
     CHECK(found(std::string(profile->category) + "/Counter0") == 1);
@@ -55,13 +55,13 @@ TEST_CASE("A manager finds its components by instance name with and without thei
 
 TEST_CASE("Data crosses processes in both directions, and a receiver that dies is dropped") {
     Other other;
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage(false, {"exec_cxt.periodic.rate:200"});
-    auto& summer = stage.create<Summer>("Summer");
-    auto& counter = stage.create<Counter>("Counter");
-    RTC::RTObject_var here_in = summer.getObjRef(), here_out = counter.getObjRef();
-    RTC::RTObject_var there_out = other.component(stage, "Counter0"),
-                      there_in = other.component(stage, "Teller0");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false, {"exec_cxt.periodic.rate:200"});
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    auto& counter = fixture.create<Counter>("Counter");
+    RTC::RTObject_var here_in = accumulator.getObjRef(), here_out = counter.getObjRef();
+    RTC::RTObject_var there_out = other.component(fixture, "Counter0"),
+                      there_in = other.component(fixture, "Reporter0");
     coil::Properties push, pull;
     push.setProperty("dataport.dataflow_type", "push");
     CHECK(CORBA_RTCUtil::connect_by_name("in", push, there_out.in(), "out", here_in.in(), "in") ==
@@ -71,33 +71,33 @@ TEST_CASE("Data crosses processes in both directions, and a receiver that dies i
     CHECK(CORBA_RTCUtil::connect_by_name("again", push, here_out.in(), "out", there_in.in(), "in") !=
           RTC::RTC_OK);
     for (auto* rtc : {&here_in, &here_out, &there_in, &there_out}) CORBA_RTCUtil::activate(rtc->in());
-    CHECK(soon([&] { return summer.received_ >= 10; }));
-    CHECK(other.host.says("received "));
+    CHECK(eventually([&] { return accumulator.received_ >= 10; }));
+    CHECK(other.host.wait_for_output("received "));
 
-    other.host.send(SIGKILL);
-    CHECK(soon([&] { return counter.out_.getConnectorIds().empty(); }));
-    CHECK(stage.state(counter) == RTC::ACTIVE_STATE);
+    other.host.send_signal(SIGKILL);
+    CHECK(eventually([&] { return counter.out_.getConnectorIds().empty(); }));
+    CHECK(fixture.state(counter) == RTC::ACTIVE_STATE);
 }
 
 TEST_CASE("A pull connection fetches from another process") {
     Other other;
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    auto& summer = stage.create<Summer>("Summer");
-    RTC::RTObject_var here = summer.getObjRef(), there = other.component(stage, "Counter0");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    RTC::RTObject_var here = accumulator.getObjRef(), there = other.component(fixture, "Counter0");
     coil::Properties pull;
     pull.setProperty("dataport.dataflow_type", "pull");
     REQUIRE(CORBA_RTCUtil::connect_by_name("pull", pull, there.in(), "out", here.in(), "in") == RTC::RTC_OK);
     CORBA_RTCUtil::activate(there.in());
-    CHECK(soon([&] { return summer.in_.read() && summer.value_.data > 0; }));
+    CHECK(eventually([&] { return accumulator.in_.read() && accumulator.value_.data > 0; }));
 }
 
 TEST_CASE("A service of another process is called, and gone when its process is") {
     Other other;
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage;
-    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
-    RTC::RTObject_var here = consumer.getObjRef(), there = other.component(stage, "CalculatorProvider0");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    RTC::RTObject_var here = consumer.getObjRef(), there = other.component(fixture, "CalculatorProvider0");
     REQUIRE(CORBA_RTCUtil::connect_by_name("svc", coil::Properties(), here.in(), "calculator", there.in(),
                                            "calculator") == RTC::RTC_OK);
     Testing::Numbers numbers;
@@ -107,26 +107,27 @@ TEST_CASE("A service of another process is called, and gone when its process is"
     CHECK_THROWS_AS(consumer.calculator_->sum(numbers), CORBA::OBJECT_NOT_EXIST);
     CORBA_RTCUtil::activate(there.in());
     CHECK(consumer.calculator_->sum(numbers) == 3.5);
-    other.host.send(SIGKILL);
-    other.host.wait();
+    other.host.send_signal(SIGKILL);
+    other.host.wait_for_exit();
     CHECK_THROWS_AS(consumer.calculator_->sum(numbers), CORBA::SystemException);
 }
 
 TEST_CASE("A service may take longer than a call of the framework up to a bound of its own") {
-    OtherHost other("CalculatorProvider");
-    REQUIRE(other.host.says("ready\n"));
-    Stage stage(false, {"corba.args:-ORBclientCallTimeOutPeriod 300", "manager.service_call_timeout:20"});
-    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
-    RTC::RTObject_var there = other.component(stage.manager().theORB(), "CalculatorProvider0");
+    RemoteHost other("CalculatorProvider");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false,
+                           {"corba.args:-ORBclientCallTimeOutPeriod 300", "manager.service_call_timeout:20"});
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    RTC::RTObject_var there = other.component(fixture.manager().theORB(), "CalculatorProvider0");
     CORBA_RTCUtil::activate(there.in());
     auto call_while_it_stands_still = [&] {
         RTC::RTObject_var here = consumer.getObjRef();
         REQUIRE(CORBA_RTCUtil::connect_by_name("svc", coil::Properties(), here.in(), "calculator", there.in(),
                                                "calculator") == RTC::RTC_OK);
-        REQUIRE(other.host.freeze());
+        REQUIRE(other.host.suspend());
         std::thread later([&] {
             std::this_thread::sleep_for(std::chrono::seconds(1));
-            other.host.send(SIGCONT);
+            other.host.send_signal(SIGCONT);
         });
         bool answered = true;
         try {
@@ -139,6 +140,6 @@ TEST_CASE("A service may take longer than a call of the framework up to a bound 
         return answered;
     };
     CHECK(call_while_it_stands_still());
-    stage.manager().getConfig().setProperty("manager.service_call_timeout", "0.3");
+    fixture.manager().getConfig().setProperty("manager.service_call_timeout", "0.3");
     CHECK_FALSE(call_while_it_stands_still());
 }

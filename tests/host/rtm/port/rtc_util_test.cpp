@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Short forms for components that look at each other: CORBA_RTCUtil, the manager as a CORBA object.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/ManagerServant.h>
@@ -9,11 +9,11 @@ using namespace testing;
 namespace util = CORBA_RTCUtil;
 
 TEST_CASE("Connections are found and ended by name and by id and by the other port") {
-    Stage stage;
-    stage.create<Counter>("Counter");
-    stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    fixture.create<Counter>("Counter");
+    fixture.create<Accumulator>("Accumulator");
     RTC::PortService_var out = util::get_port_by_url("Counter0.out");
-    RTC::PortService_var in = util::get_port_by_url("Summer0.in");
+    RTC::PortService_var in = util::get_port_by_url("Accumulator0.in");
     REQUIRE_FALSE(CORBA::is_nil(out.in()));
     REQUIRE_FALSE(CORBA::is_nil(in.in()));
     CHECK(CORBA::is_nil(RTC::PortService_var(util::get_port_by_url("Nobody0.out")).in()));
@@ -33,7 +33,7 @@ TEST_CASE("Connections are found and ended by name and by id and by the other po
     CORBA_SeqUtil::push_back(targets, RTC::PortService::_duplicate(in.in()));
     REQUIRE(util::connect_multi("wires", usual, out.in(), targets) == RTC::RTC_OK);
     CHECK(util::disconnect_name(out.in(), "Nobody0.in") == RTC::BAD_PARAMETER);
-    CHECK(util::disconnect_name(out.in(), "Summer0.in") == RTC::RTC_OK);
+    CHECK(util::disconnect_name(out.in(), "Accumulator0.in") == RTC::RTC_OK);
 
     REQUIRE(util::connect("wire", usual, out.in(), in.in()) == RTC::RTC_OK);
     RTC::ConnectorProfileList_var profiles = out->get_connector_profiles();
@@ -43,10 +43,10 @@ TEST_CASE("Connections are found and ended by name and by id and by the other po
 }
 
 TEST_CASE("Rates and participants and parameters of a component are at hand") {
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
-    RTC::RTObject_var rtc = counter.getObjRef(), other = summer.getObjRef();
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    RTC::RTObject_var rtc = counter.getObjRef(), other = accumulator.getObjRef();
     CHECK(util::set_current_rate(rtc.in(), 0, 50) == RTC::RTC_OK);
     CHECK(util::get_current_rate(rtc.in(), 0) == Approx(50));
     CHECK(util::get_current_rate(rtc.in(), 7) == -1);
@@ -65,9 +65,9 @@ TEST_CASE("Rates and participants and parameters of a component are at hand") {
 }
 
 TEST_CASE("The manager is a CORBA object for its own components too") {
-    Stage stage;
-    stage.create<Counter>("Counter");
-    RTM::Manager_var manager = stage.manager().getManagerServant().getObjRef();
+    ManagerFixture fixture;
+    fixture.create<Counter>("Counter");
+    RTM::Manager_var manager = fixture.manager().getManagerServant().getObjRef();
     REQUIRE_FALSE(CORBA::is_nil(manager.in()));
     RTC::RTCList_var found = manager->get_components_by_name("Counter0");
     REQUIRE(found->length() == 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Serializers of somebody's own, which connections name by their marshaling type.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 
 using namespace testing;
 
@@ -31,8 +31,8 @@ struct LongToDouble {
     RTC::OutPort<RTC::TimedLong> out{"a", sent};
     RTC::InPort<RTC::TimedDouble> in{"b", received};
     RTC::RTObject_impl& owner;
-    explicit LongToDouble(Stage& stage, const std::string& configuration = "")
-        : owner(stage.create<Recorder>("Recorder?" + configuration)) {
+    explicit LongToDouble(ManagerFixture& fixture, const std::string& configuration = "")
+        : owner(fixture.create<Recorder>("Recorder?" + configuration)) {
         owner.addOutPort("a", out);
         owner.addInPort("b", in);
         RTC::addSerializer<RTC::TimedLong, LongAsDouble>("cdr:RTC/TimedDouble:RTC/TimedLong");
@@ -63,14 +63,14 @@ TEST_CASE("A serializer at either end of a connection lets a port of one type se
     const std::string flow = GENERATE("push", "pull");
     const std::string order = GENERATE("little", "big");
     CAPTURE(serializer, interface, flow, order);
-    static Stage stage;
+    static ManagerFixture fixture;
     {
-        LongToDouble pair(stage);
-        stage.connect("Recorder0.a?port=Recorder0.b&" + serializer + "&interface_type=" + interface +
-                      "&dataflow_type=" + flow + "&serializer.cdr.endian=" + order);
+        LongToDouble pair(fixture);
+        fixture.connect("Recorder0.a?port=Recorder0.b&" + serializer + "&interface_type=" + interface +
+                        "&dataflow_type=" + flow + "&serializer.cdr.endian=" + order);
         pair.send_some();
     }
-    stage.manager().cleanupComponents();
+    fixture.manager().cleanupComponents();
 }
 
 TEST_CASE("A serializer in the configuration of either port counts as one that the connection names") {
@@ -80,29 +80,29 @@ TEST_CASE("A serializer in the configuration of either port counts as one that t
     const std::string interface = GENERATE("corba_cdr", "data_service", "direct");
     const std::string flow = GENERATE("push", "pull");
     CAPTURE(serializer, interface, flow);
-    static Stage stage;
+    static ManagerFixture fixture;
     {
-        LongToDouble pair(stage, serializer);
+        LongToDouble pair(fixture, serializer);
         const std::string line =
             "Recorder0.a?port=Recorder0.b&interface_type=" + interface + "&dataflow_type=" + flow;
-        CHECK_THROWS_WITH(stage.connect(line + "&marshaling_type=cdr"),
+        CHECK_THROWS_WITH(fixture.connect(line + "&marshaling_type=cdr"),
                           Catch::Contains("connect ports of one type"));
-        stage.connect(line);
+        fixture.connect(line);
         pair.send_some();
     }
-    stage.manager().cleanupComponents();
+    fixture.manager().cleanupComponents();
 }
 
 TEST_CASE("Ports of different types stay apart when nothing converts") {
     const std::string properties =
         GENERATE("", "&interface_type=direct", "&marshaling_type=cdr", "&inport.marshaling_type=cdr");
     CAPTURE(properties);
-    static Stage stage;
+    static ManagerFixture fixture;
     {
-        LongToDouble pair(stage);
-        CHECK_THROWS_WITH(stage.connect("Recorder0.a?port=Recorder0.b" + properties),
+        LongToDouble pair(fixture);
+        CHECK_THROWS_WITH(fixture.connect("Recorder0.a?port=Recorder0.b" + properties),
                           Catch::Contains("connect ports of one type"));
         CHECK(pair.out.getConnectorProfiles().empty());
     }
-    stage.manager().cleanupComponents();
+    fixture.manager().cleanupComponents();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 
 using namespace testing;
 
@@ -14,14 +14,14 @@ double sum_of(CalculatorConsumer& consumer, std::initializer_list<double> values
 } // namespace
 
 TEST_CASE("A consumer calls the provider of the same type and instance while it is active") {
-    Stage stage;
-    auto& provider = stage.create<CalculatorProvider>("CalculatorProvider");
-    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    ManagerFixture fixture;
+    auto& provider = fixture.create<CalculatorProvider>("CalculatorProvider");
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
     CHECK_THROWS_AS(sum_of(consumer, {1}), CORBA::SystemException);
-    stage.connect("CalculatorConsumer0.calculator?port=CalculatorProvider0.calculator");
+    fixture.connect("CalculatorConsumer0.calculator?port=CalculatorProvider0.calculator");
     CHECK_THROWS_AS(sum_of(consumer, {1}), CORBA::OBJECT_NOT_EXIST);
 
-    stage.activate(provider);
+    fixture.activate(provider);
     CHECK(sum_of(consumer, {1, 2, 3.5}) == 6.5);
     CORBA::Long rest = 0;
     CHECK(consumer.calculator_->divide(17, 5, rest) == 3);
@@ -36,13 +36,14 @@ TEST_CASE("A consumer calls the provider of the same type and instance while it 
 }
 
 TEST_CASE("A strict connection without a matching provider is refused, a lenient one is not") {
-    Stage stage;
-    stage.create<CalculatorConsumer>("CalculatorConsumer");
-    stage.create<CalculatorConsumer>("CalculatorConsumer");
-    CHECK_THROWS_WITH(stage.connect("CalculatorConsumer0.calculator?port=CalculatorConsumer1.calculator&port."
-                                    "connection.strictness=strict"),
-                      Catch::Contains("no provider for Testing::Calculator"));
-    CHECK_NOTHROW(stage.connect("CalculatorConsumer0.calculator?port=CalculatorConsumer1.calculator"));
+    ManagerFixture fixture;
+    fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    CHECK_THROWS_WITH(
+        fixture.connect("CalculatorConsumer0.calculator?port=CalculatorConsumer1.calculator&port."
+                        "connection.strictness=strict"),
+        Catch::Contains("no provider for Testing::Calculator"));
+    CHECK_NOTHROW(fixture.connect("CalculatorConsumer0.calculator?port=CalculatorConsumer1.calculator"));
 }
 
 namespace {
@@ -74,16 +75,16 @@ class AnyServant : public PortableServer::DynamicImplementation {
 } // namespace
 
 TEST_CASE("A provider may be a servant of an interface known at run time") {
-    Stage stage;
-    auto& provider = stage.create<Recorder>("Recorder");
-    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    ManagerFixture fixture;
+    auto& provider = fixture.create<Recorder>("Recorder");
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
     AnyServant servant;
     RTC::CorbaPort port("calculator");
     REQUIRE(port.registerProvider("calc", "Testing::Calculator", servant));
     CHECK_FALSE(port.registerProvider("calc", "Testing::Calculator", servant));
     provider.addPort(port);
-    stage.connect("CalculatorConsumer0.calculator?port=Recorder0.calculator");
-    stage.activate(provider);
+    fixture.connect("CalculatorConsumer0.calculator?port=Recorder0.calculator");
+    fixture.activate(provider);
     CHECK(sum_of(consumer, {1, 2}) == 99);
     CHECK(servant.operation == "sum");
     provider.deactivate(0);
@@ -92,12 +93,12 @@ TEST_CASE("A provider may be a servant of an interface known at run time") {
 
 TEST_CASE(
     "An explicit mapping chooses the provider whatever its instance name and nil leaves the consumer empty") {
-    Stage stage;
-    auto& first = stage.create<CalculatorProvider>("CalculatorProvider");
-    auto& consumer = stage.create<CalculatorConsumer>("CalculatorConsumer");
+    ManagerFixture fixture;
+    auto& first = fixture.create<CalculatorProvider>("CalculatorProvider");
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
     Calculator other;
     REQUIRE(first.port_.registerProvider("other", "Testing::Calculator", other));
-    stage.activate(first);
+    fixture.activate(first);
     const std::string required = "CalculatorConsumer0.port.calculator.required.Testing::Calculator.calc";
     const std::string provided = "CalculatorProvider0.port.calculator.provided.Testing::Calculator.other";
     auto connect = [&](const std::string& to) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interface types that libraries register: their consumers and providers carry the data, and nobody else.
-#include "tests/host/rtm/fixture.hpp"
+#include "tests/host/rtm/manager_fixture.hpp"
 #include <map>
 #include <rtm/InPortConsumer.h>
 #include <rtm/InPortProvider.h>
@@ -116,32 +116,32 @@ std::string interface_types(RTC::PortBase& port) {
 TEST_CASE("a registered push transport carries the data of connections that ask for it") {
     add<RTC::InPortProvider, PostIn>();
     add<RTC::InPortConsumer, PostOut>();
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
     CHECK_THAT(interface_types(counter.out_), Catch::Contains("post"));
-    CHECK_THAT(interface_types(summer.in_), Catch::Contains("post"));
-    CHECK_THAT(interface_types(summer.in_), Catch::Contains("corba_cdr"));
+    CHECK_THAT(interface_types(accumulator.in_), Catch::Contains("post"));
+    CHECK_THAT(interface_types(accumulator.in_), Catch::Contains("corba_cdr"));
 
-    stage.connect("Counter0.out?port=Summer0.in&interface_type=post&post.colour=red");
+    fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post&post.colour=red");
     std::vector<int> heard;
-    summer.in_.addConnectorDataListener(RTC::ON_RECEIVED, new Heard(heard));
+    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new Heard(heard));
     CHECK(settings_seen == "red");
     CHECK(live_ends == 2);
-    stage.activate(counter);
-    stage.activate(summer);
+    fixture.activate(counter);
+    fixture.activate(accumulator);
     for (int i = 0; i < 4; ++i) {
-        stage.step(counter);
-        stage.step(summer);
+        fixture.step(counter);
+        fixture.step(accumulator);
     }
-    CHECK(summer.received_ == 4);
-    CHECK(summer.sum_ == 10);
+    CHECK(accumulator.received_ == 4);
+    CHECK(accumulator.sum_ == 10);
     CHECK(heard == std::vector<int>{1, 2, 3, 4}); // from the provider
 
     listening.clear(); // nothing takes another way
-    stage.step(counter);
-    stage.step(summer);
-    CHECK(summer.received_ == 4);
+    fixture.step(counter);
+    fixture.step(accumulator);
+    CHECK(accumulator.received_ == 4);
     counter.out_.disconnect_all();
     CHECK(live_ends == 0);
 }
@@ -149,17 +149,17 @@ TEST_CASE("a registered push transport carries the data of connections that ask 
 TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
     add<RTC::OutPortProvider, FetchOut>();
     add<RTC::OutPortConsumer, FetchIn>();
-    Stage stage;
-    auto& counter = stage.create<Counter>("Counter");
-    auto& summer = stage.create<Summer>("Summer");
-    stage.connect("Counter0.out?port=Summer0.in&interface_type=post&dataflow_type=pull");
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post&dataflow_type=pull");
     std::vector<int> sent;
     counter.out_.addConnectorDataListener(RTC::ON_SEND, new Heard(sent));
-    stage.activate(counter);
-    for (int i = 0; i < 3; ++i) stage.step(counter);
+    fixture.activate(counter);
+    for (int i = 0; i < 3; ++i) fixture.step(counter);
     for (int i = 0; i < 3; ++i) {
-        REQUIRE(summer.in_.read());
-        CHECK(summer.value_.data == i + 1);
+        REQUIRE(accumulator.in_.read());
+        CHECK(accumulator.value_.data == i + 1);
     }
     CHECK(sent == std::vector<int>{1, 2, 3});
     counter.out_.disconnect_all();
@@ -168,10 +168,10 @@ TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
 
 TEST_CASE("a transport of which one end is missing refuses the connection and says which") {
     add<RTC::InPortConsumer, PostOut>();
-    Stage stage;
-    stage.create<Counter>("Counter");
-    stage.create<Summer>("Summer");
-    CHECK_THROWS_WITH(stage.connect("Counter0.out?port=Summer0.in&interface_type=post"),
+    ManagerFixture fixture;
+    fixture.create<Counter>("Counter");
+    fixture.create<Accumulator>("Accumulator");
+    CHECK_THROWS_WITH(fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post"),
                       Catch::Contains("post has no InPortProvider"));
     CHECK(live_ends == 0);
 }

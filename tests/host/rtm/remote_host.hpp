@@ -9,7 +9,7 @@
 
 namespace testing {
 
-inline std::string free_port() {
+inline std::string unused_port() {
     const int fd = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -22,7 +22,7 @@ inline std::string free_port() {
 }
 
 template <class Condition>
-bool soon(Condition condition) {
+bool eventually(Condition condition) {
     for (int i = 0; i < 20000; ++i) {
         if (condition()) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -31,9 +31,9 @@ bool soon(Condition condition) {
 }
 
 /// Reached through its manager's well-known name.
-struct OtherHost {
-    explicit OtherHost(const std::string& components = "Counter,Teller,CalculatorProvider",
-                       std::string at = free_port(), std::vector<std::string> settings = {})
+struct RemoteHost {
+    explicit RemoteHost(const std::string& components = "Counter,Reporter,CalculatorProvider",
+                        std::string at = unused_port(), std::vector<std::string> settings = {})
         : port(std::move(at)), host(arguments(components, port, settings)) {}
 
     static std::vector<std::string> arguments(const std::string& components, const std::string& port,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/naming/naming.hpp"
+#include "host/rtm/runtime/naming/name_bindings.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include <algorithm>
 
@@ -18,59 +18,59 @@ void make_contexts(CosNaming::NamingContext_ptr root, const CosNaming::Name& nam
     }
 }
 
-void bind_in(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
-    const CosNaming::Name name = to_name(path);
+void bind_path(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
+    const CosNaming::Name name = to_corba_name(path);
     make_contexts(root, name);
     root->rebind(name, object);
 }
 
-enum class Found { ours, other, missing, nothing_at_all };
+enum class Binding { ours, foreign, missing, context_missing };
 
-Found look_up(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
+Binding query_binding(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
     try {
-        CORBA::Object_var present = root->resolve(to_name(path));
-        return present->_is_equivalent(object) ? Found::ours : Found::other;
+        CORBA::Object_var present = root->resolve(to_corba_name(path));
+        return present->_is_equivalent(object) ? Binding::ours : Binding::foreign;
     } catch (const CosNaming::NamingContext::NotFound& e) {
         // A server that does not even know our host's context has lost its entries: nobody unbinds contexts.
-        const bool first = e.rest_of_name.length() == to_name(path).length();
-        return first && e.rest_of_name.length() > 1 ? Found::nothing_at_all : Found::missing;
+        const bool first = e.rest_of_name.length() == to_corba_name(path).length();
+        return first && e.rest_of_name.length() > 1 ? Binding::context_missing : Binding::missing;
     }
 }
 
 } // namespace
 
-Naming::Naming(CORBA::ORB_ptr orb, const std::vector<std::string>& servers)
+NameBindings::NameBindings(CORBA::ORB_ptr orb, const std::vector<std::string>& servers)
     : orb_(CORBA::ORB::_duplicate(orb)) {
-    for (const auto& server : servers) servers_.push_back({with_port(server, 2809), true});
+    for (const auto& server : servers) servers_.push_back({with_default_port(server, 2809), true});
 }
 
-void Naming::add_server(const std::string& server) {
-    const std::string address = with_port(server, 2809);
+void NameBindings::add_server(const std::string& server) {
+    const std::string address = with_default_port(server, 2809);
     std::lock_guard<std::mutex> lock(mutex_);
     for (const auto& present : servers_)
         if (present.address == address) return;
     servers_.push_back({address, true});
 }
 
-std::vector<Naming::Entry> Naming::entries() const {
+std::vector<NameBindings::Entry> NameBindings::entries() const {
     std::lock_guard<std::mutex> lock(mutex_);
     return entries_;
 }
 
-std::vector<std::string> Naming::servers() const {
+std::vector<std::string> NameBindings::servers() const {
     std::lock_guard<std::mutex> lock(mutex_);
     std::vector<std::string> addresses;
     for (const auto& server : servers_) addresses.push_back(server.address);
     return addresses;
 }
 
-void Naming::set_there(const std::string& address, bool there) {
+void NameBindings::set_reachable(const std::string& address, bool reachable) {
     std::lock_guard<std::mutex> lock(mutex_);
     for (auto& server : servers_)
-        if (server.address == address) server.there = there;
+        if (server.address == address) server.reachable = reachable;
 }
 
-std::vector<std::string> Naming::bind(const std::string& path, CORBA::Object_ptr object) {
+std::vector<std::string> NameBindings::bind(const std::string& path, CORBA::Object_ptr object) {
     std::vector<Server> servers;
     {
         std::lock_guard<std::mutex> lock(mutex_);
@@ -80,12 +80,12 @@ std::vector<std::string> Naming::bind(const std::string& path, CORBA::Object_ptr
     }
     std::vector<std::string> refusals;
     for (const auto& server : servers) {
-        if (!server.there) continue; // was said when it went
+        if (!server.reachable) continue; // was said when it went
         try {
-            CosNaming::NamingContext_var root = name_server(orb_.in(), server.address);
-            bind_in(root.in(), path, object);
-        } catch (const NotThere& e) {
-            set_there(server.address, false);
+            CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
+            bind_path(root.in(), path, object);
+        } catch (const RemoteUnavailable& e) {
+            set_reachable(server.address, false);
             refusals.push_back(
                 std::string(e.what()) +
                 "; names are bound when it comes; start omniNames there or set naming.enable: NO");
@@ -97,7 +97,7 @@ std::vector<std::string> Naming::bind(const std::string& path, CORBA::Object_ptr
     return refusals;
 }
 
-void Naming::unbind(const std::string& path) {
+void NameBindings::unbind(const std::string& path) {
     CORBA::Object_var object;
     std::vector<Server> servers;
     {
@@ -109,19 +109,20 @@ void Naming::unbind(const std::string& path) {
     }
     if (CORBA::is_nil(object.in())) return;
     for (const auto& server : servers) {
-        if (!server.there) continue;
+        if (!server.reachable) continue;
         try {
-            CosNaming::NamingContext_var root = name_server(orb_.in(), server.address);
-            if (look_up(root.in(), path, object.in()) == Found::ours) root->unbind(to_name(path));
-        } catch (const NotThere&) {
-            set_there(server.address, false); // its entries are gone with it, or stale
+            CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
+            if (query_binding(root.in(), path, object.in()) == Binding::ours)
+                root->unbind(to_corba_name(path));
+        } catch (const RemoteUnavailable&) {
+            set_reachable(server.address, false); // its entries are gone with it, or stale
         } catch (const CORBA::Exception&) {
             continue; // somebody else has removed the entry just now
         }
     }
 }
 
-std::vector<std::string> Naming::update(bool rebind) {
+std::vector<std::string> NameBindings::update(bool rebind) {
     std::vector<Server> servers;
     {
         std::lock_guard<std::mutex> lock(mutex_);
@@ -132,9 +133,9 @@ std::vector<std::string> Naming::update(bool rebind) {
         std::string line;
         try {
             line = update(server, rebind);
-        } catch (const NotThere& e) {
-            if (server.there) line = std::string(e.what()) + "; names are bound again when it is back";
-            set_there(server.address, false);
+        } catch (const RemoteUnavailable& e) {
+            if (server.reachable) line = std::string(e.what()) + "; names are bound again when it is back";
+            set_reachable(server.address, false);
         } catch (const CORBA::Exception& e) {
             line = "name server " + server.address + " does not take our names (" + e._name() + ")";
         }
@@ -143,22 +144,23 @@ std::vector<std::string> Naming::update(bool rebind) {
     return news;
 }
 
-std::string Naming::update(const Server& server, bool rebind) {
+std::string NameBindings::update(const Server& server, bool rebind) {
     const auto all = entries();
-    CosNaming::NamingContext_var root = name_server(orb_.in(), server.address);
-    std::vector<Entry> absent;
-    bool forgotten = false;
+    CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
+    std::vector<Entry> missing;
+    bool contexts_lost = false;
     for (const auto& entry : all) {
-        const Found found = look_up(root.in(), entry.path, entry.object.in());
+        const Binding found = query_binding(root.in(), entry.path, entry.object.in());
         // What another process has taken since is left to it, as long as the server was there.
-        if (found != Found::ours && !(found == Found::other && server.there)) absent.push_back(entry);
-        forgotten = forgotten || found == Found::nothing_at_all;
+        if (found != Binding::ours && !(found == Binding::foreign && server.reachable))
+            missing.push_back(entry);
+        contexts_lost = contexts_lost || found == Binding::context_missing;
     }
-    set_there(server.address, true);
-    if (absent.empty() || (server.there && !forgotten && !rebind)) return "";
-    for (const auto& entry : absent) bind_in(root.in(), entry.path, entry.object.in());
-    return "name server " + server.address + ": bound " + std::to_string(absent.size()) + " name" +
-           (absent.size() == 1 ? "" : "s") + " again";
+    set_reachable(server.address, true);
+    if (missing.empty() || (server.reachable && !contexts_lost && !rebind)) return "";
+    for (const auto& entry : missing) bind_path(root.in(), entry.path, entry.object.in());
+    return "name server " + server.address + ": bound " + std::to_string(missing.size()) + " name" +
+           (missing.size() == 1 ? "" : "s") + " again";
 }
 
 } // namespace RTC

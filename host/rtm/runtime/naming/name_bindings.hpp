@@ -9,10 +9,10 @@ namespace RTC {
 
 /// The entries of this process in CORBA name servers. A server that is away holds nobody up: what it missed
 /// is made up for by update(), when it is there again. [any-thread]
-class Naming {
+class NameBindings {
   public:
     /// `host` or `host:port` each.
-    Naming(CORBA::ORB_ptr orb, const std::vector<std::string>& servers);
+    NameBindings(CORBA::ORB_ptr orb, const std::vector<std::string>& servers);
 
     /// Binds in every server, making the contexts on the way (`host.host_cxt/Name0.rtc`). Returns one line
     /// for each server that does not take it.
@@ -21,7 +21,7 @@ class Naming {
     void add_server(const std::string& server);
     /// Removes the entry where it is still ours.
     void unbind(const std::string& path);
-    /// All entries again in servers that were away, or have forgotten everything; with `rebind` wherever one
+    /// All entries again in servers that were away, or have lost everything; with `rebind` wherever one
     /// is missing. Returns one line for each server that has come or gone.
     std::vector<std::string> update(bool rebind);
     std::vector<std::string> servers() const;
@@ -33,10 +33,10 @@ class Naming {
     };
     struct Server {
         std::string address;
-        bool there = true;
+        bool reachable = true;
     };
     std::vector<Entry> entries() const;
-    void set_there(const std::string& address, bool there);
+    void set_reachable(const std::string& address, bool reachable);
     std::string update(const Server& server, bool rebind);
 
     CORBA::ORB_var orb_;

@@ -8,14 +8,14 @@
 namespace testing {
 
 /// The process's manager with the test components; ended when the test case ends (one test case per process).
-class Stage {
+class ManagerFixture {
   public:
-    explicit Stage(bool lockstep = true, std::vector<std::string> settings = {},
-                   std::chrono::nanoseconds tick_spin = {})
+    explicit ManagerFixture(bool lockstep = true, std::vector<std::string> settings = {},
+                            std::chrono::nanoseconds tick_spin = {})
         : manager_(start(lockstep, settings, tick_spin)) {
-        register_all(manager_);
+        register_test_components(manager_);
     }
-    ~Stage() { manager_.shutdown(); }
+    ~ManagerFixture() { manager_.shutdown(); }
 
     template <class Component>
     Component& create(const std::string& args) {
