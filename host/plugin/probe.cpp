@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/plugin/probe.hpp"
 
-#include "host/plugin/bounded_child.hpp"
 #include "host/plugin/error.hpp"
 #include "host/plugin/probe_words.hpp"
+#include "host/process/run_command.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
-#include <sys/wait.h>
 #include <system_error>
 
 namespace tandem::plugin {
 namespace {
+
+constexpr std::size_t max_report_bytes = std::size_t{16} << 20, max_error_bytes = 4096;
 
 struct Report {
     std::string stage, failure, result;
@@ -58,13 +59,13 @@ std::string bound_text(std::chrono::milliseconds bound) {
     return text.str();
 }
 
-std::string reason(const Probe& how, const ChildEnd& end, const Report& report) {
+std::string reason(const Probe& how, const process::CommandResult& end, const Report& report) {
     const std::string where = report.stage.empty() ? "the probe" : report.stage;
     if (end.timed_out) return "did not return from " + where + " within " + bound_text(how.bound);
-    if (WIFSIGNALED(end.status))
-        return "crashed in " + where + " with signal " + std::to_string(WTERMSIG(end.status)) + " (" +
-               strsignal(WTERMSIG(end.status)) + ")" + last_words(end.errors);
-    return "ended the process in " + where + " with exit code " + std::to_string(WEXITSTATUS(end.status)) +
+    if (end.status.signalled)
+        return "crashed in " + where + " with signal " + std::to_string(end.status.code) + " (" +
+               strsignal(end.status.code) + ")" + last_words(end.errors);
+    return "ended the process in " + where + " with exit code " + std::to_string(end.status.code) +
            last_words(end.errors);
 }
 
@@ -74,9 +75,15 @@ std::string probe(const Probe& how, const std::string& task, const std::filesyst
                   const std::vector<std::string>& arguments) {
     std::vector<std::string> command{how.program.string(), probe_argument, task, library.string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    ChildEnd end;
+    process::CommandOptions options;
+    options.timeout = how.bound;
+    options.capture_report = true;
+    options.discard_output = true;
+    options.max_output = max_report_bytes;
+    options.max_errors = max_error_bytes;
+    process::CommandResult end;
     try {
-        end = run_bounded(command, how.bound);
+        end = process::run_command(command, options);
     } catch (const std::system_error& error) {
         throw Error(Reason::failed_probe, how.subject + " " + library.string() +
                                               " cannot be tried in a child process: " + error.what());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/plugin/probed_side.hpp"
 
-#include "host/plugin/bounded_child.hpp"
 #include "host/plugin/probe_words.hpp"
+#include "host/process/child_process.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -20,7 +20,7 @@ namespace {
 // Without buffer: the next thing the process does may be its last.
 void tell(std::string_view text) {
     while (!text.empty()) {
-        const ssize_t sent = write(report_descriptor, text.data(), text.size());
+        const ssize_t sent = write(process::report_descriptor, text.data(), text.size());
         if (sent < 0 && errno == EINTR) continue;
         if (sent <= 0) _exit(1); // nobody listens any more
         text.remove_prefix(static_cast<std::size_t>(sent));

@@ -14,18 +14,6 @@ constexpr std::size_t longest_line = 4096;
 constexpr int send_patience_ms = 1000;
 } // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-    if (this != &other) {
-        if (fd_ >= 0) ::close(fd_);
-        fd_ = std::exchange(other.fd_, -1);
-    }
-    return *this;
-}
-
-Descriptor::~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-}
-
 sockaddr_un socket_address(const std::string& path) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;

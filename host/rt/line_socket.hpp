@@ -2,26 +2,16 @@
 // Lines over a unix stream socket: what StepServer and StepClient share. Internal to host/rt.
 #pragma once
 
+#include "host/process/file_descriptor.hpp"
+
 #include <optional>
 #include <string>
 #include <string_view>
 #include <sys/un.h>
-#include <utility>
 
 namespace tandem::rt {
 
-/// Owns a file descriptor.
-class Descriptor {
-  public:
-    explicit Descriptor(int fd = -1) noexcept : fd_(fd) {}
-    Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept;
-    ~Descriptor();
-    int get() const noexcept { return fd_; }
-
-  private:
-    int fd_;
-};
+using process::FileDescriptor;
 
 /// Throws std::runtime_error when the path is longer than a unix socket address can hold.
 sockaddr_un socket_address(const std::string& path);

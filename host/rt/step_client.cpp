@@ -26,7 +26,7 @@ StepClient::StepClient(const std::string& socket_path, std::chrono::nanoseconds 
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
     const auto deadline = Clock::now() + wait_for_it;
     for (;;) {
-        socket_ = Descriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+        socket_ = FileDescriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
         if (::connect(socket_.get(), where, sizeof address) == 0) return;
         const std::string reason = std::strerror(errno);
         if (Clock::now() >= deadline)

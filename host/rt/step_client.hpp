@@ -24,7 +24,7 @@ class StepClient {
     std::string receive_line(std::chrono::nanoseconds bound);
 
     std::string path_;
-    Descriptor socket_;
+    FileDescriptor socket_;
     LineBuffer lines_;
 };
 

@@ -23,17 +23,17 @@ namespace {
 }
 
 void remove_stale(const std::string& path, const sockaddr_un& address) {
-    const Descriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    const FileDescriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
     if (::connect(probe.get(), where, sizeof address) == 0) fail(path, "another process listens on it");
     struct stat info {};
     if (::stat(path.c_str(), &info) == 0 && S_ISSOCK(info.st_mode)) ::unlink(path.c_str());
 }
 
-Descriptor listen_on(const std::string& path) {
+FileDescriptor listen_on(const std::string& path) {
     const sockaddr_un address = socket_address(path);
     remove_stale(path, address);
-    Descriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    FileDescriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     ::fchmod(listener.get(), 0600); // before bind: the file never has a wider mode
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
     if (::bind(listener.get(), where, sizeof address) != 0) fail(path, std::strerror(errno));
@@ -81,7 +81,7 @@ bool StepServer::wait_for_input() {
 }
 
 void StepServer::accept_one() {
-    Descriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    FileDescriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     if (socket.get() >= 0) clients_.push_back({std::move(socket), {}});
 }
 

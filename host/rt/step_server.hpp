@@ -27,7 +27,7 @@ class StepServer {
 
   private:
     struct Client {
-        Descriptor socket;
+        FileDescriptor socket;
         LineBuffer lines;
     };
     void serve();
@@ -38,7 +38,7 @@ class StepServer {
 
     std::string path_;
     Step step_;
-    Descriptor listener_, stop_;
+    FileDescriptor listener_, stop_;
     std::list<Client> clients_;
     std::thread thread_;
 };

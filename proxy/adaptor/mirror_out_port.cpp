@@ -59,7 +59,7 @@ void MirroredOutput::done() {
 }
 
 void MirroredOutput::undecodable(const std::string& why) {
-    if (undecodable_.now())
+    if (undecodable_.should_log())
         spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
                       partner_.name, record_bytes_, why, undecodable_.count());
 }

@@ -3,8 +3,8 @@
 
 #include "proxy/adaptor/cdr_archive.hpp"
 #include "proxy/link/channel.hpp"
+#include "proxy/link/log_throttle.hpp"
 #include "proxy/link/port_table.hpp"
-#include "proxy/link/rare.hpp"
 
 #include <DataPortSource.h>
 #include <InputDataPortInterface.h>
@@ -48,7 +48,7 @@ class MirroredOutput final : public OutputDataPortInterface, private DataPortSou
 
     std::unique_lock<std::mutex> held_; ///< from next() to done(): the record must stay while it is read
     std::size_t record_bytes_ = 0;
-    link::Rare undecodable_;
+    link::LogThrottle undecodable_;
     std::optional<CdrIarchive> archive_;
 };
 

@@ -87,7 +87,7 @@ std::vector<std::byte> ProviderMirror::call(const char* name, const Operation& o
                                             std::span<const std::byte> arguments) {
     auto answer = link_.call({port_.name, name, operation.signature, arguments}, call_timeout_);
     if (answer.status == link::CallStatus::ok) return std::move(answer.bytes);
-    if (!answer.bytes.empty() && failed_.now())
+    if (!answer.bytes.empty() && failed_.should_log())
         spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, answer.text(),
                      failed_.count());
     throw_failure(answer);

@@ -4,7 +4,7 @@
 #include "proxy/interceptor/generic_servant.hpp"
 #include "proxy/link/control.hpp"
 #include "proxy/link/link.hpp"
-#include "proxy/link/rare.hpp"
+#include "proxy/link/log_throttle.hpp"
 
 #include <chrono>
 #include <map>
@@ -37,7 +37,7 @@ class ProviderMirror final : private CallTarget {
     std::mutex mutex_; ///< the maps; what they hold lives as long as this, since calls under way use it
     std::map<std::string, std::unique_ptr<Operation>, std::less<>> operations_;
     std::vector<std::unique_ptr<Operation>> retired_;
-    link::Rare failed_;
+    link::LogThrottle failed_;
     GenericServant servant_;
 };
 

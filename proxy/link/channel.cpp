@@ -19,7 +19,7 @@ bool ChannelWriter::refused(std::size_t bytes) {
                 "port '{}': a message of {} bytes is longer than {} and is dropped, as all such will be; "
                 "raise large_kib to {} or more",
                 port_, bytes, limit, (bytes + 1023) / 1024);
-    } else if (!bound_->end.corrupt() && no_memory_.now()) {
+    } else if (!bound_->end.corrupt() && no_memory_.should_log()) {
         spdlog::error(
             "port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} bytes "
             "are available: free some or enlarge it",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/rare.hpp"
+#include "proxy/link/log_throttle.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "shm/segment.hpp"
 
@@ -79,7 +79,7 @@ class ChannelWriter {
     const std::string port_;
     std::uint64_t unlinked_ = 0;
     std::size_t told_limit_ = 0; ///< that a message was longer than has been said
-    Rare no_memory_;
+    LogThrottle no_memory_;
 };
 
 /// Receiving end. What is read lies in the shared ring itself: no thread hands it over.

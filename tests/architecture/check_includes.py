@@ -6,13 +6,15 @@ import re
 import sys
 
 ALLOWED = {
-    "shm": set(),
-    "host/plugin": set(),
-    "host/rt": set(),
-    "host/opros": {"host/plugin", "host/rt"},
-    "host/rtm": {"host/plugin", "host/rt"},
+    "shm": {"shm/os"},
+    "shm/os": set(),
+    "host/process": {"shm/os"},
+    "host/plugin": {"host/process"},
+    "host/rt": {"host/process"},
+    "host/opros": {"host/plugin", "host/process", "host/rt"},
+    "host/rtm": {"host/plugin", "host/process", "host/rt"},
     "proxy/wire": set(),
-    "proxy/link": {"proxy/wire", "shm"},
+    "proxy/link": {"host/process", "proxy/wire", "shm", "shm/os"},
     "proxy/adaptor": {"proxy/link", "proxy/wire"},
     "proxy/interceptor": {"proxy/link", "proxy/wire"},
     "plugins": set(),

@@ -2,7 +2,7 @@
 // A folder with an OPRoS application and an rtc.conf, and hosts started on them.
 #pragma once
 
-#include "apps/wheelchair/run/child_process.hpp"
+#include "host/process/child_process.hpp"
 
 #include <chrono>
 #include <csignal>
@@ -123,15 +123,15 @@ class TwoHosts {
     void start(const std::string& host, std::vector<std::string> command) {
         command.insert(command.end(), {"--plugin-path", TEST_PLUGINS, "--parent-death"});
         command.insert(command.end(), switches_.begin(), switches_.end());
-        const tandem::wheelchair::Fd log(
+        const tandem::process::FileDescriptor log(
             open((folder_ / (host + ".log")).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
         hosts_.erase(host);
-        hosts_.emplace(host, tandem::wheelchair::ChildProcess(command, {-1, log.get(), log.get(), ""}));
+        hosts_.emplace(host, tandem::process::ChildProcess(command, {-1, log.get(), log.get(), ""}));
     }
 
     std::filesystem::path folder_;
     std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
                                      interceptor_ = "rtc=EchoRtc0", rtc_conf_more_;
     std::vector<std::string> switches_;
-    std::map<std::string, tandem::wheelchair::ChildProcess> hosts_;
+    std::map<std::string, tandem::process::ChildProcess> hosts_;
 };

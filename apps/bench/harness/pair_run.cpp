@@ -2,6 +2,7 @@
 #include "apps/bench/harness/pair_run.hpp"
 
 #include "apps/bench/harness/machine_load.hpp"
+#include "host/process/child_process.hpp"
 
 #include <fmt/format.h>
 
@@ -15,8 +16,6 @@
 #include <mqueue.h>
 #include <poll.h>
 #include <sys/mman.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
 #include <system_error>
 #include <thread>
 #include <unistd.h>
@@ -102,59 +101,34 @@ void remove_left_overs(const std::string& name) {
     for (const char* end : {"-0", "-1"}) mq_unlink(("/" + name + end).c_str());
 }
 
-/// The children of a case: waits for their end, kills those that are left.
-class Children {
-  public:
-    void add(pid_t child) {
-        const int fd = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
-        if (fd < 0) throw std::system_error(errno, std::generic_category(), "pidfd_open");
-        children_.push_back({child, fd});
-    }
-    ~Children() {
-        for (const Child& child : children_) {
-            if (child.pid > 0) kill_child(child.pid);
-            close(child.fd);
+/// Waits until all children of a case have ended. Empty if all ended well; the first that does not, an
+/// interrupt or the bound ends the wait.
+std::string wait_for(std::vector<process::ChildProcess>& children, double seconds) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (;;) {
+        std::vector<pollfd> fds;
+        for (std::size_t i = 0; i < children.size(); ++i) {
+            const auto& ended = children[i].poll();
+            if (!ended)
+                fds.push_back({children[i].pidfd(), POLLIN, 0});
+            else if (ended->signalled)
+                return fmt::format("side {} was ended by signal {}", "AB"[i], strsignal(ended->code));
+            else if (!ended->success())
+                return fmt::format("side {} failed", "AB"[i]);
         }
+        if (fds.empty()) return {};
+        const std::chrono::duration<double, std::milli> rest = end - std::chrono::steady_clock::now();
+        const int changed = poll(fds.data(), fds.size(), std::max(0, static_cast<int>(rest.count())));
+        if (interrupted()) return "interrupted";
+        if (changed == 0) return fmt::format("not finished after {:g} s", seconds);
     }
-
-    /// Empty if all ended well; the first to end badly, or the bound, ends the wait.
-    std::string wait(double seconds) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-        for (std::size_t left = children_.size(); left > 0;) {
-            std::vector<pollfd> fds;
-            for (const Child& child : children_) fds.push_back({child.pid > 0 ? child.fd : -1, POLLIN, 0});
-            const std::chrono::duration<double, std::milli> rest = end - std::chrono::steady_clock::now();
-            const int changed = poll(fds.data(), fds.size(), std::max(0, static_cast<int>(rest.count())));
-            if (interrupted()) return "interrupted";
-            if (changed == 0) return fmt::format("not finished after {:g} s", seconds);
-            for (std::size_t i = 0; i < fds.size(); ++i) {
-                if ((fds[i].revents & POLLIN) == 0) continue;
-                int status = 0;
-                waitpid(children_[i].pid, &status, 0);
-                children_[i].pid = 0;
-                --left;
-                if (WIFSIGNALED(status))
-                    return fmt::format("side {} was ended by signal {}", "AB"[i],
-                                       strsignal(WTERMSIG(status)));
-                if (WEXITSTATUS(status) != 0) return fmt::format("side {} failed", "AB"[i]);
-            }
-        }
-        return {};
-    }
-
-  private:
-    struct Child {
-        pid_t pid;
-        int fd;
-    };
-    std::vector<Child> children_;
-};
+}
 
 template <class Work>
-void start(Children& children, Work&& work) {
+void start(std::vector<process::ChildProcess>& children, Work&& work) {
     const pid_t child = fork_child();
     if (child == 0) work();
-    children.add(child);
+    children.emplace_back(child);
 }
 
 } // namespace
@@ -174,7 +148,7 @@ Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores)
     {
         const RegimeHold hold(measured.regime, cores);
         const MachineLoad load;
-        Children children;
+        std::vector<process::ChildProcess> children; // kills those that are left at the end of the scope
         if (measured.placement == Placement::threads) {
             start(children, [&] { stage.play_both_and_exit(); });
         } else {
@@ -182,7 +156,7 @@ Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores)
             if (measured.placement == Placement::processes)
                 start(children, [&] { stage.play_and_exit(Session::Role::b); });
         }
-        outcome.failure = children.wait(limits.bound_seconds + measured.extra_seconds);
+        outcome.failure = wait_for(children, limits.bound_seconds + measured.extra_seconds);
         if (measured.regime != Regime::loaded) outcome.foreign = load.foreign_share();
     }
     remove_left_overs(stage.name);

@@ -12,7 +12,6 @@
 #include <sched.h>
 #include <stdexcept>
 #include <sys/prctl.h>
-#include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -68,11 +67,6 @@ pid_t fork_child() {
     return child;
 }
 
-void kill_child(pid_t child) {
-    kill(child, SIGKILL);
-    waitpid(child, nullptr, 0);
-}
-
 RegimeHold::RegimeHold(Regime regime, const Cores& cores) {
     if (regime == Regime::low_latency_idle) {
         latency_fd_ = open(latency_file, O_WRONLY | O_CLOEXEC);
@@ -84,13 +78,12 @@ RegimeHold::RegimeHold(Regime regime, const Cores& cores) {
     for (int core : {cores.a, cores.b}) {
         const pid_t child = fork_child();
         if (child == 0) compute_forever(core);
-        burners_.push_back(child);
+        burners_.emplace_back(child);
     }
 }
 
 RegimeHold::~RegimeHold() {
     if (latency_fd_ >= 0) close(latency_fd_); // the kernel's limit ends with the file
-    for (pid_t child : burners_) kill_child(child);
 }
 
 std::string obstacle(const Case& measured, const Cores& cores) {

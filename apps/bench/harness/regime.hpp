@@ -2,6 +2,7 @@
 // Brings the machine into a case's regime, and back at the end of the scope.
 #pragma once
 #include "apps/bench/harness/case.hpp"
+#include "host/process/child_process.hpp"
 
 #include <sys/types.h>
 
@@ -20,7 +21,7 @@ class RegimeHold {
 
   private:
     int latency_fd_ = -1;
-    std::vector<pid_t> burners_;
+    std::vector<process::ChildProcess> burners_; // one per core, that does nothing but compute
 };
 
 /// Why a case cannot be measured on this machine by this user; empty if it can.
@@ -30,8 +31,7 @@ void pin_to(int core); ///< [calling thread]
 void unpin();          ///< [calling thread] Any core.
 std::vector<int> allowed_cores();
 
-/// Forks a process that dies with this one.
+/// Forks a process that dies with this one. 0 in the child.
 pid_t fork_child();
-void kill_child(pid_t child);
 
 } // namespace tandem::bench

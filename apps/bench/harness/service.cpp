@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/harness/service.hpp"
 
-#include "apps/wheelchair/run/child_process.hpp"
+#include "host/process/child_process.hpp"
 
 #include <fcntl.h>
 #include <filesystem>
@@ -33,7 +33,7 @@ struct Service::Running {
         fs::remove_all(folder, ignored);
     }
     fs::path folder;
-    wheelchair::ChildProcess process;
+    process::ChildProcess process;
 };
 
 Service::Service(const std::string& program) {
@@ -42,7 +42,7 @@ Service::Service(const std::string& program) {
     const fs::path folder = mkdtemp(name.data());
     std::ofstream(folder / "roudi.toml") << roudi_pools;
     const fs::path log = folder / "log";
-    const wheelchair::Fd out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    const process::FileDescriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
     running_ = std::make_unique<Running>(
         folder, std::vector<std::string>{program, "-c", (folder / "roudi.toml").string()}, out.get());
     const auto says_ready = [&] {

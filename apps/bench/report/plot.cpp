@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/report/plot.hpp"
 
-#include "apps/wheelchair/run/run_program.hpp"
+#include "host/process/run_command.hpp"
 
 #include <fmt/format.h>
 
@@ -48,11 +48,13 @@ Plot draw(const std::string& title, const std::string& axes, const char* with,
     for (std::size_t i = 0; i < lines.size(); ++i)
         script += fmt::format("{} $data{} with {} {} title '{}' noenhanced", i == 0 ? "plot" : ",", i, with,
                               style_of(lines[i], floors, ours, peers), lines[i].title);
-    const auto result = wheelchair::run_program({"gnuplot", "-"}, script + "\n", ".");
+    process::CommandOptions options;
+    options.input = script + "\n";
+    const auto result = process::run_command({"gnuplot", "-"}, options);
     const std::size_t begin = result.output.find("<svg");
-    if (result.exit_code != 0 || begin == std::string::npos)
+    if (!result.succeeded() || begin == std::string::npos)
         throw std::runtime_error(
-            fmt::format("gnuplot could not draw '{}': {}; install gnuplot-nox", title, result.first_line()));
+            fmt::format("gnuplot could not draw '{}': {}; install gnuplot-nox", title, result.failure()));
     return {title, result.output.substr(begin)};
 }
 

@@ -4,7 +4,7 @@
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/session.hpp"
 
-#include "apps/wheelchair/run/child_process.hpp"
+#include "host/process/child_process.hpp"
 
 #include <fcntl.h>
 #include <filesystem>
@@ -75,8 +75,8 @@ void bridge(Session& session) {
     }
     session.meet();
     const fs::path log = folder / (session.is_a() ? "opros.log" : "rtm.log");
-    const wheelchair::Fd out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
-    wheelchair::ChildProcess host(command(session, folder), {-1, out.get(), out.get(), ""});
+    const process::FileDescriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    process::ChildProcess host(command(session, folder), {-1, out.get(), out.get(), ""});
     while (!session.finished()) {
         if (host.poll()) {
             std::string line;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/plugin_build.hpp"
+#include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/package_path.hpp"
-#include "apps/tandem/build/run_program.hpp"
 #include "apps/tandem/text.hpp"
+#include "host/process/run_command.hpp"
 
 #include <cstdlib>
 #include <fmt/format.h>
@@ -70,13 +71,23 @@ std::string project_text(const std::string& model, const std::string& name, cons
 // What the compiler says belongs to the user, all of it; the first error is repeated in our own line.
 void run(const std::vector<std::string>& command, double seconds, const std::string& name,
          const std::string& what) {
-    const ProgramEnd end =
-        run_program(command, std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000)));
+    process::CommandOptions options;
+    options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+    options.merge_errors = true;
+    options.stop_on_signal = true; // or the folder of the build would be left behind
+    process::CommandResult end;
+    try {
+        end = process::run_command(command, options);
+    } catch (const std::system_error& error) {
+        throw std::runtime_error(std::string(error.what()) + "; install it (apt install " + command[0] + ")");
+    }
+    if (end.stop_signal != 0)
+        throw std::runtime_error("the build of component " + name + " " + end.failure());
     if (end.timed_out)
         throw std::runtime_error(fmt::format("the build of component {} was not done within {} s and has "
                                              "been ended; --timeout gives it more time",
                                              name, seconds));
-    if (end.exit_code == 0) return;
+    if (end.succeeded()) return;
     print_text(end.output);
     throw std::runtime_error("component " + name + " " + what + ": " + first_error(end.output) +
                              " (the compiler's output is above)");

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "apps/wheelchair/run/run_program.hpp"
+#include "host/process/run_command.hpp"
 
 namespace tandem::wheelchair {
 
@@ -46,11 +46,14 @@ std::string data(const std::string& name, const std::vector<Row>& rows,
 
 void gnuplot(const fs::path& figure, const std::string& script) {
     const auto folder = figure.parent_path();
-    const auto result = run_program({"gnuplot", "-"}, script, folder.empty() ? "." : folder.string());
-    if (result.exit_code != 0)
+    process::CommandOptions options;
+    options.input = script;
+    options.folder = folder.string();
+    const auto result = process::run_command({"gnuplot", "-"}, options);
+    if (!result.succeeded())
         throw InputError(fmt::format(
             "gnuplot could not draw {}: {}; install gnuplot-nox, and check that the folder exists",
-            figure.string(), result.first_line()));
+            figure.string(), result.failure()));
 }
 
 /// Where the scenario's step family changes direction, the interesting part begins; elsewhere show

@@ -31,8 +31,8 @@ sigset_t ending_signals() {
 }
 
 struct Started {
-    ChildProcess process;
-    Fd output;
+    process::ChildProcess process;
+    process::OutputPipe output;
 };
 
 std::streamoff size_of(const std::string& path) {
@@ -41,14 +41,12 @@ std::streamoff size_of(const std::string& path) {
 }
 
 Started start_process(const std::vector<std::string>& command, const std::string& log) {
-    const Fd errors(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
-    if (errors.get() < 0) throw InputError(log + ": cannot be written: " + std::strerror(errno));
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        throw InputError(std::string("no pipe to a host: ") + std::strerror(errno));
-    Fd ours(ends[0]), theirs(ends[1]);
-    fcntl(ours.get(), F_SETFL, O_NONBLOCK);
-    return {ChildProcess(command, {-1, theirs.get(), errors.get(), ""}), std::move(ours)};
+    const process::FileDescriptor errors(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
+    if (!errors) throw InputError(log + ": cannot be written: " + std::strerror(errno));
+    process::OutputPipe output;
+    process::ChildProcess child(command, {-1, output.writer(), errors.get()});
+    output.close_writer();
+    return {std::move(child), std::move(output)};
 }
 
 std::string quoted(const std::string& word) {
@@ -86,7 +84,7 @@ std::string Host::complaint() const {
 Supervisor::Supervisor() {
     const auto set = ending_signals();
     sigprocmask(SIG_BLOCK, &set, nullptr);
-    signals_ = Fd(signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
+    signals_ = process::FileDescriptor(signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
 Supervisor::~Supervisor() {
@@ -114,18 +112,16 @@ void Supervisor::restart(Host& host) {
 }
 
 void Supervisor::read_output(Host& host, News& news) {
-    char buffer[4096];
-    for (ssize_t n; (n = read(host.output.get(), buffer, sizeof buffer)) > 0;) {
-        host.unread.append(buffer, static_cast<std::size_t>(n));
-        for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
-            if (host.unread.substr(0, end) == "ready" && !host.ready()) {
-                host.ready_at = monotonic_seconds();
-                news.became_ready.push_back(&host);
-            }
-            host.unread.erase(0, end + 1);
+    constexpr std::size_t max_line = 4096;
+    host.output.read_available(host.unread);
+    for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
+        if (host.unread.substr(0, end) == "ready" && !host.ready()) {
+            host.ready_at = monotonic_seconds();
+            news.became_ready.push_back(&host);
         }
-        if (host.unread.size() > sizeof buffer) host.unread.clear(); // no line of ours is that long
+        host.unread.erase(0, end + 1);
     }
+    if (host.unread.size() > max_line) host.unread.clear(); // "ready" cannot be the end of such a line
 }
 
 Supervisor::News Supervisor::watch(std::chrono::milliseconds bound) {
@@ -133,7 +129,7 @@ Supervisor::News Supervisor::watch(std::chrono::milliseconds bound) {
     for (Host& host : hosts_) {
         if (!host.running()) continue;
         events.push_back({host.process.pidfd(), POLLIN, 0});
-        if (!host.ready()) events.push_back({host.output.get(), POLLIN, 0});
+        if (!host.ready()) events.push_back({host.output.reader(), POLLIN, 0});
     }
     poll(events.data(), events.size(), static_cast<int>(bound.count()));
     News news;

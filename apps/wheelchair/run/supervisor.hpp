@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/wheelchair/run/child_process.hpp"
+#include "host/process/child_process.hpp"
+#include "host/process/output_pipe.hpp"
 
 namespace tandem::wheelchair {
 
@@ -17,11 +18,11 @@ struct Host {
     std::vector<std::string> command;
     std::string log;          // file with its stderr
     std::streamoff log_start; // where this process's part of it begins
-    ChildProcess process;
-    Fd output;             // its stdout
-    std::string unread{};  // beginning of a line of its stdout
-    double ready_at = 0.0; // CLOCK_MONOTONIC [s] of its line `ready`; 0: not yet
-    bool ended = false;    // its end was reported by watch()
+    process::ChildProcess process;
+    process::OutputPipe output; // its stdout
+    std::string unread{};       // beginning of a line of its stdout
+    double ready_at = 0.0;      // CLOCK_MONOTONIC [s] of its line `ready`; 0: not yet
+    bool ended = false;         // its end was reported by watch()
 
     bool ready() const { return ready_at > 0.0; }
     bool running() const { return !ended; }
@@ -60,7 +61,7 @@ class Supervisor {
     void read_output(Host& host, News& news);
 
     std::deque<Host> hosts_; // a deque: Hosts stay where they are
-    Fd signals_;
+    process::FileDescriptor signals_;
 };
 
 /// This program was asked to end.

@@ -2,9 +2,9 @@
 #include "host/opros/engine/application.hpp"
 
 #include "host/opros/engine/connect/make_connection.hpp"
-#include "host/opros/engine/execute/bounded.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
+#include "host/process/bounded_call.hpp"
 
 #include <algorithm>
 #include <spdlog/spdlog.h>
@@ -135,8 +135,8 @@ void Application::stop() {
     if (!started_) return;
     started_ = false;
     for (const auto& executor : executors_) executor_stats_.push_back(executor->stats());
-    if (step_server_ &&
-        !finishes_within(options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); }))
+    if (step_server_ && !process::BoundedCall::returns_within(
+                            options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); }))
         for (ComponentHost* component : order_)
             if (component->current_callback()) mark_stuck(*component);
     for (auto component = order_.rbegin(); component != order_.rend(); ++component)
@@ -158,7 +158,8 @@ void Application::stop_component(ComponentHost& component) {
 }
 
 void Application::run_bounded(ComponentHost& component, void (ComponentHost::*step)()) {
-    if (!finishes_within(options_.grace, [&component, step] { (component.*step)(); })) mark_stuck(component);
+    if (!process::BoundedCall::returns_within(options_.grace, [&component, step] { (component.*step)(); }))
+        mark_stuck(component);
 }
 
 void Application::mark_stuck(const ComponentHost& component) {
@@ -173,7 +174,7 @@ void Application::mark_stuck(const ComponentHost& component) {
 }
 
 void Application::stop_workers() {
-    if (finishes_within(options_.grace, [pool = workers_] { pool->stop(); })) return;
+    if (process::BoundedCall::returns_within(options_.grace, [pool = workers_] { pool->stop(); })) return;
     for (ComponentHost* component : order_)
         if (component->current_callback()) mark_stuck(*component);
 }

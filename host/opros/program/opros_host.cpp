@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until it is told to stop.
 #include "host/opros/engine/application.hpp"
-#include "host/opros/engine/execute/bounded.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/program/shutdown_watcher.hpp"
 #include "host/plugin/probe_switches.hpp"
-#include "host/rt/leave.hpp"
+#include "host/process/bounded_call.hpp"
+#include "host/process/exit_guard.hpp"
+#include "host/process/exit_process.hpp"
 #include "host/rt/switches.hpp"
 
 #include <CLI/CLI.hpp>
@@ -60,7 +61,7 @@ int run(Options options) {
     options.host.on_setup_step = [&shutdown](const std::string& component, const char* step) {
         shutdown.begin_step(component, step);
     };
-    const tandem::rt::SuddenExit sudden_exit;
+    const tandem::process::ExitGuard exit_guard;
     tandem::engine::Application application(options.application, options.host);
     application.start();
     std::cout << "ready" << std::endl;
@@ -69,12 +70,12 @@ int run(Options options) {
     if (options.stats)
         for (const std::string& line : application.executor_stats()) std::cout << line << "\n";
     application.unload();
-    if (!application.stuck_components().empty()) tandem::rt::leave(1);
+    if (!application.stuck_components().empty()) tandem::process::exit_process(1);
     if (const auto loaded = application.components_still_loaded(); !loaded.empty())
-        tandem::rt::bound_exit(options.host.grace,
-                               fmt::format("opros_host: component {} does not come back from its static "
-                                           "destructors within {} s; the host ends without it",
-                                           fmt::join(loaded, " or "), options.grace_s));
+        tandem::process::set_exit_timeout(
+            options.host.grace, fmt::format("opros_host: component {} does not come back from its static "
+                                            "destructors within {} s; the host ends without it",
+                                            fmt::join(loaded, " or "), options.grace_s));
     return 0;
 }
 
@@ -100,7 +101,7 @@ int main(int argc, char** argv) {
         return run(options);
     } catch (const std::exception& error) {
         std::cerr << "opros_host: " << error.what() << std::endl;
-        if (tandem::engine::work_goes_on()) tandem::rt::leave(1);
+        if (tandem::process::BoundedCall::any_running()) tandem::process::exit_process(1);
         return 1;
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/program/shutdown_watcher.hpp"
-#include "host/rt/leave.hpp"
+#include "host/process/exit_process.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -57,7 +57,7 @@ void ShutdownWatcher::watch(State& state, const sigset_t& signals, std::chrono::
     if (state.ready.try_acquire_for(grace)) exit_on_second_signal(signals);
     spdlog::error("{} does not come back within {} s; the host ends", state.what(),
                   std::chrono::duration<double>(grace).count());
-    rt::leave(1);
+    process::exit_process(1);
 }
 
 void ShutdownWatcher::exit_on_second_signal(const sigset_t& signals) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names.
 #include "host/plugin/probe_switches.hpp"
-#include "host/rt/leave.hpp"
+#include "host/process/exit_guard.hpp"
+#include "host/process/exit_process.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rt/switches.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
@@ -103,7 +104,7 @@ class SignalWatch {
             if (now - wanted_since < patience) continue;
             spdlog::warn("a component does not let the host start; leaving without it");
             manager.shutdown();
-            tandem::rt::leave(0);
+            tandem::process::exit_process(0);
         }
     }
     std::atomic<bool> done_{false};
@@ -112,22 +113,23 @@ class SignalWatch {
 
 // The same program with the same arguments; what this process has opened is closed on the way.
 [[noreturn]] void begin_anew(char** argv) {
-    tandem::rt::flush_streams();
+    tandem::process::flush_streams();
     execv("/proc/self/exe", argv);
     std::fprintf(stderr, "rtm_host: cannot begin anew: %s\n", std::strerror(errno));
-    tandem::rt::leave(1);
+    tandem::process::exit_process(1);
 }
 
 // Static destructors of component libraries run after main().
-void bound_exit(RTC::Manager& manager) {
+void bound_static_destructors(RTC::Manager& manager) {
     std::string libraries;
     for (const auto& module : manager.getLoadedModules())
         libraries += (libraries.empty() ? "" : " or ") + module.getProperty("module_file_path");
     if (libraries.empty()) return;
-    tandem::rt::bound_exit(std::chrono::seconds(2),
-                           "rtm_host: " + libraries +
-                               " does not come back from its static destructors within 2 s; the host ends "
-                               "without it");
+    tandem::process::set_exit_timeout(
+        std::chrono::seconds(2),
+        "rtm_host: " + libraries +
+            " does not come back from its static destructors within 2 s; the host ends "
+            "without it");
 }
 
 int run(const Arguments& a, char** arguments) {
@@ -141,7 +143,7 @@ int run(const Arguments& a, char** arguments) {
     options.probe = a.probe.probe();
     coil::Argv argv(manager_arguments(a));
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
-    const tandem::rt::SuddenExit sudden_exit;
+    const tandem::process::ExitGuard exit_guard;
     bool all_ended = true;
     try {
         {
@@ -161,13 +163,14 @@ int run(const Arguments& a, char** arguments) {
     } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         manager.shutdown();
-        tandem::rt::leave(1); // components may be half made: none of their static objects shall run now
+        tandem::process::exit_process(
+            1); // components may be half made: none of their static objects shall run now
     }
     if (!all_ended) {
         spdlog::warn("a component does not stop; leaving without it");
-        tandem::rt::leave(0);
+        tandem::process::exit_process(0);
     }
-    bound_exit(manager);
+    bound_static_destructors(manager);
     return 0;
 }
 

@@ -2,7 +2,7 @@
 // The program itself, on its smallest run.
 #include "apps/bench/report/row.hpp"
 #include "apps/bench/suite.hpp"
-#include "apps/wheelchair/run/run_program.hpp"
+#include "host/process/run_command.hpp"
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -24,7 +24,7 @@ struct Folder {
 
 auto bench(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), BENCH_PROGRAM);
-    return tandem::wheelchair::run_program(arguments, "", ".");
+    return tandem::process::run_command(arguments);
 }
 
 std::string content(const std::string& file) {
@@ -41,7 +41,7 @@ TEST_CASE("A quick run of floors and rings yields rows and files and names skipp
         bench({"--only", "floor/cache-line,floor/clock,ring/one-way/64/spin,call-queue/call/64/spin",
                "--quick", "--json", json, "--html", html});
     INFO(result.errors);
-    REQUIRE(result.exit_code == 0);
+    REQUIRE(result.exit_code() == 0);
     const Report report = from_json(content(json));
     CHECK_THAT(content(html), Catch::Contains("<svg") && Catch::Contains("</html>"));
     const bool two_cores = allowed_cores().size() > 1;
@@ -55,7 +55,7 @@ TEST_CASE("A quick run of floors and rings yields rows and files and names skipp
         CHECK_THAT(result.output, Catch::Contains("skipped peer/" + skipped.who));
 
     const auto again = bench({"--only", "floor/clock", "--quick", "--compare", json});
-    CHECK(again.exit_code == 0);
+    CHECK(again.exit_code() == 0);
     CHECK_THAT(again.output, Catch::Contains("common rows changed beyond noise"));
 }
 
@@ -66,14 +66,14 @@ TEST_CASE("Wrong options end in one line and a code") {
              {{"--cores", "9999"}, "may not use core 9999"},
              {{"--runs", "0"}, "--runs"}}) {
         const auto result = bench(arguments);
-        CHECK(result.exit_code != 0);
+        CHECK(result.exit_code() != 0);
         CHECK_THAT(result.errors, Catch::Contains(text));
     }
 }
 
 TEST_CASE("The list names every case and no measurement is made") {
     const auto result = bench({"--list", "--only", "floor"});
-    CHECK(result.exit_code == 0);
+    CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output, Catch::Contains("floor/cache-line/one-way/8/spin\n"));
     CHECK_THAT(result.output, !Catch::Contains("ours/"));
 }

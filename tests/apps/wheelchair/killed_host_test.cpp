@@ -11,13 +11,14 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "apps/wheelchair/run/child_process.hpp"
+#include "host/process/child_process.hpp"
 #include "plugins/wheelchair/core/record/records.hpp"
 #include "program.hpp"
 #include "scratch_dir.hpp"
 #include "shm/segment/segment_file.hpp"
 
 using namespace tandem::wheelchair;
+using tandem::process::ChildProcess, tandem::process::FileDescriptor;
 using namespace std::chrono_literals;
 
 namespace {
@@ -31,7 +32,7 @@ class MixedRun {
                                          "--duration",       "5",        "--keep",
                                          dir_ / "run",       "--json",   dir_ / "run.json"};
         command.insert(command.end(), more.begin(), more.end());
-        process_.emplace(command, ChildIo{-1, output_.get(), errors_.get(), ""});
+        process_.emplace(command, tandem::process::ChildOptions{-1, output_.get(), errors_.get()});
     }
 
     /// Kills the host once the chair drives. The pid is the one the run printed: no other process is meant.
@@ -77,8 +78,8 @@ class MixedRun {
         for (int i = 0; i < 300 && !driving(); ++i) std::this_thread::sleep_for(50ms);
         REQUIRE(driving());
     }
-    Fd open_file(const std::string& name) {
-        return Fd(::open((dir_ / name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+    FileDescriptor open_file(const std::string& name) {
+        return FileDescriptor(::open((dir_ / name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
     }
     bool driving() const {
         const auto records = hw();
@@ -86,7 +87,7 @@ class MixedRun {
     }
 
     ScratchDir dir_;
-    Fd output_, errors_;
+    FileDescriptor output_, errors_;
     std::optional<ChildProcess> process_;
     std::string truncated_;
 };

@@ -18,7 +18,7 @@ void check_all_scenarios(const std::string& configuration) {
         const auto result = wheelchair_program(
             {"--config", configuration, "--scenario", scenario.name, "--lockstep", "--csv", csv});
         INFO(configuration << " " << scenario.name << ": " << result.errors);
-        CHECK(result.exit_code == 0);
+        CHECK(result.exit_code() == 0);
         CHECK(result.errors.empty());
         const bool same = file_content(csv) == csv_text(simulate(scenario));
         CHECK(same);

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "apps/wheelchair/run/run_program.hpp"
+#include "host/process/run_command.hpp"
 
-inline tandem::wheelchair::ProgramResult wheelchair_program(const std::vector<std::string>& arguments) {
+inline tandem::process::CommandResult wheelchair_program(const std::vector<std::string>& arguments) {
     std::vector<std::string> command{WHEELCHAIR_PROGRAM};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    return tandem::wheelchair::run_program(command, "", "");
+    return tandem::process::run_command(command);
 }
 
 inline std::string file_content(const std::string& path) {

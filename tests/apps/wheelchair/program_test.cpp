@@ -14,7 +14,7 @@ long lines(const std::string& text) { return std::count(text.begin(), text.end()
 void check_refusal(const std::vector<std::string>& arguments, const std::string& complaint) {
     const auto result = wheelchair_program(arguments);
     INFO(result.errors);
-    CHECK(result.exit_code != 0);
+    CHECK(result.exit_code() != 0);
     CHECK_THAT(result.errors, Catch::Contains(complaint));
     CHECK(lines(result.errors) == 1);
 }
@@ -25,7 +25,7 @@ void check_real_time(const std::string& configuration) {
         wheelchair_program({"--config", configuration, "--duration", "1.5", "--csv", dir / "run.csv",
                             "--json", dir / "run.json", "--plot", dir / "run.svg"});
     INFO(result.errors);
-    CHECK(result.exit_code == 0);
+    CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output,
                Catch::Contains("Table 1.") && Catch::Contains("p99.9") && Catch::Contains(" pid "));
     CHECK(lines(file_content(dir / "run.csv")) == 152);
@@ -49,7 +49,7 @@ TEST_CASE("bad input is refused in one line that names it") {
 TEST_CASE("without hosts the program gives what every configuration has to reproduce") {
     const ScratchDir dir;
     const auto result = wheelchair_program({"--config", "memory", "--json", dir / "run.json"});
-    CHECK(result.exit_code == 0);
+    CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output, Catch::Contains("rise 10-90 %") && !Catch::Contains("FAIL"));
     CHECK_THAT(file_content(dir / "run.json"), Catch::Contains("\"good\": true"));
 }
@@ -59,7 +59,7 @@ TEST_CASE("a run whose files are kept can be repeated by hand") {
     const auto result =
         wheelchair_program({"--config", "opros", "--lockstep", "--duration", "0.1", "--keep", dir.path()});
     INFO(result.errors);
-    CHECK(result.exit_code == 0);
+    CHECK(result.exit_code() == 0);
     CHECK(std::filesystem::exists(dir / "opros/wheelchair.xml"));
     CHECK(std::filesystem::exists(dir / "trace/HWComp.trace"));
     CHECK(std::filesystem::exists(dir / "log/opros_host.log"));

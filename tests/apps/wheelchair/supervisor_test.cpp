@@ -5,7 +5,6 @@
 #include <csignal>
 #include <fstream>
 
-#include "apps/wheelchair/run/run_program.hpp"
 #include "apps/wheelchair/run/supervisor.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 #include "scratch_dir.hpp"
@@ -106,10 +105,4 @@ TEST_CASE("the printed command line can be typed into a shell") {
     CHECK(host.command_line() == "/bin/sh -c 'echo ready; exec sleep 100'");
     host.command = {"host", "--parent-death", "it's"};
     CHECK(host.command_line() == "host 'it'\\''s'");
-}
-
-TEST_CASE("a program is fed its input and its complaint is kept") {
-    const auto result = run_program({"/bin/sh"}, "echo wrong >&2; exit 4\n", "/");
-    CHECK(result.exit_code == 4);
-    CHECK(result.first_line() == "wrong");
 }

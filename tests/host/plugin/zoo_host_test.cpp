@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad plugins among good ones, in the hosts as a user starts them.
-#include "host/plugin/bounded_child.hpp"
+#include "host/process/run_command.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <sys/wait.h>
 
 namespace {
 
@@ -18,13 +17,15 @@ struct Run {
 // What the host says to this; should it get ready, it is ended.
 Run run(const std::string& command) {
     const std::string ready = "case $line in ready) kill -TERM $host;; esac";
+    tandem::process::CommandOptions options;
+    options.timeout = std::chrono::seconds(100);
     const auto end =
-        tandem::plugin::run_bounded({"/bin/bash", "-c",
-                                     "coproc " + command + "; host=$COPROC_PID; while read -r line; do " +
-                                         ready + "; done <&${COPROC[0]}; wait $host"},
-                                    std::chrono::seconds(100));
+        tandem::process::run_command({"/bin/bash", "-c",
+                                      "coproc " + command + "; host=$COPROC_PID; while read -r line; do " +
+                                          ready + "; done <&${COPROC[0]}; wait $host"},
+                                     options);
     REQUIRE_FALSE(end.timed_out);
-    return {WIFEXITED(end.status) ? WEXITSTATUS(end.status) : -1, end.errors};
+    return {end.exit_code(), end.errors};
 }
 
 const std::vector<std::string> bad_ones{"static_constructor_crashes",
@@ -77,12 +78,10 @@ TEST_CASE("a component that calls exit while opros_host runs others ends it with
     folder.component("Bad", ZOO "/opros/execute_exits.so", "<type>periodic</type><period>1</period>");
     const auto application =
         folder.application(Folder::sub("Bad", "Bad.xml") + Folder::sub("Good", "Good.xml"));
-    const auto end =
-        tandem::plugin::run_bounded({OPROS_HOST, application.string()}, std::chrono::seconds(30));
+    const auto end = tandem::process::run_command({OPROS_HOST, application.string()});
     INFO(end.errors);
     REQUIRE_FALSE(end.timed_out);
-    REQUIRE(WIFEXITED(end.status));
-    CHECK(WEXITSTATUS(end.status) == 7);
+    CHECK(end.exit_code() == 7);
 }
 
 TEST_CASE("rtm_host refuses a bad module in one line that names it") {

@@ -18,9 +18,6 @@ std::string code_text(ReturnType code) {
     return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
 }
 
-// What repeats in every cycle is told ever more rarely: 1, 2, 4, 8, ...
-bool is_worth_telling(std::uint64_t count) { return (count & (count - 1)) == 0; }
-
 /// Says for the time of its life what the component is busy with.
 class CallbackScope {
   public:
@@ -70,8 +67,9 @@ std::string ComponentHost::run_guarded(const char* what, const std::function<voi
     } catch (const MethodInvokeException& error) {
         // A service that fails now may work in the next cycle: the real engine, too, leaves the component
         // ACTIVE.
-        if (is_worth_telling(++failed_calls_))
-            spdlog::warn("component {}: {}: {} ({} so far)", name_, what, error.what(), failed_calls_.load());
+        if (failed_calls_.should_log())
+            spdlog::warn("component {}: {}: {} ({} so far)", name_, what, error.what(),
+                         failed_calls_.count());
         return "";
     } catch (const std::exception& error) {
         return enter_error(what, error.what());

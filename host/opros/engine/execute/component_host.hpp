@@ -7,6 +7,7 @@
 #include "host/opros/engine/profile/profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/probe.hpp"
+#include "host/process/log_throttle.hpp"
 
 #include <Component.h>
 #include <InputDataPortInterface.h>
@@ -86,7 +87,7 @@ class ComponentHost {
     std::atomic<bool> failed_{false};
     bool initialized_ = false;
     bool error_reported_ = false;
-    std::atomic<std::uint64_t> failed_calls_{0};
+    process::LogThrottle failed_calls_;
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
     std::uint64_t dependency_mask_ = 0;
     std::atomic<std::uint64_t> completed_dependencies_{0};

@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/process/child_process.hpp"
 #include <coil/Process.h>
 #include <cstdio>
-#include <spawn.h>
-
-extern char** environ;
 
 namespace coil {
 
+// In a session of its own: a manager's child should outlive its terminal.
 int launch_shell(const std::string& command) {
-    Argv argv(split(command, " ", true));
-    if (argv.size() == 0) return -1;
-    posix_spawnattr_t attributes;
-    ::posix_spawnattr_init(&attributes);
-    ::posix_spawnattr_setflags(&attributes,
-                               POSIX_SPAWN_SETSID); // it outlives the terminal, as a manager's child should
-    ::pid_t pid = 0;
-    const int error = ::posix_spawnp(&pid, argv.get()[0], nullptr, &attributes, argv.get(), environ);
-    ::posix_spawnattr_destroy(&attributes);
-    return error == 0 ? 0 : -1;
+    const vstring arguments = split(command, " ", true);
+    return !arguments.empty() && tandem::process::start_detached(arguments) ? 0 : -1;
 }
 
 int create_process(const std::string& command, std::vector<std::string>& out) {

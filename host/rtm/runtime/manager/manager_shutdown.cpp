@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager's end: nothing a component does, or does not do, keeps it from coming.
-#include "host/rtm/runtime/manager/bounded_call.hpp"
+#include "host/process/bounded_call.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@ namespace RTC {
 namespace {
 
 bool returns(std::function<void()> call) {
-    return returns_within(2 * host_options().stop_timeout, std::move(call));
+    return tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout, std::move(call));
 }
 
 void deactivate(RTObject_impl* component) {

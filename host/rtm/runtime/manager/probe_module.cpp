@@ -3,7 +3,7 @@
 
 #include "host/plugin/abi.hpp"
 #include "host/plugin/library.hpp"
-#include "host/rtm/runtime/manager/bounded_call.hpp"
+#include "host/process/bounded_call.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <rtm/RTObject.h>
 #include <rtm/TandemAbi.h>
@@ -31,7 +31,8 @@ std::string Manager::tryFactories(const std::function<void(const std::string&)>&
         before("the destructor of " + type);
         component.finalizePorts();
         component.finalizeContexts();
-        if (!returns_within(patience, [&] { factory->destroy(&component); })) stuck = type;
+        if (!tandem::process::BoundedCall::returns_within(patience, [&] { factory->destroy(&component); }))
+            stuck = type;
     }
     return stuck;
 }

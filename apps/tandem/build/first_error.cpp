@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/first_error.hpp"
+
+#include <sstream>
+
+namespace tandem::command {
+namespace {
+
+// CMake's own errors: a line with the place, then the text, indented and broken into lines, then an empty
+// one.
+std::string cmake_error(std::string text, std::istream& lines) {
+    for (std::string line; std::getline(lines, line) && line.rfind("  ", 0) == 0;)
+        text += line.substr(1); // one of the two spaces is between the words
+    return text;
+}
+
+} // namespace
+
+std::string first_error(const std::string& output) {
+    std::istringstream lines(output);
+    std::string line, last;
+    while (std::getline(lines, line)) {
+        if (line.find("CMake Error at ") != std::string::npos) return cmake_error(line, lines);
+        for (const char* word :
+             {"error: ", "undefined reference", "multiple definition", "CMake Error", "undefined symbol",
+              // omniidl's
+              ": Syntax error", ": Error in ", ": No such file or directory"})
+            if (line.find(word) != std::string::npos) return line;
+        if (line.find_first_not_of(" \t") != std::string::npos) last = line;
+    }
+    return last;
+}
+
+} // namespace tandem::command

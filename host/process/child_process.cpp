@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/process/child_process.hpp"
+
+#include "host/process/spawn_settings.hpp"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+extern "C" {
+#include <sys/pidfd.h> // in glibc 2.36 this header lacks its own extern "C"
+}
+
+namespace tandem::process {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr int redirected_descriptors = report_descriptor + 1; // and the three standard streams
+constexpr auto kill_timeout = 5s; // only a process stuck inside the kernel survives SIGKILL that long
+
+[[noreturn]] void fail(int error, const std::string& what) {
+    throw std::system_error(error, std::generic_category(), what);
+}
+
+/// Applies the redirections one after the other. A source below 4 (when this process runs with a closed
+/// standard stream) could be overwritten by an earlier redirection, so it is duplicated above first.
+class Redirections {
+  public:
+    Redirections(SpawnSettings& settings, const ChildOptions& options) {
+        const std::array sources{options.input, options.output, options.errors, options.report};
+        for (int target = 0; target < redirected_descriptors; ++target)
+            if (sources[target] >= 0) settings.redirect(above_targets(sources[target]), target);
+    }
+
+  private:
+    int above_targets(int source) {
+        if (source >= redirected_descriptors) return source;
+        duplicates_.emplace_back(fcntl(source, F_DUPFD_CLOEXEC, redirected_descriptors));
+        if (!duplicates_.back()) fail(errno, "the descriptors of a child process");
+        return duplicates_.back().get();
+    }
+    std::vector<FileDescriptor> duplicates_;
+};
+
+} // namespace
+
+std::string ExitStatus::text() const {
+    if (signalled) return "was killed by signal " + std::to_string(code) + " (" + strsignal(code) + ")";
+    if (code < 0) return "has ended with an unknown exit code: other code of this process has reaped it";
+    return "exited with " + std::to_string(code);
+}
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const ChildOptions& options) {
+    SpawnSettings settings;
+    settings.reset_signals_and_set_group();
+    const Redirections redirections(settings, options);
+    if (!options.folder.empty()) settings.set_folder(options.folder);
+    if (const int error = settings.spawn(pid_, command); error != 0) {
+        pid_ = -1;
+        fail(error, command.at(0) + " cannot be started");
+    }
+    group_ = pid_;
+    open_pidfd(command[0]);
+}
+
+ChildProcess::ChildProcess(pid_t forked) : pid_(forked) { open_pidfd("a forked process"); }
+
+void ChildProcess::open_pidfd(const std::string& name) {
+    pidfd_ = FileDescriptor(pidfd_open(pid_, 0));
+    if (pidfd_) return;
+    const int error = errno;
+    // Without a pidfd no bounded wait is possible; after SIGKILL none is needed.
+    ::kill(pid_, SIGKILL);
+    while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
+    fail(error, name + " cannot be watched (pidfd_open)");
+}
+
+ChildProcess::ChildProcess(ChildProcess&& other) noexcept
+    : pid_(std::exchange(other.pid_, -1)), group_(std::exchange(other.group_, -1)),
+      pidfd_(std::move(other.pidfd_)), ended_(std::move(other.ended_)) {}
+
+ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
+    std::swap(pid_, other.pid_);
+    std::swap(group_, other.group_);
+    std::swap(pidfd_, other.pidfd_);
+    std::swap(ended_, other.ended_);
+    return *this;
+}
+
+ChildProcess::~ChildProcess() {
+    if (pid_ > 0) kill();
+}
+
+// Through the pidfd and not by number: if other code has reaped the child, its number may already be that of
+// an unrelated process.
+void ChildProcess::signal(int number) {
+    if (pid_ > 0 && !ended_) pidfd_send_signal(pidfd_.get(), number, nullptr, 0);
+}
+
+void ChildProcess::kill_group() const {
+    if (group_ > 0) ::kill(-group_, SIGKILL);
+}
+
+const std::optional<ExitStatus>& ChildProcess::poll() {
+    if (ended_ || pid_ <= 0) return ended_;
+    siginfo_t info{};
+    // WNOWAIT leaves the zombie: until it is reaped no other process can get its number, so that the group that
+    // is killed here is the child's for certain.
+    if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0) {
+        if (errno == ECHILD) ended_ = ExitStatus{false, -1};
+        return ended_;
+    }
+    if (info.si_pid != pid_) return ended_; // still runs
+    kill_group();
+    int status = 0;
+    if (waitpid(pid_, &status, 0) != pid_)
+        ended_ = ExitStatus{false, -1};
+    else if (WIFSIGNALED(status))
+        ended_ = ExitStatus{true, WTERMSIG(status)};
+    else
+        ended_ = ExitStatus{false, WEXITSTATUS(status)};
+    return ended_;
+}
+
+const std::optional<ExitStatus>& ChildProcess::wait(std::chrono::milliseconds timeout) {
+    const auto deadline = Clock::now() + timeout;
+    while (!poll() && pid_ > 0) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
+        if (left <= 0ms) break;
+        pollfd event{pidfd_.get(), POLLIN, 0};
+        ::poll(&event, 1, static_cast<int>(left.count()));
+    }
+    return ended_;
+}
+
+const std::optional<ExitStatus>& ChildProcess::stop(std::chrono::milliseconds grace) {
+    signal(SIGTERM);
+    if (wait(grace)) return ended_;
+    return kill();
+}
+
+const std::optional<ExitStatus>& ChildProcess::kill() {
+    if (!poll()) {
+        signal(SIGKILL);
+        kill_group();
+    }
+    return wait(kill_timeout);
+}
+
+bool ChildProcess::wait_for_group(std::chrono::milliseconds timeout) const {
+    // Members of the group are no children of this process, so there is nothing to wait on but their number.
+    const auto deadline = Clock::now() + timeout;
+    while (group_ > 0 && ::kill(-group_, 0) == 0) {
+        if (Clock::now() >= deadline) return false;
+        std::this_thread::sleep_for(1ms);
+    }
+    return true;
+}
+
+bool start_detached(const std::vector<std::string>& command) {
+    SpawnSettings settings;
+    settings.set_session();
+    pid_t pid = 0;
+    return settings.spawn(pid, command) == 0;
+}
+
+} // namespace tandem::process

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/process/exit_process.hpp"
+
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+#include <unistd.h>
+#include <utility>
+
+namespace tandem::process {
+namespace {
+
+constexpr std::chrono::seconds flush_timeout{2};
+
+// Static objects are destroyed in reverse order of their construction. This one is constructed before main()
+// loads any component library, so its destructor runs after those of all libraries. The flag itself has no
+// destructor and stays valid.
+std::atomic<bool> libraries_are_destroyed{false};
+struct DestroyedAfterLibraries {
+    ~DestroyedAfterLibraries() { libraries_are_destroyed = true; }
+} const destroyed_after_libraries;
+
+} // namespace
+
+void flush_streams() {
+    if (ftrylockfile(stdout) == 0) {
+        std::cout.flush(); // has a buffer of its own after sync_with_stdio(false)
+        funlockfile(stdout);
+    }
+    fcloseall(); // in glibc: flushes all streams without taking their locks, as exit() does, and closes none
+}
+
+void exit_process(int code) {
+    // The flush blocks when standard output is a full pipe that nobody reads.
+    std::thread([code] {
+        std::this_thread::sleep_for(flush_timeout);
+        std::_Exit(code);
+    }).detach();
+    flush_streams();
+    std::_Exit(code);
+}
+
+void set_exit_timeout(std::chrono::nanoseconds timeout, std::string message) {
+    // write() and not a logger: the logger is a static object that may be destroyed by then.
+    std::thread([timeout, line = std::move(message) + "\n"] {
+        std::this_thread::sleep_for(timeout);
+        if (libraries_are_destroyed) return;
+        [[maybe_unused]] const auto written = write(STDERR_FILENO, line.data(), line.size());
+        exit_process(1);
+    }).detach();
+}
+
+} // namespace tandem::process
