@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// The configuration sets of one component and the variables that are bound to their parameters, as
+// OpenRTM-aist's class ConfigAdmin. Sets are nodes below `conf` of the component's properties. [any-thread]
+// While the component runs, its variables change in update() only, which is called between its callbacks: no
+// callback sees a half-changed set.
 #include <algorithm>
 #include <rtm/ConfigAdmin.h>
 
@@ -9,7 +13,7 @@ using Lock = std::lock_guard<std::recursive_mutex>;
 void ConfigAdmin::add(std::unique_ptr<ConfigBase> param) {
     Lock lock(m_mutex);
     const std::string name = param->name;
-    // What the profile says nothing of is listed all the same, so that tools can set it.
+    // A parameter that the profile does not have is listed with its default, so that tools see and set it.
     coil::Properties& set = m_configsets.getNode(m_activeId);
     if (set.hasKey(name.c_str()) == nullptr) set.setDefault(name, param->default_value);
     m_params.push_back(std::move(param));
@@ -25,6 +29,8 @@ bool ConfigAdmin::unbindParameter(const char* param_name) {
     return true;
 }
 
+// Called by RTObject_impl after onExecute, and around activation and errors. Does nothing unless a set was
+// changed or activated since the last call.
 void ConfigAdmin::update() {
     Lock lock(m_mutex);
     m_changedParam.clear();
@@ -45,6 +51,8 @@ void ConfigAdmin::update(const char* config_set, const char* config_param) {
     apply(config_set, config_param);
 }
 
+// Assigns the values of a set to the bound variables, to all or to the one of that name. A value that the
+// variable's type cannot have gives the default (ConfigBase::update()).
 void ConfigAdmin::apply(const char* config_set, const char* only_param) {
     const coil::Properties* set = m_configsets.hasKey(config_set);
     if (set == nullptr) return;
@@ -74,6 +82,7 @@ std::vector<coil::Properties*> ConfigAdmin::getConfigurationSets() const {
     return sets;
 }
 
+// For requests from outside, which run while the component changes its sets: copies, not pointers.
 std::vector<coil::Properties> ConfigAdmin::copies() const {
     Lock lock(m_mutex);
     std::vector<coil::Properties> sets;
@@ -92,6 +101,7 @@ coil::Properties ConfigAdmin::getConfigurationSet(const char* config_id) const {
     return set == nullptr ? coil::Properties(config_id) : *set;
 }
 
+// Values are merged: parameters that the new set does not have keep theirs.
 bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) {
     Lock lock(m_mutex);
     if (std::string(config_set.getName()).empty() || !haveConfig(config_set.getName())) return false;
@@ -104,7 +114,7 @@ bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) 
 bool ConfigAdmin::addConfigurationSet(const coil::Properties& config_set) {
     Lock lock(m_mutex);
     const std::string id = config_set.getName();
-    // A dot would make it a set within another.
+    // A dot in the name would make it a node below another set.
     if (id.empty() || id.find('.') != std::string::npos || haveConfig(id.c_str())) return false;
     m_configsets.getNode(config_set.getName()) << config_set;
     m_newConfig.push_back(config_set.getName());
@@ -114,7 +124,7 @@ bool ConfigAdmin::addConfigurationSet(const coil::Properties& config_set) {
 
 bool ConfigAdmin::removeConfigurationSet(const char* config_id) {
     Lock lock(m_mutex);
-    auto found = std::find(m_newConfig.begin(), m_newConfig.end(), config_id); // only those that were added
+    auto found = std::find(m_newConfig.begin(), m_newConfig.end(), config_id); // sets of the profile stay
     if (m_activeId == config_id || found == m_newConfig.end()) return false;
     delete m_configsets.removeNode(config_id);
     m_newConfig.erase(found);
@@ -124,7 +134,7 @@ bool ConfigAdmin::removeConfigurationSet(const char* config_id) {
 
 bool ConfigAdmin::activateConfigurationSet(const char* config_id) {
     Lock lock(m_mutex);
-    // Sets whose name begins with __ describe parameters, they hold no values.
+    // Sets whose name begins with __ (__widget__, __constraints__) describe parameters and hold no values.
     if (config_id == nullptr || std::string(config_id).compare(0, 2, "__") == 0 || !haveConfig(config_id))
         return false;
     m_activeId = config_id;

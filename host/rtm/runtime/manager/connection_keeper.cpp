@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when somebody
+// asks for a port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
@@ -8,16 +10,20 @@
 namespace RTC {
 namespace {
 
+using std::chrono::steady_clock;
+
 constexpr CORBA::ULong call_timeout_ms = 1000;
 constexpr std::chrono::milliseconds max_disconnect_timeout{2000}, min_disconnect_timeout{50};
+// One failed check is not enough: while a process is being replaced its reference may fail for a moment.
+constexpr int checks_until_dead = 2;
 
 bool has_connection(PortService_ptr port, const std::string& id) {
     ConnectorProfile_var profile = port->get_connector_profile(id.c_str());
     return profile->ports.length() > 0;
 }
 
-/// The object behind the reference is gone for good, or its process is. A process that does not answer may
-/// live.
+// The object, or its process, does not exist any more. A process that does not answer in time may be stopped
+// in a debugger or be busy: it counts as alive.
 bool is_dead(PortService_ptr port) {
     omniORB::setClientCallTimeout(port, call_timeout_ms);
     try {
@@ -31,10 +37,10 @@ bool is_dead(PortService_ptr port) {
 
 } // namespace
 
-void ConnectionKeeper::keep_connected(const PreconnectEntry& line, std::size_t other, const std::string& id,
-                                      const std::string& why_not) {
+void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t index,
+                                      const std::string& connector_id, const std::string& warning) {
     std::lock_guard<std::mutex> lock(mutex_);
-    new_connections_.push_back({line, other, id, {}, {}, why_not});
+    new_connections_.push_back({entry, index, connector_id, {}, {}, warning});
     start_thread();
 }
 
@@ -50,12 +56,13 @@ void ConnectionKeeper::report_lost(const ConnectorProfile& profile) {
     wake_.notify_all();
 }
 
-void ConnectionKeeper::add_periodic_task(std::function<void()> task, std::chrono::nanoseconds every) {
+void ConnectionKeeper::add_periodic_task(std::function<void()> task, std::chrono::nanoseconds period) {
     std::lock_guard<std::mutex> lock(mutex_);
-    tasks_.push_back({std::move(task), every, std::chrono::steady_clock::now() + every});
+    tasks_.push_back({std::move(task), period, steady_clock::now() + period});
     start_thread();
 }
 
+// With the mutex held.
 void ConnectionKeeper::start_thread() {
     if (!thread_.joinable() && !stopping_) thread_ = std::thread([this] { run(); });
 }
@@ -64,38 +71,45 @@ void ConnectionKeeper::stop() {
     {
         std::lock_guard<std::mutex> lock(mutex_);
         stopping_ = true;
-        disconnect_deadline_ = std::chrono::steady_clock::now() + max_disconnect_timeout;
+        disconnect_deadline_ = steady_clock::now() + max_disconnect_timeout;
     }
     wake_.notify_all();
     if (thread_.joinable()) thread_.join();
 }
 
+// The thread. It wakes up for each round of checks, and at once for a lost connection: until its peer is
+// notified of it, a peer that lives would hold a connection that does not exist here.
 void ConnectionKeeper::run() {
-    auto next = std::chrono::steady_clock::now() + interval_;
-    std::unique_lock<std::mutex> lock(mutex_);
+    auto next_round = steady_clock::now() + interval_;
+    Lock lock(mutex_);
     while (!stopping_) {
-        wake_.wait_until(lock, next, [this] { return stopping_ || !pending_disconnects_.empty(); });
+        wake_.wait_until(lock, next_round, [this] { return stopping_ || !pending_disconnects_.empty(); });
         if (stopping_) return;
         std::move(new_connections_.begin(), new_connections_.end(), std::back_inserter(connections_));
         new_connections_.clear();
         lock.unlock();
         notify_disconnects();
-        const auto now = std::chrono::steady_clock::now();
-        if (now >= next) {
-            next = now + interval_;
+        if (steady_clock::now() >= next_round) {
+            next_round = steady_clock::now() + interval_;
             check_peers();
             for (auto& kept : connections_)
                 if (!stopping_) restore(kept);
         }
         lock.lock();
-        for (std::size_t i = 0; i < tasks_.size() && !stopping_; ++i) {
-            if (tasks_[i].due > now) continue;
-            tasks_[i].due = now + tasks_[i].every;
-            const auto task = tasks_[i].run;
-            lock.unlock();
-            task();
-            lock.lock();
-        }
+        run_due_tasks(lock);
+    }
+}
+
+// The lock is released during each task, so the list may grow meanwhile: it is walked by index.
+void ConnectionKeeper::run_due_tasks(Lock& lock) {
+    const auto now = steady_clock::now();
+    for (std::size_t i = 0; i < tasks_.size() && !stopping_; ++i) {
+        if (tasks_[i].due > now) continue;
+        tasks_[i].due = now + tasks_[i].period;
+        const auto task = tasks_[i].run;
+        lock.unlock();
+        task();
+        lock.lock();
     }
 }
 
@@ -106,6 +120,7 @@ void ConnectionKeeper::notify_disconnects() {
         disconnected.swap(pending_disconnects_);
     }
     for (auto& profile : disconnected) {
+        // Without its id a kept connection counts as lost, not as disconnected on purpose: it is restored.
         for (auto& kept : connections_)
             if (kept.id == static_cast<const char*>(profile.connector_id)) kept.id.clear();
         for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
@@ -115,91 +130,107 @@ void ConnectionKeeper::notify_disconnects() {
             try {
                 port->notify_disconnect(profile.connector_id);
             } catch (const CORBA::SystemException&) {
-                continue; // it is gone indeed
+                continue; // it is dead, as was assumed
             }
         }
     }
 }
 
+// One round over all connections of all components of this process.
 void ConnectionKeeper::check_peers() {
-    std::map<std::string, int> unanswered;
-    for (const auto& self : manager_.impl().references()) {
+    std::map<std::string, int> failed_checks; // without the ids of connections that ended or recovered
+    for (const auto& component : manager_.impl().references()) {
         if (stopping_) return;
         try {
-            PortServiceList_var ports = self->get_ports();
+            PortServiceList_var ports = component->get_ports();
             for (CORBA::ULong p = 0; p < ports->length(); ++p) {
                 ConnectorProfileList_var connections = ports[p]->get_connector_profiles();
-                for (CORBA::ULong c = 0; c < connections->length(); ++c) {
-                    const ConnectorProfile& connection = connections[c];
-                    const std::string id(connection.connector_id);
-                    bool dead = false;
-                    for (CORBA::ULong i = 0; i < connection.ports.length() && !dead; ++i)
-                        dead = local_object<PortBase>(connection.ports[i]) == nullptr && !stopping_ &&
-                               is_dead(connection.ports[i]);
-                    if (!dead) continue;
-                    // Twice in a row: a name that is being moved may miss a beat.
-                    unanswered[id] = unanswered_checks_[id] + 1;
-                    if (unanswered[id] < 2) continue;
-                    if (auto port = local_object<PortBase>(ports[p])) port->forget(id.c_str());
-                }
+                for (CORBA::ULong c = 0; c < connections->length(); ++c)
+                    check_connection(ports[p], connections[c], failed_checks);
             }
         } catch (const CORBA::SystemException&) {
-            continue; // the component is leaving
+            continue; // the component has exited since references()
         }
     }
-    unanswered_checks_.swap(unanswered);
+    failed_checks_.swap(failed_checks);
+}
+
+void ConnectionKeeper::check_connection(PortService_ptr port, const ConnectorProfile& connection,
+                                        std::map<std::string, int>& failed_checks) {
+    if (!has_dead_peer(connection)) return;
+    const std::string id(connection.connector_id);
+    failed_checks[id] = failed_checks_[id] + 1;
+    if (failed_checks[id] < checks_until_dead) return;
+    if (auto local = local_object<PortBase>(port)) local->forget(id.c_str());
+}
+
+bool ConnectionKeeper::has_dead_peer(const ConnectorProfile& connection) const {
+    for (CORBA::ULong i = 0; i < connection.ports.length() && !stopping_; ++i)
+        if (local_object<PortBase>(connection.ports[i]) == nullptr && is_dead(connection.ports[i]))
+            return true;
+    return false;
 }
 
 std::chrono::milliseconds ConnectionKeeper::disconnect_timeout() const {
-    const auto until = disconnect_deadline_.load();
-    if (until == std::chrono::steady_clock::time_point{}) return max_disconnect_timeout;
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
+    const auto deadline = disconnect_deadline_.load();
+    if (deadline == steady_clock::time_point{}) return max_disconnect_timeout;
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - steady_clock::now());
     return std::clamp(left, min_disconnect_timeout, max_disconnect_timeout);
 }
 
+// The local port knows; asking the remote one would take a call.
 bool ConnectionKeeper::is_connected(const KeptConnection& kept) {
     if (kept.id.empty()) return false;
-    const bool first_here = !is_remote(kept.line.ports[0]);
-    PortService_var here = find_port(manager_, kept.line.ports[first_here ? 0 : kept.other]);
-    return has_connection(here.in(), kept.id);
+    PortService_var local =
+        find_port(manager_, is_remote(kept.first_name()) ? kept.second_name() : kept.first_name());
+    return has_connection(local.in(), kept.id);
 }
 
-// Not when both ports are the ones that were connected: then somebody has disconnected them.
+// A connection that has gone although its connector id was never cleared was disconnected on purpose, unless
+// one of its ports is another object now: then its process was restarted before a check noticed.
 bool ConnectionKeeper::may_reconnect(const KeptConnection& kept) {
     if (kept.id.empty() || CORBA::is_nil(kept.first.in())) return true;
-    PortService_var first = find_port(manager_, kept.line.ports[0]);
-    PortService_var second = find_port(manager_, kept.line.ports[kept.other]);
+    PortService_var first = find_port(manager_, kept.first_name());
+    PortService_var second = find_port(manager_, kept.second_name());
     return !first->_is_equivalent(kept.first.in()) || !second->_is_equivalent(kept.second.in());
 }
 
-void ConnectionKeeper::restore(KeptConnection& kept) {
-    Logger rtclog("connections");
-    try {
-        if (is_connected(kept)) {
-            if (!CORBA::is_nil(kept.first.in())) return;
-            kept.first = find_port(manager_, kept.line.ports[0]); // made at start, by connectOrThrow()
-            kept.second = find_port(manager_, kept.line.ports[kept.other]);
-            return;
-        }
-        if (!may_reconnect(kept)) return;
-        kept.first = find_port(manager_, kept.line.ports[0]);
-        kept.second = find_port(manager_, kept.line.ports[kept.other]);
-        kept.id = connect_ports(kept.line, kept.other, kept.first.in(), kept.second.in());
-        RTC_INFO(
-            ("%s and %s are connected", kept.line.ports[0].c_str(), kept.line.ports[kept.other].c_str()));
-        kept.last_warning.clear();
-    } catch (const std::runtime_error&
-                 e) { // RemoteUnavailable, or a refusal that may be over when the other side is new
-        if (kept.last_warning != e.what()) RTC_WARN(("%s; tried again until it works", e.what()));
-        kept.last_warning = e.what();
-    } catch (const CORBA::SystemException& e) {
-        const std::string why = describe_exception(e);
-        if (kept.last_warning != why)
-            RTC_WARN(
-                ("%s: %s; tried again until it works", kept.line.ports[kept.other].c_str(), why.c_str()));
-        kept.last_warning = why;
+void ConnectionKeeper::find_ports(KeptConnection& kept) {
+    kept.first = find_port(manager_, kept.first_name());
+    kept.second = find_port(manager_, kept.second_name());
+}
+
+// Throws as find_port() and connect_ports() do.
+void ConnectionKeeper::connect(KeptConnection& kept) {
+    if (is_connected(kept)) {
+        // Made by connectOrThrow(), which does not keep the references that may_reconnect() compares.
+        if (CORBA::is_nil(kept.first.in())) find_ports(kept);
+        return;
     }
+    if (!may_reconnect(kept)) return;
+    find_ports(kept);
+    kept.id = connect_ports(kept.entry, kept.index, kept.first.in(), kept.second.in());
+    kept.last_warning.clear();
+    Logger rtclog("connections");
+    RTC_INFO(("%s and %s are connected", kept.first_name().c_str(), kept.second_name().c_str()));
+}
+
+void ConnectionKeeper::restore(KeptConnection& kept) {
+    std::string warning;
+    try {
+        connect(kept);
+        return;
+        // RemoteUnavailable; ManagerError when a port refuses, which another process there may not do; or what
+        // a listener of a local port throws.
+    } catch (const std::runtime_error& e) {
+        warning = e.what();
+    } catch (const CORBA::SystemException& e) {
+        warning = kept.second_name() + ": " + describe_exception(e);
+    }
+    if (kept.last_warning == warning) return;
+    Logger rtclog("connections");
+    RTC_WARN(("%s; trying again until it works", warning.c_str()));
+    kept.last_warning = warning;
 }
 
 } // namespace RTC

@@ -9,65 +9,78 @@
 
 namespace RTC {
 
-/// Looks after connections with other processes, in a thread that begins with the first of them: ports whose
-/// process has died are let go, and what preconnect asks for is made when the other side comes, and again
-/// when it has been away. What somebody disconnects on purpose stays disconnected. Every call ends after a
-/// time.
+/// Supervises connections with other processes, which OpenRTM-aist leaves to the user: releases those whose
+/// peer has died, makes those of preconnect when the peer comes, and again when it has been away. What
+/// somebody disconnects on purpose stays disconnected. Owned by the manager; has one thread, which starts
+/// with the first thing to do. Every call to a peer has a time limit. Public functions: [any-thread]
 class ConnectionKeeper {
   public:
+    /// `interval`: time between two checks of all peers (manager.peer_check_interval).
     ConnectionKeeper(Manager& manager, std::chrono::nanoseconds interval)
         : manager_(manager), interval_(interval) {}
     ~ConnectionKeeper() { stop(); }
 
-    /// A pair of a line that shall stay connected: made already (`id`), or not yet (empty).
-    void keep_connected(const PreconnectEntry& line, std::size_t other, const std::string& id,
-                        const std::string& why_not);
-    /// There is a connection with a remote port now.
+    /// Keeps entry.ports[0] and entry.ports[index] connected from now on. `connector_id` is that of the
+    /// connection; empty: not connected yet, for the reason `warning`, which has been logged.
+    void keep_connected(const PreconnectEntry& entry, std::size_t index, const std::string& connector_id,
+                        const std::string& warning);
+    /// Starts the checks of peers; called when a port has been connected with a remote one.
     void start();
-    /// A connection has ended because its other side was lost; that side is told, in case it still lives.
+    /// A connection has been released because its peer was lost. The peer is notified of it, in case that it
+    /// lives after all and would otherwise keep its half.
     void report_lost(const ConnectorProfile& profile);
-    /// Something else that is due at each round (the name servers); after `every` in the first place.
-    void add_periodic_task(std::function<void()> task, std::chrono::nanoseconds every);
+    /// Calls `task` in the keeper's thread every `period`, for the first time after one period.
+    void add_periodic_task(std::function<void()> task, std::chrono::nanoseconds period);
+    /// Ends the thread; nothing is restored or notified afterwards.
     void stop();
-    /// How long a peer may take to answer when it is told that a connection ends. At the end of the host it
-    /// is one time for all of them: a peer that hangs is waited for once, however many there are.
+    /// How long a peer may take to answer when it is notified of a disconnection. While the host ends, what
+    /// is left of one common time: hanging peers delay the end once, however many there are.
     std::chrono::milliseconds disconnect_timeout() const;
 
   private:
     struct KeptConnection {
-        PreconnectEntry line;
-        std::size_t other;
-        std::string id; // empty: not connected
-        PortService_var first, second;
-        std::string last_warning;
+        PreconnectEntry entry;
+        std::size_t index;             // of the second port
+        std::string id;                // of the connector; empty: not connected
+        PortService_var first, second; // nil until they have been found
+        std::string last_warning;      // is logged once, not in each round
+
+        const std::string& first_name() const { return entry.ports[0]; }
+        const std::string& second_name() const { return entry.ports[index]; }
     };
     struct Task {
         std::function<void()> run;
-        std::chrono::nanoseconds every;
+        std::chrono::nanoseconds period;
         std::chrono::steady_clock::time_point due;
     };
+    using Lock = std::unique_lock<std::mutex>;
     void start_thread();
     void run();
+    void run_due_tasks(Lock& lock);
     void notify_disconnects();
     void check_peers();
+    void check_connection(PortService_ptr port, const ConnectorProfile& connection,
+                          std::map<std::string, int>& failed_checks);
+    bool has_dead_peer(const ConnectorProfile& connection) const;
     void restore(KeptConnection& kept);
+    void connect(KeptConnection& kept);
+    void find_ports(KeptConnection& kept);
     bool is_connected(const KeptConnection& kept);
     bool may_reconnect(const KeptConnection& kept);
 
     Manager& manager_;
     const std::chrono::nanoseconds interval_;
-    std::mutex mutex_; // guards what follows
+    std::mutex mutex_; // guards what follows; not held during calls
     std::condition_variable wake_;
-    std::atomic<bool> stopping_ = false; // set under the mutex
+    std::atomic<bool> stopping_ = false; // set under the mutex; read without it between calls
     std::vector<ConnectorProfile> pending_disconnects_;
     std::vector<KeptConnection> new_connections_;
     std::vector<Task> tasks_;
     std::thread thread_;
     std::atomic<std::chrono::steady_clock::time_point> disconnect_deadline_{}; // zero: the host is not ending
-    // the thread's own
+    // Only used by the thread.
     std::vector<KeptConnection> connections_;
-    std::map<std::string, int>
-        unanswered_checks_; // connection ids whose peer did not answer, and how often in a row
+    std::map<std::string, int> failed_checks_; // by connector id: how often in a row its peer was dead
 };
 
 } // namespace RTC

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// The log of the process: level, files and streams. OpenRTM-aist: class Logger of SystemLogger.h, and
+// coil::LogStreambuf. A line has one form, `[date] [level] name: message`, and is never interleaved with
+// another. [any-thread]
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -17,7 +20,7 @@ constexpr std::array<const char*, 9> level_names{"SILENT", "FATAL", "ERROR",   "
                                                  "DEBUG",  "TRACE", "VERBOSE", "PARANOID"};
 std::atomic<int> process_level{Logger::RTL_INFO};
 
-// Files stay open to the end of the process: components log from their destructors, too.
+// Never deleted, and its files are never closed: components log from static destructors as well.
 struct Outputs {
     std::mutex mutex;
     std::vector<std::FILE*> files;
@@ -28,8 +31,9 @@ Outputs& outputs() {
     return *the_outputs;
 }
 
-// strftime's codes, and %Q milliseconds, %q microseconds.
-std::string now(std::string format) {
+// The present local time. `format` has the codes of strftime(), and %Q for milliseconds, %q for microseconds,
+// as in OpenRTM-aist.
+std::string format_time(std::string format) {
     timespec t;
     clock_gettime(CLOCK_REALTIME, &t);
     tm local;
@@ -64,7 +68,7 @@ int Logger::strToLevel(const char* level) {
     return found == level_names.end() ? RTL_SILENT : static_cast<int>(found - level_names.begin());
 }
 
-// Stays to the end of the process, like the files.
+// Never deleted, like the files.
 coil::LogStreamBuffer& Logger::processStreams() {
     static auto* the_streams = new coil::LogStreamBuffer;
     return *the_streams;
@@ -92,17 +96,18 @@ void Logger::write(int level, const std::string& message) const {
     std::string date;
     {
         std::lock_guard<std::mutex> lock(outputs().mutex);
-        date = now(outputs().date_format);
+        date = format_time(outputs().date_format);
         const std::string line = "[" + date + "] [" +
                                  coil::toLower(level_names[static_cast<std::size_t>(level)]) + "] " + m_name +
                                  ": " + message + "\n";
+        // OpenRTM-aist writes ./rtc<pid>.log when no file is named; here nobody gets a file unasked.
         if (outputs().files.empty()) std::fputs(line.c_str(), stderr);
         for (std::FILE* file : outputs().files) {
             std::fputs(line.c_str(), file);
-            std::fflush(file);
+            std::fflush(file); // a crash may follow
         }
     }
-    thread_local bool in_stream = false; // a stream that logs does not hear itself
+    thread_local bool in_stream = false; // lines that a stream logs do not go to streams again
     if (in_stream) return;
     in_stream = true;
     processStreams().write(level, m_name, date, message);

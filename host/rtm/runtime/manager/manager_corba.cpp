@@ -1,26 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manager's ORB.
+// The manager's ORB, POAs and its own CORBA object. OpenRTM-aist: Manager::initORB(), createORBOptions(),
+// createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
+#include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <omniORB4/omniPolicy.h>
 
 namespace RTC {
 namespace {
 
+// Values of corba.endpoints (or the older corba.endpoint) as omniORB writes them: `all`, `HOST:PORT`, `HOST:`,
+// `HOST`, or already `giop:...`.
 std::vector<std::string> endpoints(const coil::Properties& config) {
     std::vector<std::string> out;
     std::string list = config.getProperty("corba.endpoints");
     if (!config.getProperty("corba.endpoint").empty()) list = config.getProperty("corba.endpoint");
-    for (const auto& one : coil::split(list, ",", true)) {
-        if (coil::normalize(one) == "all")
+    for (const auto& endpoint : coil::split(list, ",", true)) {
+        if (coil::normalize(endpoint) == "all")
             out.push_back("giop:tcp::");
-        else if (one.compare(0, 5, "giop:") == 0)
-            out.push_back(one);
+        else if (endpoint.compare(0, 5, "giop:") == 0)
+            out.push_back(endpoint);
         else
-            out.push_back("giop:tcp:" + one + (one.find(':') == std::string::npos ? ":" : ""));
+            out.push_back("giop:tcp:" + endpoint + (endpoint.find(':') == std::string::npos ? ":" : ""));
     }
     return out;
 }
 
+// Options of omniORB. Those of corba.args come last, so that they win.
 coil::vstring orb_arguments(const coil::Properties& config) {
     coil::vstring args{"tandem"};
     auto add = [&](const char* option, const std::string& value) {
@@ -28,16 +33,17 @@ coil::vstring orb_arguments(const coil::Properties& config) {
         args.push_back(value);
     };
     for (const auto& endpoint : endpoints(config)) add("-ORBendPoint", endpoint);
-    add("-ORBclientCallTimeOutPeriod", "10000"); // ms: no call waits for ever
-    add("-ORBgiopMaxMsgSize", "67108864");       // camera images and point clouds fit
-    add("-ORBinConScanPeriod", "0");             // an idle tool keeps its connection
+    add("-ORBclientCallTimeOutPeriod", "10000"); // ms; no call waits without end
+    add("-ORBgiopMaxMsgSize", "67108864");       // 64 MB: camera images and point clouds fit
+    add("-ORBinConScanPeriod", "0");             // 0: the connection of an idle tool is kept
     // omniORB 4.2 uses freed memory when it serves broken requests of one connection at the same time.
     add("-ORBmaxServerThreadPerConnection", "1");
-    add("-ORBtraceLevel", "0"); // what goes wrong is said by us, in one line
+    add("-ORBtraceLevel", "0"); // this runtime reports errors itself, in one line each
     for (const auto& arg : coil::parseArgs(config.getProperty("corba.args"))) args.push_back(arg);
     return args;
 }
 
+// Calls of objects of this process in this POA go to the servant without a dispatcher.
 PortableServer::POA_ptr make_shortcut_poa(PortableServer::POA_ptr root,
                                           PortableServer::POAManager_ptr manager) {
     CORBA::PolicyList policies;
@@ -69,20 +75,25 @@ void start_orb(Manager::Impl& impl) {
         impl.shortcut_poa = make_shortcut_poa(impl.poa.in(), impl.poa_manager.in());
         impl.poa_manager->activate();
     } catch (const CORBA::INITIALIZE&) {
-        throw ManagerError(
-            "the ORB does not start; is the endpoint " + impl.config.getProperty("corba.endpoints") +
-            " taken, or an option of corba.args wrong (" + impl.config.getProperty("corba.args") + ")?");
+        throw ManagerError("the ORB cannot start: is the endpoint " +
+                           impl.config.getProperty("corba.endpoints") +
+                           " (corba.endpoints) in use or not an address of this machine, or an option of "
+                           "corba.args wrong (" +
+                           impl.config.getProperty("corba.args") + ")?");
     } catch (const CORBA::Exception& e) {
-        throw ManagerError(std::string("the ORB does not start: CORBA exception ") + e._name());
+        throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());
     }
+    // Without a name server in the settings none is asked; naming.enable: YES means the one of this machine.
     const auto servers = coil::split(impl.config.getProperty("corba.nameservers"), ",", true);
-    const bool wanted = coil::toBool(impl.config.getProperty("naming.enable"), "YES", "NO", !servers.empty());
+    const bool enabled =
+        coil::toBool(impl.config.getProperty("naming.enable"), "YES", "NO", !servers.empty());
     impl.name_bindings =
-        std::make_unique<NameBindings>(impl.orb.in(), !wanted           ? coil::vstring()
+        std::make_unique<NameBindings>(impl.orb.in(), !enabled          ? coil::vstring()
                                                       : servers.empty() ? coil::vstring{"localhost"}
                                                                         : servers);
 }
 
+// The object is activated in omniINSPOA, whose objects have the key that corbaloc names.
 void publish_manager(Manager& manager, Manager::Impl& impl) {
     impl.servant = new RTM::ManagerServant(manager);
     if (!coil::toBool(impl.config.getProperty("manager.corba_servant"), "YES", "NO", true)) return;
@@ -95,8 +106,8 @@ void publish_manager(Manager& manager, Manager::Impl& impl) {
     impl.servant->setObjRef(RTM::Manager_var(RTM::Manager::_narrow(reference.in())).in());
     Logger& rtclog = impl.log;
     for (const auto& name : manager_names(impl))
-        for (const auto& refusal : impl.name_bindings->bind(name, reference.in()))
-            RTC_WARN(("%s", refusal.c_str()));
+        for (const auto& error : impl.name_bindings->bind(name, reference.in()))
+            RTC_WARN(("%s", error.c_str()));
 }
 
 void unpublish_manager(Manager::Impl& impl) {
@@ -105,15 +116,16 @@ void unpublish_manager(Manager::Impl& impl) {
 }
 
 void start_connection_keeper(Manager& manager, Manager::Impl& impl) {
-    auto seconds = [&](const char* key, double usual) {
-        double value = usual;
-        if (!coil::stringTo(value, impl.config.getProperty(key).c_str()) || !(value > 0)) value = usual;
+    auto seconds = [&](const char* key, double default_value) {
+        double value = default_value;
+        if (!coil::stringTo(value, impl.config.getProperty(key).c_str()) || !(value > 0))
+            value = default_value;
         return std::chrono::nanoseconds(static_cast<std::int64_t>(value * 1e9));
     };
     impl.connection_keeper =
         std::make_unique<ConnectionKeeper>(manager, seconds("manager.peer_check_interval", 2));
-    auto yes = [&](const char* key, bool usual) {
-        return coil::toBool(impl.config.getProperty(key), "YES", "NO", usual);
+    auto yes = [&](const char* key, bool default_value) {
+        return coil::toBool(impl.config.getProperty(key), "YES", "NO", default_value);
     };
     if (!yes("naming.update.enable", true)) return;
     const bool rebind = yes("naming.update.rebind", false);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manager's state. Internal to host/rtm.
+// The state of RTC::Manager, which OpenRTM-aist has as protected members of the class. Private to
+// host/rtm/runtime: the public header rtm/Manager.h only names the type.
 #pragma once
 #include "host/plugin/library.hpp"
-#include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/naming/name_bindings.hpp"
@@ -17,91 +17,100 @@ namespace RTC {
 class LogstreamBase;
 
 struct Manager::Impl {
+    // Set once by Manager::start(), before there are other threads; read by any thread afterwards.
     Options options;
-    coil::Properties config;
-    std::filesystem::path conf_file; // empty: none was read
+    std::filesystem::path conf_file; // empty: no file was read
     Logger log{"manager"};
     ModuleInitProc init_proc = nullptr;
 
     CORBA::ORB_var orb;
     PortableServer::POA_var poa, shortcut_poa;
     PortableServer::POAManager_var poa_manager;
-    std::unique_ptr<NameBindings> name_bindings; // without servers when naming is off
+    std::unique_ptr<NameBindings> name_bindings; // has no servers when naming is off
     std::unique_ptr<NamingManager> naming_manager;
     std::unique_ptr<ConnectionKeeper> connection_keeper;
     PortableServer::Servant_var<RTM::ManagerServant> servant;
 
     struct Module {
-        std::string name;
+        std::string name; // as it was given to load()
         std::shared_ptr<tandem::plugin::Library> library;
     };
     struct Component {
         RTObject_impl* object;
-        std::shared_ptr<FactoryBase> factory; // which a tool may unload meanwhile
+        std::shared_ptr<FactoryBase> factory; // shared, because a tool may unload the module meanwhile
     };
     struct ContextType {
         ECNewFunc create;
         ECDeleteFunc destroy;
     };
-    mutable std::recursive_mutex mutex; // guards what follows
+    // Guards what follows. Recursive, because functions that hold it call others that take it. Not held
+    // while callbacks of components run: they call the manager, also from threads of their own.
+    mutable std::recursive_mutex mutex;
+    coil::Properties config; // Manager::getConfig() hands it out without the mutex, as OpenRTM-aist does
     std::vector<Module> modules;
-    std::set<std::shared_ptr<tandem::plugin::Library>> libraries; // of those that were unloaded, too
+    std::set<std::shared_ptr<tandem::plugin::Library>> libraries; // with those of unloaded modules
     std::vector<std::shared_ptr<FactoryBase>> factories;
     std::map<std::string, ContextType> contexts;
-    std::vector<Component> components;         // in the order of their creation
-    std::vector<Component> finalized;          // have left, wait for their deletion
-    std::set<std::string> names_being_created; // names of those that are being created
-    std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks;
+    std::vector<Component> components; // in the order of their creation
+    std::vector<Component> finalized;  // exited, deleted by the next cleanupComponents()
+    std::set<std::string> names_being_created;
+    std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks; // by due time
     std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
-    std::atomic<bool> ever_had_components{false};
     bool shut_down = false;
+
+    std::atomic<bool> ever_had_components{false};
     std::atomic<bool> ended_in_order{true};
     std::atomic<bool> restart_wanted{false};
 
-    std::vector<LogstreamBase*> log_streams; // from modules
+    std::vector<LogstreamBase*> log_streams; // created by open_log_streams()
 
     RTM::ManagerActionListeners listeners;
 
-    /// rtc.conf as it is now: tools change it while components are created from it.
+    /// A copy of the settings as they are now: tools change them while components are created from them.
     coil::Properties settings() const;
     std::string setting(const std::string& key) const;
-    /// What a tool sets; false for a value that the key cannot have.
+    /// A setting made by a tool; false when the key cannot have the value.
     bool change_setting(const std::string& key, std::string value);
+    /// NULL: no registered factory matches the properties of `id`; empty properties match any. Call it with
+    /// the mutex held.
     std::shared_ptr<FactoryBase> find_factory(const coil::Properties& id);
+    /// The factory for `id`, loading a library of the type's name if need be (manager.modules.search_auto).
+    /// Throws ManagerError when there is none.
+    std::shared_ptr<FactoryBase> require_factory(Manager& manager, const coil::Properties& id);
+    /// Throws ManagerError when the component cannot be configured or initialized.
+    void set_up_component(RTObject_impl& component, const std::string& name, FactoryBase& factory,
+                          const coil::Properties& arguments);
+    void discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory);
+    /// Throws ManagerError, with the names of all components, when there is none of that name.
+    RTObject_impl& require_component(Manager& manager, const std::string& name);
+    /// Folders in which modules are searched, in order.
     std::vector<std::filesystem::path> module_dirs() const;
+    /// Runs the tasks of invoke() and addTask() whose time has come. [main-thread]
     void run_due_tasks();
-    /// Calls what ends with a component's destructor; one that does not return is told of and left behind.
-    void destroy_component(const std::string& name, std::function<void()> call);
+    /// Calls `destroy`, which ends with the destructor of component `name`, in a thread of its own. A
+    /// destructor that does not return in time is logged and its thread is left behind.
+    void destroy_component(const std::string& name, std::function<void()> destroy);
     void schedule_periodic(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
                            std::chrono::nanoseconds period);
-    /// To the components, which may leave meanwhile: to all, or to those that fit.
-    std::vector<RTObject_var> references(const std::function<bool(RTObject_impl&)>& fits =
+    /// References to the components that `accept` is true for. They stay valid when the component exits
+    /// meanwhile; calls then raise OBJECT_NOT_EXIST.
+    std::vector<RTObject_var> references(const std::function<bool(RTObject_impl&)>& accept =
                                              [](RTObject_impl&) { return true; }) const;
 };
 
-/// Command line and rtc.conf into properties. Throws ManagerError.
+/// Merges defaults, rtc.conf and command line into impl.config and opens the log. Throws ManagerError.
 void read_configuration(Manager::Impl& impl, int argc, char** argv);
-/// Throws ManagerError when the ORB cannot start, for an endpoint that is taken, say.
+/// Initializes ORB, POAs and name bindings. Throws ManagerError, for example when the endpoint is in use.
 void start_orb(Manager::Impl& impl);
-/// Begins to look after connections with other processes, and after the names in name servers.
+/// Starts the supervision of connections with other processes and of the names in name servers.
 void start_connection_keeper(Manager& manager, Manager::Impl& impl);
-/// Makes the manager reachable as corbaloc:...:PORT/manager, and in the name servers.
+/// Makes the manager reachable as corbaloc:iiop:HOST:PORT/manager, and binds its names.
 void publish_manager(Manager& manager, Manager::Impl& impl);
+/// Unbinds the names of the manager and those bound through NamingManager.
 void unpublish_manager(Manager::Impl& impl);
 
-/// Throws ManagerError.
+/// Creates the log streams that are configured (logger.logstream.*). Throws ManagerError.
 void open_log_streams(Manager::Impl& impl);
 void close_log_streams(Manager::Impl& impl);
-
-/// `Name`, `Name?a=1&b=2`, `RTC:vendor:category:Name:language:version`. Throws ManagerError.
-struct ComponentArguments {
-    coil::Properties id;
-    coil::Properties properties;
-};
-ComponentArguments parse_component_arguments(const std::string& args);
-
-/// %n, %h ... of naming.formats.
-std::string format_name(const std::string& format, const coil::Properties& component,
-                        const coil::Properties& config);
 
 } // namespace RTC

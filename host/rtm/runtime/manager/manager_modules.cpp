@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading libraries of components, and the types they register.
+// Loading modules (libraries of components) and the component and context types that they register.
+// OpenRTM-aist: Manager::load(), registerFactory(), registerECFactory() and class ModuleManager.
 #include "host/plugin/abi.hpp"
 #include "host/plugin/find_library.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
@@ -13,7 +14,7 @@ std::vector<std::filesystem::path> Manager::Impl::module_dirs() const {
     std::vector<std::filesystem::path> dirs;
     for (const auto& dir : coil::split(setting("manager.modules.load_path"), ",", true)) {
         dirs.emplace_back(coil::replaceEnv(dir));
-        // A configuration folder can be moved as a whole.
+        // The folder of rtc.conf comes second, so that a configuration can be moved with its modules.
         if (!conf_file.empty() && dirs.back().is_relative())
             dirs.push_back(conf_file.parent_path() / dirs.back());
     }
@@ -23,27 +24,31 @@ std::vector<std::filesystem::path> Manager::Impl::module_dirs() const {
 
 namespace {
 
-// /a/libName.so -> Name
+// /a/libName.so -> libName
 std::string base_name(const std::string& file_name) {
     std::string name = std::filesystem::path(file_name).filename().string();
     return name.substr(0, name.find('.'));
 }
 
-std::string init_symbol(const std::filesystem::path& file, const tandem::plugin::Contents& contents,
-                        const std::string& base) {
+// The name of the init function when rtc.conf does not give it: NAMEInit, without a leading `lib` as well, or
+// rtc_init, which components of old templates have.
+std::string find_init_symbol(const std::filesystem::path& file, const tandem::plugin::Contents& contents,
+                             const std::string& base) {
     std::vector<std::string> tried{base + "Init"};
     if (base.compare(0, 3, "lib") == 0) tried.push_back(base.substr(3) + "Init");
-    tried.emplace_back("rtc_init"); // old components
+    tried.emplace_back("rtc_init");
     for (const auto& symbol : tried)
         if (contents.exports.count(symbol)) return symbol;
+    // A library of another model gets the message that says so.
     if (contents.kind != tandem::plugin::Kind::rtc_module && contents.kind != tandem::plugin::Kind::other)
         tandem::plugin::require_kind(file, contents, tandem::plugin::Kind::rtc_module);
     throw ManagerError("module " + file.string() + " has no function " + tried[0] +
-                       "; export it (extern \"C\"), or name another as file(function)");
+                       "; export it (extern \"C\"), or name another function: " + file.filename().string() +
+                       "(FUNCTION)");
 }
 
-// The module's own code: whatever it throws ends here.
-void call(const std::function<void()>& init, const std::string& what) {
+// Runs the module's init function, which may throw anything.
+void call_init(const std::function<void()>& init, const std::string& what) {
     try {
         init();
     } catch (const std::exception& e) {
@@ -57,6 +62,8 @@ void call(const std::function<void()>& init, const std::string& what) {
 
 } // namespace
 
+// Checks before it loads, since loading runs the library's static constructors: first what can be read from
+// the file, then, if the host wants it, a trial in a child process.
 void Manager::loadOrThrow(const std::string& file_name, const std::string& init_function) {
     std::string name = file_name, function = init_function;
     m_impl->listeners.module_.forEach([&](auto& listener) { listener.preLoad(name, function); });
@@ -69,19 +76,20 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
         const auto file = plugin::find_library(name, m_impl->module_dirs());
         const auto contents = plugin::read_contents(file);
         plugin::require_abi(file, contents, plugin::Model::rtm, TANDEM_RTM_ABI);
-        const std::string symbol = function.empty() ? init_symbol(file, contents, base_name(name)) : function;
+        const std::string symbol =
+            function.empty() ? find_init_symbol(file, contents, base_name(name)) : function;
         if (m_impl->options.probe) probe_module(*m_impl->options.probe, file, symbol, m_impl->log);
         const auto library = plugin::Library::load(file);
         plugin::require_abi_of_process(plugin::Model::rtm, TANDEM_RTM_ABI, library->path());
         const auto init = library->symbol<void(Manager*)>(symbol);
         {
-            // Kept for ever: objects and code of a component may be in use to the end of the process.
+            // Never unloaded: objects and code of a component may be in use until the process ends.
             std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
             m_impl->libraries.insert(library);
             std::erase_if(m_impl->modules, [&](auto& one) { return one.library->path() == library->path(); });
             m_impl->modules.push_back({name, library});
         }
-        call([&] { init(this); }, symbol + "() of module " + file.string());
+        call_init([&] { init(this); }, symbol + "() of module " + file.string());
     } catch (const tandem::plugin::Error& e) {
         throw ManagerError(e.what());
     }
@@ -93,7 +101,7 @@ bool Manager::loadForType(const std::string& type) {
     try {
         tandem::plugin::find_library(type, m_impl->module_dirs());
     } catch (const tandem::plugin::Error&) {
-        return false; // what is missing is the type: that is what will be said
+        return false; // the caller reports the missing type, which is what was asked for
     }
     loadOrThrow(type, "");
     return true;
@@ -110,6 +118,7 @@ ReturnCode_t Manager::load(const std::string& file_name, const std::string& init
     }
 }
 
+// False: a type with the same id is registered already, by another module for example.
 bool Manager::registerFactory(coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func) {
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     coil::Properties id;
@@ -122,12 +131,12 @@ bool Manager::registerFactory(coil::Properties& profile, RtcNewFunc new_func, Rt
 
 std::shared_ptr<FactoryBase> Manager::Impl::find_factory(const coil::Properties& id) {
     for (const auto& factory : factories) {
-        bool same = true;
+        bool matches = true;
         for (const char* key : {"implementation_id", "vendor", "category", "version", "language"}) {
             const std::string wanted = id.getProperty(key);
-            same = same && (wanted.empty() || wanted == factory->profile().getProperty(key));
+            matches = matches && (wanted.empty() || wanted == factory->profile().getProperty(key));
         }
-        if (same) return factory;
+        if (matches) return factory;
     }
     return nullptr;
 }
@@ -150,14 +159,16 @@ bool Manager::registerECFactory(const char* name, ECNewFunc new_func, ECDeleteFu
     return m_impl->contexts.emplace(name, Impl::ContextType{new_func, delete_func}).second;
 }
 
+// `TYPE` or `TYPE?key=value...`; the properties are those of init(), which the caller calls.
 ExecutionContextBase* Manager::createContext(const char* ec_args) {
     const std::string args(ec_args);
-    // In lock-step nothing may run on its own, whatever a component asks for.
+    // In lock-step mode no context may have a thread, whatever type a component asks for: only Manager::step()
+    // runs its cycles.
     const std::string type = m_impl->options.lockstep ? "SynchExtTriggerEC" : args.substr(0, args.find('?'));
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     auto found = m_impl->contexts.find(type);
     if (found != m_impl->contexts.end()) return found->second.create();
-    return ExecutionContextFactory::instance().createObject(type); // NULL: nobody has brought it along
+    return ExecutionContextFactory::instance().createObject(type); // NULL: unknown type
 }
 
 } // namespace RTC

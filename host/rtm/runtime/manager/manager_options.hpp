@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Settings of the hosting program. Programs in apps/ and tests include this header to start a manager.
 #pragma once
 #include "host/plugin/probe.hpp"
 #include <chrono>
@@ -9,22 +10,21 @@
 
 namespace RTC {
 
-/// What our host decides and rtc.conf cannot.
+/// What the hosting program decides and rtc.conf cannot.
 struct HostOptions {
-    bool lockstep = false; ///< contexts have no threads; somebody calls Manager::step()
-    int cpu = -1;
-    std::chrono::nanoseconds tick_spin{0};
-    /// How long a context waits for a callback to return when it is stopped.
+    bool lockstep = false; ///< contexts have no threads; the host calls Manager::step() for each cycle
+    int cpu = -1;          ///< default processor for threads of contexts; -1: any
+    std::chrono::nanoseconds tick_spin{0}; ///< how long before a tick a context polls the clock
+    /// How long a context that is stopped waits for its running callback to return.
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
     std::vector<std::filesystem::path> plugin_path; ///< searched after manager.modules.load_path
-    std::optional<tandem::plugin::Probe> probe;     ///< modules are tried in a child process first
-    bool can_restart = false;                       ///< it looks at Manager::restartWanted() in the end
-    bool strict = false;                            ///< rtc.conf must exist and be well-formed
+    std::optional<tandem::plugin::Probe> probe;     ///< modules are loaded in a child process first
+    bool can_restart = false; ///< the program starts anew when Manager::restartWanted() is true
 };
 
 struct Manager::Options : HostOptions {};
 
-/// Those of the running manager; defaults when there is none.
+/// The options of the running manager; defaults before it is started. [any-thread]
 HostOptions host_options();
 
 } // namespace RTC

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The manager's remote interface, RTM::Manager of Manager.idl, as OpenRTM-aist's class ManagerServant. There
+// are no master and slave managers here: the lists are empty, adding to them is refused. [any-thread]
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
@@ -11,9 +13,9 @@ namespace {
 ModuleProfileList* to_corba(const std::vector<coil::Properties>& profiles) {
     ModuleProfileList_var list = new ModuleProfileList;
     for (const auto& profile : profiles) {
-        ModuleProfile one;
-        NVUtil::copyFromProperties(one.properties, profile);
-        CORBA_SeqUtil::push_back(list.inout(), one);
+        ModuleProfile converted;
+        NVUtil::copyFromProperties(converted.properties, profile);
+        CORBA_SeqUtil::push_back(list.inout(), converted);
     }
     return list._retn();
 }
@@ -33,18 +35,20 @@ RTC::RTObject_ptr ManagerServant::create_component(const char* module_name) {
     return component ? component->getObjRef() : RTC::RTObject::_nil();
 }
 
-// Deleted later, in the manager's thread.
+// The component exits at once; the manager's main loop deletes it later, because exit() may have been called
+// from a thread that runs in it.
 RTC::ReturnCode_t ManagerServant::delete_component(const char* instance_name) {
-    auto found = components([&](auto& one) { return instance_name == std::string(one.getInstanceName()); });
+    auto found = components(
+        [&](auto& component) { return instance_name == std::string(component.getInstanceName()); });
     if (found->length() == 0) return RTC::BAD_PARAMETER;
     try {
         return found[0]->exit();
     } catch (const CORBA::OBJECT_NOT_EXIST&) {
-        return RTC::RTC_OK; // it has just left by itself
+        return RTC::RTC_OK; // it has exited since components()
     }
 }
 
-// References: any of them may be leaving while others are looked at.
+// References, not pointers: any component may exit while the caller looks at the others.
 RTC::RTCList_var ManagerServant::components(const std::function<bool(RTC::RTObject_impl&)>& fits) const {
     RTC::RTCList_var list = new RTC::RTCList;
     for (auto& component : manager_.impl().references(fits))
@@ -63,7 +67,7 @@ RTC::ComponentProfileList* ManagerServant::get_component_profiles() {
             CORBA_SeqUtil::push_back(list.inout(),
                                      RTC::ComponentProfile_var(component->get_component_profile()).in());
         } catch (const CORBA::OBJECT_NOT_EXIST&) {
-            continue; // it has just left
+            continue; // it has exited since references()
         }
     }
     return list._retn();
@@ -75,8 +79,9 @@ RTC::RTCList* ManagerServant::get_components_by_name(const char* name) {
     const std::size_t slash = wanted.find('/');
     const std::string category = slash == std::string::npos ? "*" : wanted.substr(0, slash);
     const std::string instance = slash == std::string::npos ? wanted : wanted.substr(slash + 1);
-    return components([&](auto& one) {
-               return instance == one.getInstanceName() && (category == "*" || category == one.getCategory());
+    return components([&](auto& component) {
+               return instance == component.getInstanceName() &&
+                      (category == "*" || category == component.getCategory());
            })
         ._retn();
 }
@@ -95,7 +100,7 @@ NVList* ManagerServant::get_configuration() {
     return list._retn();
 }
 
-// Seen by what is done from now on: components that are created, modules that are loaded.
+// Affects components that are created and modules that are loaded from now on.
 RTC::ReturnCode_t ManagerServant::set_configuration(const char* name, const char* value) {
     return manager_.impl().change_setting(name, value) ? RTC::RTC_OK : RTC::BAD_PARAMETER;
 }
@@ -109,11 +114,13 @@ RTC::ReturnCode_t ManagerServant::remove_master_manager(Manager_ptr) { return RT
 ManagerList* ManagerServant::get_slave_managers() { return new ManagerList; }
 RTC::ReturnCode_t ManagerServant::add_slave_manager(Manager_ptr) { return RTC::UNSUPPORTED; }
 RTC::ReturnCode_t ManagerServant::remove_slave_manager(Manager_ptr) { return RTC::BAD_PARAMETER; }
+// Starting processes is left to whoever starts the system.
 RTC::ReturnCode_t ManagerServant::fork() { return RTC::UNSUPPORTED; }
 RTC::ReturnCode_t ManagerServant::shutdown() {
     RTC::Manager::terminate();
     return RTC::RTC_OK;
 }
+// Only a program that looks at Manager::restartWanted() when runManager() returns can start anew.
 RTC::ReturnCode_t ManagerServant::restart() {
     RTC::Manager::Impl& impl = manager_.impl();
     if (!impl.options.can_restart) return RTC::UNSUPPORTED;

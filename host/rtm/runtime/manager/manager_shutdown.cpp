@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manager's end: nothing a component does, or does not do, keeps it from coming.
+// The end of the manager. OpenRTM-aist: Manager::shutdown(), shutdownComponents(), shutdownORB(). There a
+// callback that does not return keeps the process alive; here every step has a time limit, and a component
+// that exceeds it is left behind.
 #include "host/process/bounded_call.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <algorithm>
@@ -10,11 +12,14 @@
 namespace RTC {
 namespace {
 
-bool returns(std::function<void()> call) {
+// Twice the time that a context waits for its callback: a context that gives up waiting has returned by then.
+bool returns_in_time(std::function<void()> call) {
     return tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout, std::move(call));
 }
 
-void deactivate(RTObject_impl* component) {
+// Stops the component's own contexts and deactivates it in each. A context that does not halt is passed over:
+// its thread is still in a callback.
+void halt_and_deactivate(RTObject_impl* component) {
     RTObject_var self = component->getObjRef();
     for (auto* context : component->getOwnContexts())
         if (context->halt() == RTC_OK && context->getComponentState(self.in()) == ACTIVE_STATE)
@@ -23,40 +28,45 @@ void deactivate(RTObject_impl* component) {
 
 } // namespace
 
-// All stop before any goes away: they may still talk to each other while they stop.
+// All components are stopped before the first exits, because they may call each other while they stop.
+// Returns false when one did not stop or exit in time.
 bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
     Logger& rtclog = m_impl->log;
     const std::size_t all = components.size();
-    auto hangs = [&](RTObject_impl* component, std::function<void()> call) {
+    auto exceeds_time = [&](RTObject_impl* component, std::function<void()> call) {
         const std::string name(component->getInstanceName());
-        if (returns(std::move(call))) return false;
-        RTC_ERROR(("%s: a callback does not return; the component is left as it is", name.c_str()));
+        if (returns_in_time(std::move(call))) return false;
+        RTC_ERROR(("%s: a callback does not return; the host ends without waiting for it", name.c_str()));
         return true;
     };
-    std::erase_if(components, [&](auto* one) { return hangs(one, [one] { deactivate(one); }); });
-    std::size_t ended = 0;
+    std::erase_if(components,
+                  [&](auto* one) { return exceeds_time(one, [one] { halt_and_deactivate(one); }); });
+    std::size_t exited = 0;
     for (auto* component : components) {
+        // Shared with the call, which may outlive this function.
         auto result = std::make_shared<std::atomic<ReturnCode_t>>(RTC_ERROR);
-        if (!hangs(component, [component, result] { *result = component->exit(); }) && *result == RTC_OK)
-            ++ended;
+        if (!exceeds_time(component, [component, result] { *result = component->exit(); }) &&
+            *result == RTC_OK)
+            ++exited;
     }
-    return ended == all;
+    return exited == all;
 }
 
+// Deletes the components that have exited. Without the mutex: a destructor may call the manager.
 void Manager::cleanupComponents() {
-    std::vector<Impl::Component> leaving;
+    std::vector<Impl::Component> finalized;
     {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
-        leaving.swap(m_impl->finalized);
+        finalized.swap(m_impl->finalized);
     }
-    for (auto& one : leaving)
+    for (auto& one : finalized)
         m_impl->destroy_component(one.object->getInstanceName(), [one] { one.factory->destroy(one.object); });
 }
 
 void Manager::Impl::destroy_component(const std::string& name, std::function<void()> call) {
-    if (returns(std::move(call))) return;
+    if (returns_in_time(std::move(call))) return;
     Logger& rtclog = log;
-    RTC_ERROR(("%s: its destructor does not return; the component is left as it is", name.c_str()));
+    RTC_ERROR(("%s: its destructor does not return; the host goes on without waiting for it", name.c_str()));
     ended_in_order = false;
 }
 
@@ -67,25 +77,26 @@ bool Manager::shutdown() {
         m_impl->shut_down = true;
     }
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.preShutdown(); });
-    m_impl->connection_keeper->stop(); // nothing is restored that is taken down now
+    m_impl->connection_keeper->stop(); // before it restores connections that are taken down now
     unpublish_manager(*m_impl);
     auto components = getComponents();
+    // Reverse order of creation: later components may use earlier ones.
     std::reverse(components.begin(), components.end());
-    bool all_ended = stopComponents(components);
+    bool all_exited = stopComponents(components);
     m_impl->run_due_tasks();
     cleanupComponents();
 
+    // orb->shutdown(true) waits for calls in progress, and a component's servant may never return from one.
     std::packaged_task<void()> end_orb([this] {
         m_impl->orb->shutdown(true);
         m_impl->orb->destroy();
     });
     auto ended = end_orb.get_future();
     std::thread(std::move(end_orb)).detach();
-    // A call into a component may hang for longer than anybody wants to wait.
-    if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready) all_ended = false;
+    if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready) all_exited = false;
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
     close_log_streams(*m_impl);
-    if (!all_ended) m_impl->ended_in_order = false;
+    if (!all_exited) m_impl->ended_in_order = false;
     return m_impl->ended_in_order;
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Entries of manager.components.preconnect and the connections that they ask for.
 #pragma once
 #include <rtm/Manager.h>
 
@@ -6,17 +7,22 @@ namespace RTC {
 
 /// One entry of manager.components.preconnect: the first port is connected with each of the others.
 struct PreconnectEntry {
-    std::vector<std::string> ports; // `Component.port`, or with rtcname:// or rtcloc:// before it
-    coil::Properties properties;
+    std::vector<std::string> ports; ///< `Component.port`, with rtcname:// or rtcloc:// before it when remote
+    coil::Properties properties;    ///< of the connector, with the prefix `dataport.` or `port.`
 };
-/// Throws ManagerError.
-PreconnectEntry parse_preconnect_entry(const std::string& line);
+/// Parses `A.p?port=B.q&key=value...` or, in the form of 1.x, `A.p:B.q(key=value&...)`. Throws ManagerError.
+PreconnectEntry parse_preconnect_entry(const std::string& text);
 
+/// Is the port named with a scheme (rtcname://, rtcloc://)?
 bool is_remote(const std::string& port_name);
-/// Throws ManagerError for a port that cannot be, RemoteUnavailable for a remote one that may come yet.
+
+/// Resolves a port name to a reference, which the caller releases; calls another process for a remote one.
+/// Throws ManagerError for a name that is wrong, RemoteUnavailable for a remote port that may come later.
 PortService_ptr find_port(Manager& manager, const std::string& port_name);
-/// Connects two ports; the id of the connection. Throws ManagerError, or RemoteUnavailable.
-std::string connect_ports(const PreconnectEntry& line, std::size_t other, PortService_ptr first,
+
+/// Connects entry.ports[0] (`first`) with entry.ports[index] (`second`). Returns the connector's id. Throws
+/// ManagerError when a port refuses, RemoteUnavailable when a remote port does not answer.
+std::string connect_ports(const PreconnectEntry& entry, std::size_t index, PortService_ptr first,
                           PortService_ptr second);
 
 } // namespace RTC

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A trial load of a module in a child process, so that a module that crashes or hangs is reported with the
+// function at fault and does not take the host with it. OpenRTM-aist has no such step.
 #include "host/rtm/runtime/manager/probe_module.hpp"
 
 #include "host/plugin/abi.hpp"
@@ -11,7 +13,8 @@
 namespace RTC {
 namespace {
 
-// Without the user's rtc.conf: nobody shall see this manager.
+// The child's manager. It ignores the user's rtc.conf, does not log and binds no names, so that nobody outside
+// notices it.
 Manager& private_manager() {
     coil::Argv arguments(
         coil::vstring{"rtm_host", "-f", "/dev/null", "-o", "logger.enable:NO", "-o", "naming.enable:NO"});
@@ -20,8 +23,10 @@ Manager& private_manager() {
 
 } // namespace
 
+// Components are not initialized: onInitialize may need files, devices or other components. After the first
+// destructor that hangs no other is called, since each could take the whole timeout again.
 std::string Manager::tryFactories(const std::function<void(const std::string&)>& before,
-                                  std::chrono::nanoseconds patience) {
+                                  std::chrono::nanoseconds timeout) {
     std::string stuck;
     for (const auto& factory : m_impl->factories) {
         const std::string type = factory->profile().getProperty("implementation_id");
@@ -31,7 +36,7 @@ std::string Manager::tryFactories(const std::function<void(const std::string&)>&
         before("the destructor of " + type);
         component.finalizePorts();
         component.finalizeContexts();
-        if (!tandem::process::BoundedCall::returns_within(patience, [&] { factory->destroy(&component); }))
+        if (!tandem::process::BoundedCall::returns_within(timeout, [&] { factory->destroy(&component); }))
             stuck = type;
     }
     return stuck;
@@ -39,31 +44,30 @@ std::string Manager::tryFactories(const std::function<void(const std::string&)>&
 
 void probe_module(const tandem::plugin::Probe& how, const std::string& library, const std::string& init,
                   Logger& rtclog) {
-    // For all destructors: those that wait for a thread of theirs that never ends are no reason to do without
-    // them.
-    const auto patience = how.bound / 4;
-    const std::string stuck =
-        tandem::plugin::probe(how, module_probe_task, library, {init, std::to_string(patience.count())});
+    // A destructor that hangs only earns a warning, so it must not use up the time of the whole probe.
+    const auto destructor_timeout = how.bound / 4;
+    const std::string stuck = tandem::plugin::probe(how, module_probe_task, library,
+                                                    {init, std::to_string(destructor_timeout.count())});
     if (!stuck.empty())
         RTC_WARN(
-            ("module %s: the destructor of %s does not return; the host will leave such components as they "
-             "are when they exit",
+            ("module %s: the destructor of %s does not return; when such a component exits, the host will "
+             "go on without waiting for it",
              library.c_str(), stuck.c_str()));
 }
 
 void run_module_probe(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report) {
     const std::string init = task.arguments.at(0);
-    const std::chrono::milliseconds patience(std::stol(task.arguments.at(1)));
+    const std::chrono::milliseconds destructor_timeout(std::stol(task.arguments.at(1)));
     report.stage("its static constructors");
     const auto library = tandem::plugin::Library::load(task.library);
     tandem::plugin::require_abi_of_process(tandem::plugin::Model::rtm, TANDEM_RTM_ABI, library->path());
-    library->symbol<void(Manager*)>(init); // says so if there is none
+    library->symbol<void(Manager*)>(init); // throws when there is none
     Manager& manager = private_manager();
     report.stage(init + "()");
     manager.loadOrThrow(task.library, init);
     try {
-        const auto before = [&](const std::string& function) { report.stage(function); };
-        report.finish(manager.tryFactories(before, patience));
+        const auto report_stage = [&](const std::string& function) { report.stage(function); };
+        report.finish(manager.tryFactories(report_stage, destructor_timeout));
     } catch (const ManagerError& e) {
         throw ManagerError("module " + task.library + ": " + e.what());
     }

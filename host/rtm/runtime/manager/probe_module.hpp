@@ -6,16 +6,17 @@
 
 namespace RTC {
 
+/// Name of the probe task that run_module_probe() carries out (host/plugin/probe.hpp).
 constexpr char module_probe_task[] = "load-rtm";
 
-/// Tries the module in a child process. A destructor that does not return is a warning; throws
-/// tandem::plugin::Error for all else that goes wrong. [any-thread]
+/// In the host: loads the module in a child process with run_module_probe(). Logs a warning for a destructor
+/// that does not return; throws tandem::plugin::Error for a crash, a hang or any other failure. [any-thread]
 void probe_module(const tandem::plugin::Probe& how, const std::string& library, const std::string& init,
                   Logger& rtclog);
 
-/// The task module_probe_task, its arguments the init function and the milliseconds for a destructor: loads the
-/// module and makes one component of each type that it registers, and deletes it. None is initialized, no
-/// name server hears of it.
+/// In the child process: loads the module, creates and deletes one component of each type that it registers,
+/// without initializing it. Arguments of the task: the init function, and the milliseconds that a destructor
+/// may take. Throws ManagerError or tandem::plugin::Error; reports the type whose destructor hangs.
 void run_module_probe(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report);
 
 } // namespace RTC

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only in builds with the thread sanitizer. That of g++ 12 does not know pthread_mutex_clocklock(), which
-// std::timed_mutex calls for times of the steady clock: what is locked so counts as unlocked, and each unlock
-// is reported. This goes before libc's and calls what the sanitizer knows.
+// Only in builds with the thread sanitizer. The one of g++ 12 does not intercept pthread_mutex_clocklock(),
+// which std::timed_mutex calls for times of the steady clock: it takes such a mutex for unlocked and reports
+// each unlock. This definition is found before libc's and calls pthread_mutex_timedlock(), which the
+// sanitizer does intercept.
 #include <ctime>
 #include <pthread.h>
 
@@ -11,6 +12,7 @@ extern "C" int pthread_mutex_clocklock(pthread_mutex_t* mutex, clockid_t clock,
     clock_gettime(clock, &now);
     clock_gettime(CLOCK_REALTIME, &real);
     constexpr long second = 1'000'000'000;
+    // `until` on the real-time clock: now there, plus what is left on `clock`.
     const long nanoseconds = real.tv_nsec + until->tv_nsec - now.tv_nsec + second; // above 0
     real.tv_sec += until->tv_sec - now.tv_sec - 1 + nanoseconds / second;
     real.tv_nsec = nanoseconds % second;

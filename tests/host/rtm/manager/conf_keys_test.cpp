@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <filesystem>
 #include <fstream>
@@ -12,10 +13,10 @@ namespace {
 std::vector<std::string> checked(const std::string& text, coil::Properties& conf) {
     const auto file = std::filesystem::temp_directory_path() / ("tandem_keys." + std::to_string(getpid()));
     std::ofstream(file) << text;
-    RTC::SettingOrigins places;
-    RTC::read_conf_file(file, conf, &places);
+    RTC::SettingOrigins origins;
+    RTC::read_conf_file(file, conf, &origins);
     std::filesystem::remove(file);
-    return RTC::check_settings(conf, places);
+    return RTC::check_settings(conf, origins);
 }
 std::vector<std::string> checked(const std::string& text) {
     coil::Properties conf;
@@ -43,7 +44,7 @@ TEST_CASE("An unknown key is named with file, line and the nearest known key") {
     using Catch::Contains;
     CHECK_THAT(lines[0], Contains(":3: ") && Contains("did you mean exec_cxt.periodic.rate?"));
     CHECK_THAT(lines[1], Contains(":2: ") && Contains("did you mean manager.components.precreate?"));
-    CHECK_THAT(lines[2], Contains(":4: there is no key rate"));
+    CHECK_THAT(lines[2], Contains(":4: unknown key rate"));
 }
 
 TEST_CASE("A value a key cannot have is refused with file, line and what it can be") {
@@ -53,7 +54,7 @@ TEST_CASE("A value a key cannot have is refused with file, line and what it can 
     CHECK_THROWS_WITH(checked("exec_cxt.periodic.rate: 0\n"), Contains("expected a rate in Hz above 0"));
     CHECK_THROWS_WITH(checked("exec_cxt.periodic.rate: 100Hz\n"), Contains("is 100Hz"));
     CHECK_THROWS_WITH(checked("exec_cxt.transition_timeout: soon\n"), Contains("expected seconds"));
-    CHECK_THROWS_WITH(checked("exec_cxt.cpu_affinity: 0, one\n"), Contains("processors"));
+    CHECK_THROWS_WITH(checked("exec_cxt.cpu_affinity: 0, one\n"), Contains("processor numbers"));
     CHECK_THROWS_WITH(checked("logger.log_level: LOUD\n"), Contains("LOUD"));
     CHECK_THROWS_WITH(checked("manager.components.naming_policy: pretty\n"), Contains("process_unique"));
     CHECK(checked("corba.endpoints:\nmanager.shutdown_auto:\n").empty());
@@ -68,7 +69,7 @@ TEST_CASE("Each key refuses each value that it cannot have") {
         for (const std::string value : {"-1", "nan", "1e300", "-inf", "0x", "yes no", "\x95\x5c\x82", ";",
                                         "1,,-2", "99999999999999999999", long_text.c_str()}) {
             CAPTURE(name, value);
-            const bool fits = (key.value == RTC::ConfKey::whole && value == "-1"); // a number, at least
+            const bool fits = (key.value == RTC::ConfKey::integer && value == "-1"); // a number, at least
             if (fits) continue;
             CHECK_THROWS_WITH(checked(name + ": " + value + "\n"),
                               Catch::Contains(":1: " + name + " is ") && Catch::Contains(", expected "));
@@ -97,7 +98,7 @@ TEST_CASE("Files that are no configuration are refused in one line and those of 
     for (int i = 0; i < 400000; ++i) deep += ".a";
     CHECK(checked(deep + ": 1\n").empty());
     CHECK_THROWS_WITH(RTC::read_conf_file("/dev/zero", conf), Contains("more than 1 MB"));
-    CHECK_THROWS_WITH(RTC::read_conf_file("/", conf), Contains("it is no file"));
+    CHECK_THROWS_WITH(RTC::read_conf_file("/", conf), Contains("not a regular file"));
 }
 
 TEST_CASE("Keys that do nothing are in the table of differences with a reason and no others") {
@@ -135,7 +136,7 @@ TEST_CASE("The log goes to several files with a level and a date format") {
         CAPTURE(name, text);
         CHECK(text.find("not this") == std::string::npos);
         CHECK(text.find("[warn] me: but this\n") != std::string::npos);
-        CHECK(text.find("option -o: there is no key manager.componnents.precreate") != std::string::npos);
+        CHECK(text.find("option -o: unknown key manager.componnents.precreate") != std::string::npos);
         CHECK(text.find_first_of('|') == 5);
         CHECK(text.find("] ", 0) == std::string("[2026|123|123456").size());
     }

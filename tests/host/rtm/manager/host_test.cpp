@@ -189,7 +189,8 @@ TEST_CASE("A component that throws where it is to initialize does not let its ho
                                             "manager.components.precreate: FaultInjector?in=initialize&how=" +
                                             how + "\n")});
         CHECK(host.wait_for_exit() == 1);
-        CHECK_THAT(host.errors, Contains("FaultInjector0: onInitialize threw") && Contains("does not start"));
+        CHECK_THAT(host.errors,
+                   Contains("FaultInjector0: onInitialize threw") && Contains("cannot be started"));
     }
 }
 
@@ -201,7 +202,7 @@ TEST_CASE("A component that cannot initialize nor be destroyed does not hold its
                            "manager.components.precreate: FaultInjector?in=initialize&how=fail\n")});
     CHECK(host.wait_for_exit() == 1);
     CHECK_THAT(host.errors, Contains("FaultInjector0: its destructor does not return") &&
-                                Contains("FaultInjector0 does not start: its onInitialize has failed"));
+                                Contains("FaultInjector0 cannot be started: its onInitialize has failed"));
 }
 
 TEST_CASE("A component that ends the process ends it with its own code and in time") {

@@ -74,7 +74,7 @@ TEST_CASE("A name that cannot be is an error and one that is not there yet is no
     ManagerFixture fixture;
     fixture.create<Accumulator>("Accumulator");
     CHECK_THROWS_WITH(fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:9/noport"),
-                      Catch::Contains("is no port"));
+                      Catch::Contains("is not a port name"));
     CHECK_THROWS_WITH(fixture.connect("Accumulator0.nope?port=rtcloc://127.0.0.1:9/Counter0.out"),
                       Catch::Contains("has no port nope"));
     CHECK_NOTHROW(fixture.connect("Accumulator0.in?port=rtcname://127.0.0.1:9/a.host_cxt/Counter0.out"));

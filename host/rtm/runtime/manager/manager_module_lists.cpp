@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which libraries of components there are, and letting go of them.
+// Lists of loaded and loadable modules, and unloading. OpenRTM-aist: Manager::getLoadedModules(),
+// getLoadableModules(), unload() and class ModuleManager. There a module is loaded into a helper process to
+// learn its profile, and unloading takes its code out of the process; neither is done here (DIFFERENCES.md).
 #include "host/plugin/abi.hpp"
 #include "host/plugin/error.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
@@ -11,7 +13,7 @@
 namespace RTC {
 namespace {
 
-coil::Properties profile_of(const std::string& name, const std::filesystem::path& file) {
+coil::Properties module_profile(const std::string& name, const std::filesystem::path& file) {
     coil::Properties profile;
     profile.setProperty("module_file_name", name);
     profile.setProperty("module_file_path", file.string());
@@ -19,23 +21,25 @@ coil::Properties profile_of(const std::string& name, const std::filesystem::path
     return profile;
 }
 
-bool is_module(const std::filesystem::path& file) {
+// Decided by the symbols and notes in the file, without running any of its code.
+bool is_rtc_module(const std::filesystem::path& file) {
     try {
         const auto contents = tandem::plugin::read_contents(file);
         tandem::plugin::require_abi(file, contents, tandem::plugin::Model::rtm, TANDEM_RTM_ABI);
         return contents.kind == tandem::plugin::Kind::rtc_module;
     } catch (const tandem::plugin::Error&) {
-        return false; // no library, or none for this processor or host
+        return false; // not a library, or for another processor, or built against other headers
     }
 }
 
-// Its code is part of the library.
-bool comes_from(const FactoryBase& factory, const std::filesystem::path& library) {
-    const auto* made_by = dynamic_cast<const FactoryCXX*>(&factory);
+// Is the function that creates this factory's components part of the library?
+bool is_defined_in(const FactoryBase& factory, const std::filesystem::path& library) {
+    const auto* with_function = dynamic_cast<const FactoryCXX*>(&factory);
     Dl_info info{};
-    std::error_code none;
-    return made_by != nullptr && dladdr(reinterpret_cast<void*>(made_by->creator()), &info) != 0 &&
-           std::filesystem::equivalent(info.dli_fname, library, none);
+    std::error_code ignored;
+    return with_function != nullptr &&
+           dladdr(reinterpret_cast<void*>(with_function->creator()), &info) != 0 &&
+           std::filesystem::equivalent(info.dli_fname, library, ignored);
 }
 
 } // namespace
@@ -43,22 +47,23 @@ bool comes_from(const FactoryBase& factory, const std::filesystem::path& library
 std::vector<coil::Properties> Manager::getLoadedModules() {
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     std::vector<coil::Properties> modules;
-    for (auto& module : m_impl->modules) modules.push_back(profile_of(module.name, module.library->path()));
+    for (auto& module : m_impl->modules)
+        modules.push_back(module_profile(module.name, module.library->path()));
     return modules;
 }
 
-// By what is in the files: none is loaded to ask it.
 std::vector<coil::Properties> Manager::getLoadableModules() {
     std::vector<coil::Properties> modules;
     for (const auto& folder : m_impl->module_dirs()) {
-        std::error_code none;
-        for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
             const auto& file = entry.path();
-            if (file.extension() == ".so" && entry.is_regular_file(none) && is_module(file))
+            if (file.extension() == ".so" && entry.is_regular_file(ignored) && is_rtc_module(file))
                 modules.push_back(
-                    profile_of(file.filename().string(), std::filesystem::absolute(file, none)));
+                    module_profile(file.filename().string(), std::filesystem::absolute(file, ignored)));
         }
     }
+    // A folder may be listed twice, by its relative and its absolute path.
     std::sort(modules.begin(), modules.end(), [](const auto& a, const auto& b) {
         return a.getProperty("module_file_path") < b.getProperty("module_file_path");
     });
@@ -71,6 +76,8 @@ std::vector<coil::Properties> Manager::getLoadableModules() {
     return modules;
 }
 
+// Accepts the name that was given to load(), the path or the file name. Components that have exited but are
+// not deleted yet still use the module's code for their destructors.
 ReturnCode_t Manager::unload(const char* file_name) {
     const std::string wanted(file_name);
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
@@ -83,10 +90,10 @@ ReturnCode_t Manager::unload(const char* file_name) {
     const auto path = module->library->path();
     auto uses = [&](const auto& all) {
         return std::any_of(all.begin(), all.end(),
-                           [&](const auto& one) { return comes_from(*one.factory, path); });
+                           [&](const auto& one) { return is_defined_in(*one.factory, path); });
     };
     if (uses(m_impl->components) || uses(m_impl->finalized)) return PRECONDITION_NOT_MET;
-    std::erase_if(m_impl->factories, [&](const auto& factory) { return comes_from(*factory, path); });
+    std::erase_if(m_impl->factories, [&](const auto& factory) { return is_defined_in(*factory, path); });
     modules.erase(module);
     return RTC_OK;
 }

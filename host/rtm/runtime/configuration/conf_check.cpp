@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Unknown keys get a warning with the nearest known key; values of the wrong kind are errors.
+#include "host/rtm/runtime/configuration/conf_check.hpp"
+#include "host/rtm/runtime/configuration/conf_file.hpp"
+#include "host/rtm/runtime/configuration/conf_keys.hpp"
+#include <algorithm>
+#include <cmath>
+#include <coil/stringutil.h>
+#include <cstdlib>
+#include <optional>
+#include <rtm/ExecutionContextBase.h>
+#include <rtm/Manager.h>
+#include <utility>
+
+namespace RTC {
+namespace {
+
+// Levenshtein distance: the least number of letters inserted, deleted or replaced. One row of the matrix is
+// kept; `diagonal` is the entry above and to the left of the present one.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+            diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
+        }
+    }
+    return row.back();
+}
+
+struct NearestKey {
+    std::string name;
+    std::size_t distance = static_cast<std::size_t>(-1);
+};
+
+NearestKey find_nearest_key(const std::string& key) {
+    NearestKey best;
+    for (const auto& known : conf_keys()) {
+        if (std::string(known.name).find('*') != std::string::npos) continue;
+        const std::size_t d = edit_distance(key, known.name);
+        if (d < best.distance) best = {known.name, d};
+    }
+    return best;
+}
+
+// Is `name` the first part of a known key?
+bool is_section(const std::string& name) {
+    return std::any_of(conf_keys().begin(), conf_keys().end(), [&](const ConfKey& known) {
+        return std::string(known.name).compare(0, name.size() + 1, name + ".") == 0;
+    });
+}
+
+// A key CATEGORY.TYPE.KEY or CATEGORY.INSTANCE.KEY configures a component, and only the component knows its
+// own keys: such keys pass, unless they are so close to a known key that a typing error is likely.
+std::optional<std::string> unknown_key_warning(const std::string& key) {
+    if (find_conf_key(key) != nullptr) return std::nullopt;
+    constexpr std::size_t max_compared = 100; // the comparison takes time with the key's length
+    constexpr std::size_t likely_typing_error = 2;
+    const auto parts = coil::split(key, ".");
+    const NearestKey nearest = find_nearest_key(key.substr(0, max_compared));
+    if (parts.size() >= 3 && !is_section(parts[0]) && nearest.distance > likely_typing_error)
+        return std::nullopt;
+    return "unknown key " + printable(key) + "; did you mean " + nearest.name + "?";
+}
+
+bool parse_number(const std::string& text, double& number) {
+    char* end = nullptr;
+    number = std::strtod(text.c_str(), &end);
+    return end != text.c_str() && *end == '\0';
+}
+
+bool is_cpu_list(const std::string& list) {
+    const auto parts = coil::split(list, ",", true);
+    return std::all_of(parts.begin(), parts.end(), [](const std::string& cpu) {
+        return cpu.find_first_not_of("0123456789") == std::string::npos && cpu.size() < 6;
+    });
+}
+
+// Checks a value and rewrites the words of a boolean to YES or NO. Returns what was expected, for a message;
+// empty when the value is valid.
+std::string check_value(ConfKey::Value kind, std::string& value) {
+    const std::string word = coil::normalize(value);
+    double number = -1;
+    const bool numeric = parse_number(value, number);
+    auto is_one_of = [&](std::initializer_list<const char*> words) {
+        return std::any_of(words.begin(), words.end(), [&](const char* w) { return word == w; });
+    };
+    switch (kind) {
+    case ConfKey::yes_no:
+        if (is_one_of({"yes", "true", "on", "1", "enable"})) {
+            value = "YES";
+            return "";
+        }
+        if (is_one_of({"no", "false", "off", "0", "disable"})) {
+            value = "NO";
+            return "";
+        }
+        return "YES or NO";
+    case ConfKey::seconds:
+        return numeric && number >= 0 && number <= 1e9 ? "" : "seconds, 0 to 1e9";
+    case ConfKey::hertz:
+        return numeric && ExecutionContextBase::isRate(number) ? "" : "a rate in Hz above 0, at most 1e9";
+    case ConfKey::integer:
+        return numeric && std::abs(number) < 1e9 && number == std::trunc(number) ? "" : "an integer";
+    case ConfKey::cpu_list:
+        return is_cpu_list(value) ? "" : "processor numbers separated by commas, for example 0, 1";
+    case ConfKey::log_level:
+        return is_one_of({"silent", "fatal", "error", "warn", "info", "normal", "debug", "trace", "verbose",
+                          "paranoid"})
+                   ? ""
+                   : "SILENT, FATAL, ERROR, WARN, INFO, DEBUG, TRACE, VERBOSE or PARANOID";
+    case ConfKey::naming_policy:
+        return is_one_of({"process_unique", "default", "ns_unique", "node_unique"})
+                   ? ""
+                   : "process_unique, ns_unique or node_unique";
+    case ConfKey::text:
+        break;
+    }
+    return "";
+}
+
+} // namespace
+
+bool normalize_value(const std::string& key, std::string& value) {
+    const ConfKey* known = find_conf_key(key);
+    return known == nullptr || value.empty() || check_value(known->value, value).empty();
+}
+
+std::vector<std::string> check_settings(coil::Properties& config, const SettingOrigins& origins) {
+    std::vector<std::string> warnings;
+    for (const auto& [key, origin] : origins) {
+        if (const auto warning = unknown_key_warning(key)) warnings.push_back(origin + ": " + *warning);
+        const ConfKey* known = find_conf_key(key);
+        std::string value = config.getProperty(key);
+        // An empty value means that the key is not set, as in OpenRTM-aist.
+        if (known == nullptr || value.empty()) continue;
+        const std::string expected = check_value(known->value, value);
+        if (!expected.empty())
+            throw ManagerError(origin + ": " + key + " is " + printable(value) + ", expected " + expected);
+        config.setProperty(key, value);
+    }
+    return warnings;
+}
+
+} // namespace RTC

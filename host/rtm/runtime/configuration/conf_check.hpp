@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks settings against the table of known keys, so that a typing error in rtc.conf is reported with its
+// file and line. OpenRTM-aist has no such check: it ignores unknown keys and takes the default for a value
+// that it cannot read.
+#pragma once
+#include <coil/Properties.h>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace RTC {
+
+/// Where each setting was made, by key: `FILE:LINE` or `option -o`.
+using SettingOrigins = std::map<std::string, std::string>;
+
+/// False: the key cannot have this value. Otherwise rewrites `value` to the one spelling that the rest of the
+/// runtime reads: YES or NO for the words of a boolean. Unknown keys and empty values pass as they are.
+bool normalize_value(const std::string& key, std::string& value);
+
+/// Checks and normalizes every setting of `config` that has an origin. Returns one warning for each unknown
+/// key, with the nearest known one. Throws ManagerError, beginning with the origin, for a value that its key
+/// cannot have.
+std::vector<std::string> check_settings(coil::Properties& config, const SettingOrigins& origins);
+
+} // namespace RTC

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the manager does when it is activated: loads, creates, connects and activates what rtc.conf names.
+// OpenRTM-aist: Manager::activateManager(), initPreCreation(), initPreConnection(), initPreActivation().
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+
+namespace RTC {
+namespace {
+
+// `FILE` or `FILE(INIT_FUNCTION)`
+void load_module(Manager& manager, const std::string& entry) {
+    const std::size_t open = entry.find('(');
+    const std::size_t close = entry.find(')', open);
+    const std::string init = open == std::string::npos ? "" : entry.substr(open + 1, close - open - 1);
+    manager.loadOrThrow(coil::eraseBothEndsBlank(entry.substr(0, open)), coil::eraseBothEndsBlank(init));
+}
+
+// In OpenRTM-aist's order. `attempt(key, action)` runs one action and decides what a ManagerError means;
+// `key` is the prefix of its message.
+template <class Attempt>
+void activate_all(Manager& manager, ModuleInitProc init_proc, Attempt attempt) {
+    const coil::Properties& config = manager.getConfig();
+    auto for_each_entry = [&](const char* key, auto action) {
+        for (const auto& entry : coil::split(config.getProperty(key), ",", true))
+            attempt(std::string(key) + ": ", [&] { action(entry); });
+    };
+    for (const char* key : {"manager.preload.modules", "manager.modules.preload"}) // the former is of 1.x
+        for_each_entry(key, [&](const std::string& entry) { load_module(manager, entry); });
+    // After the modules, because they bring the factories of log streams.
+    attempt("", [&] { open_log_streams(manager.impl()); });
+    if (init_proc != nullptr) init_proc(&manager);
+    for_each_entry("manager.components.precreate",
+                   [&](const std::string& entry) { manager.createOrThrow(entry); });
+    for_each_entry("manager.components.preconnect",
+                   [&](const std::string& entry) { manager.connectOrThrow(entry); });
+    for_each_entry("manager.components.preactivation",
+                   [&](const std::string& entry) { manager.activateComponentOrThrow(entry); });
+}
+
+} // namespace
+
+bool Manager::activateManager() {
+    Logger& rtclog = m_impl->log;
+    activate_all(*this, m_impl->init_proc, [&](const std::string& key, auto action) {
+        try {
+            action();
+        } catch (const ManagerError& e) {
+            RTC_ERROR(("%s%s", key.c_str(), e.what()));
+        }
+    });
+    return true;
+}
+
+// rtm_host's way: a system of which a part is missing is not what rtc.conf asks for, so the first error ends
+// the start.
+void Manager::activateOrThrow() {
+    const std::string file = m_impl->conf_file.string();
+    activate_all(*this, m_impl->init_proc, [&](const std::string& key, auto action) {
+        try {
+            action();
+        } catch (const ManagerError& e) {
+            throw ManagerError((file.empty() ? "" : file + ": ") + key + e.what());
+        }
+    });
+}
+
+} // namespace RTC

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Creation of components. OpenRTM-aist: Manager::createComponent(). The steps and the calls of listeners come
+// in its order; an error is an exception here, with a line that says which step failed.
+#include "host/rtm/runtime/configuration/component_arguments.hpp"
+#include "host/rtm/runtime/manager/component_settings.hpp"
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+#include <optional>
+#include <rtm/RTObject.h>
+
+namespace RTC {
+
+// Runs the component's constructor, which may throw anything.
+RTObject_impl& Manager::makeOrThrow(FactoryBase& factory) {
+    const std::string failure =
+        "component type " + factory.profile().getProperty("implementation_id") + " cannot be created";
+    try {
+        if (RTObject_impl* component = factory.create(this)) return *component;
+    } catch (const std::exception& e) {
+        throw ManagerError(failure + ": " + e.what());
+    } catch (const CORBA::Exception& e) {
+        throw ManagerError(failure + ": CORBA exception " + e._name());
+    } catch (...) {
+        throw ManagerError(failure + ": exception of unknown type");
+    }
+    throw ManagerError(failure + ": its factory returned NULL");
+}
+
+namespace {
+
+// Reserves an instance name while the component of that name is created: of several that ask for it at the
+// same time, one gets it. Throws ManagerError when it is in use.
+class NameReservation {
+  public:
+    NameReservation(Manager::Impl& impl, std::string name) : impl_(impl), name_(std::move(name)) {
+        std::lock_guard<std::recursive_mutex> lock(impl.mutex);
+        const bool in_use =
+            !impl.references([&](auto& component) { return name_ == component.getInstanceName(); }).empty();
+        if (in_use || !impl.names_being_created.insert(name_).second)
+            throw ManagerError("there is already a component " + name_);
+    }
+    ~NameReservation() {
+        std::lock_guard<std::recursive_mutex> lock(impl_.mutex);
+        impl_.names_being_created.erase(name_);
+    }
+    NameReservation(const NameReservation&) = delete;
+    NameReservation& operator=(const NameReservation&) = delete;
+
+  private:
+    Manager::Impl& impl_;
+    std::string name_;
+};
+
+// OpenRTM-aist passes requests for another manager on to a slave that it starts. There are no slaves here.
+void require_this_manager(const Manager::Impl& impl, const coil::Properties& arguments) {
+    const std::string wanted = arguments.getProperty("manager_name");
+    const std::string name = impl.setting("manager.instance_name");
+    if (!wanted.empty() && wanted != name && wanted != impl.setting("manager.name"))
+        throw ManagerError("manager_name is " + wanted + ", but this manager is " + name +
+                           " and has no slaves; send the request to manager " + wanted);
+    const std::string address = arguments.getProperty("manager_address");
+    if (!address.empty())
+        throw ManagerError("manager_address is " + address + "; send the request to the manager there");
+}
+
+} // namespace
+
+// Loads the library that is named like the type when no loaded module has registered the type.
+std::shared_ptr<FactoryBase> Manager::Impl::require_factory(Manager& manager, const coil::Properties& id) {
+    auto find = [&] {
+        std::lock_guard<std::recursive_mutex> lock(mutex);
+        return find_factory(id);
+    };
+    const std::string type = id.getProperty("implementation_id");
+    auto factory = find();
+    if (factory == nullptr && manager.loadForType(type)) factory = find();
+    if (factory != nullptr) return factory;
+    const auto known = manager.getModulesFactories();
+    throw ManagerError("there is no component type " + type +
+                       " (known: " + (known.empty() ? "none" : coil::flatten(known)) +
+                       "); name its library in manager.modules.preload");
+}
+
+// Names, configures and initializes a component that its factory has just made.
+void Manager::Impl::set_up_component(RTObject_impl& component, const std::string& name, FactoryBase& factory,
+                                     const coil::Properties& arguments) {
+    auto& callbacks = listeners.rtclifecycle_;
+    component.setInstanceName(name.c_str());
+    configure_component(*this, component, factory.profile(), arguments);
+    callbacks.forEach([](auto& listener) { listener.preInitialize(); });
+    if (component.initialize() != RTC_OK)
+        throw ManagerError("component " + name + " cannot be started: its onInitialize has failed");
+    callbacks.forEach([](auto& listener) { listener.postInitialize(); });
+}
+
+// Undoes the creation of a component that could not be set up.
+void Manager::Impl::discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory) {
+    destroy_component(component.getInstanceName(), [&component, factory] {
+        component.finalizePorts();
+        component.finalizeContexts();
+        factory->destroy(&component);
+    });
+}
+
+// The mutex is not held while code of the component runs: that code may wait for a thread of its own which
+// calls the manager.
+RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
+    auto& callbacks = m_impl->listeners.rtclifecycle_;
+    std::string args = comp_args;
+    callbacks.forEach([&](auto& listener) { listener.preCreate(args); });
+    const ComponentArguments wanted = parse_component_arguments(args);
+    require_this_manager(*m_impl, wanted.properties);
+    const auto factory = m_impl->require_factory(*this, wanted.id);
+    RTObject_impl& component = makeOrThrow(*factory);
+    std::optional<NameReservation> reservation; // until the component is listed, or destroyed
+    try {
+        callbacks.forEach([&](auto& listener) { listener.postCreate(&component); });
+        const std::string name = wanted.properties.getProperty("instance_name", component.getInstanceName());
+        reservation.emplace(*m_impl, name);
+        m_impl->set_up_component(component, name, *factory, wanted.properties);
+    } catch (const ManagerError&) {
+        m_impl->discard_component(component, factory);
+        throw;
+    }
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        m_impl->components.push_back({&component, factory});
+        m_impl->ever_had_components = true;
+    }
+    registerComponent(&component);
+    return component;
+}
+
+RTObject_impl* Manager::createComponent(const char* comp_args) {
+    Logger& rtclog = m_impl->log;
+    try {
+        return &createOrThrow(comp_args);
+    } catch (const ManagerError& e) {
+        RTC_ERROR(("%s", e.what()));
+        return nullptr;
+    }
+}
+
+} // namespace RTC

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The manager's main loop: tasks, clean-up of components that have exited, and the decision to end.
+// OpenRTM-aist: Manager::runManager(), terminate(), invoke(), addTask(), shutdownOnNoRtcs(), checkNoRtcs().
+#include "host/rtm/runtime/manager/manager_impl.hpp"
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+namespace RTC {
+namespace {
+
+// Written by terminate(), also within signal handlers, and by invoke(); read by the main loop. An eventfd,
+// because write() is async-signal-safe and a condition variable is not.
+const int wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+std::atomic<int> termination_requested{0}; // lock-free, therefore allowed in signal handlers
+
+void wake_main_loop() {
+    const std::uint64_t one = 1;
+    // The write fails only when the counter is full; then a wake-up is pending anyway.
+    [[maybe_unused]] const auto written = ::write(wake_fd, &one, sizeof one);
+}
+
+void wait_for_wake_up(int timeout_ms) {
+    pollfd fd{wake_fd, POLLIN, 0};
+    if (::poll(&fd, 1, timeout_ms) <= 0) return;
+    std::uint64_t count;
+    [[maybe_unused]] const auto got = ::read(wake_fd, &count, sizeof count);
+}
+
+void on_signal(int) { Manager::terminate(); }
+
+// Leaves a handler that the program has installed itself.
+void install_signal_handler(int number) {
+    struct sigaction present;
+    if (sigaction(number, nullptr, &present) == 0 && present.sa_handler != SIG_DFL) return;
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    sigaction(number, &action, nullptr);
+}
+
+// Decides whether a manager without components ends: manager.shutdown_auto and
+// manager.auto_shutdown_duration for one that stays without, manager.shutdown_on_nortcs for one whose last
+// component has gone. A master manager stays, since tools create components in it.
+class IdleShutdown {
+  public:
+    explicit IdleShutdown(const coil::Properties& config) {
+        auto yes = [&](const char* key) { return coil::toBool(config.getProperty(key), "YES", "NO", true); };
+        const bool master = coil::toBool(config.getProperty("manager.is_master"), "YES", "NO", false);
+        after_idle_time_ = !master && yes("manager.shutdown_auto");
+        after_last_component_ = !master && yes("manager.shutdown_on_nortcs");
+        double seconds = 20;
+        coil::stringTo(seconds, config.getProperty("manager.auto_shutdown_duration").c_str());
+        max_idle_time_ = std::chrono::duration<double>(seconds);
+    }
+    /// To be called in each round of the main loop.
+    bool is_due(bool has_components, bool ever_had_components) {
+        const auto now = std::chrono::steady_clock::now();
+        if (has_components) idle_since_ = now;
+        if (!has_components && ever_had_components && after_last_component_) return true;
+        return after_idle_time_ && now - idle_since_ > max_idle_time_;
+    }
+
+  private:
+    bool after_idle_time_ = false, after_last_component_ = false;
+    std::chrono::duration<double> max_idle_time_{};
+    std::chrono::steady_clock::time_point idle_since_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+void Manager::terminate() {
+    termination_requested = 1;
+    wake_main_loop();
+}
+
+bool Manager::endWanted() { return termination_requested != 0; }
+
+// In OpenRTM-aist it waits for the thread that terminate() starts; here runManager() itself shuts down.
+void Manager::join() {}
+
+void Manager::runManager(bool no_block) {
+    // The caller goes on without a main loop: tasks of invoke() and addTask() then wait for shutdown().
+    if (no_block) return;
+    for (int number : {SIGINT, SIGTERM, SIGHUP}) install_signal_handler(number);
+    IdleShutdown idle_shutdown(m_impl->settings());
+    constexpr int round_ms = 100; // bounds the delay of tasks, and of noticing that components have gone
+    while (!termination_requested) {
+        wait_for_wake_up(round_ms);
+        m_impl->run_due_tasks();
+        cleanupComponents();
+        const bool has_components = !getComponents().empty();
+        if (idle_shutdown.is_due(has_components, m_impl->ever_had_components)) break;
+    }
+    shutdown();
+}
+
+void Manager::invoke(std::function<void()> fn, std::chrono::nanoseconds delay) {
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        m_impl->tasks.emplace_back(std::chrono::steady_clock::now() + delay, std::move(fn));
+    }
+    wake_main_loop();
+}
+
+Manager::TaskId Manager::addTask(std::function<void()> fn, std::chrono::nanoseconds period) {
+    auto task = std::make_shared<coil::PeriodicFunction>(std::move(fn), period);
+    {
+        std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+        m_impl->periodic_tasks.push_back(task);
+    }
+    m_impl->schedule_periodic(*this, task, period);
+    return task.get();
+}
+
+// Each run schedules the next one, until tick() says that the task was stopped.
+void Manager::Impl::schedule_periodic(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
+                                      std::chrono::nanoseconds period) {
+    manager.invoke(
+        [this, &manager, task, period] {
+            if (!task->tick(period)) return schedule_periodic(manager, task, period);
+            std::lock_guard<std::recursive_mutex> lock(mutex);
+            std::erase(periodic_tasks, task);
+        },
+        period);
+}
+
+// Tasks run without the mutex, because they add tasks and call components.
+void Manager::Impl::run_due_tasks() {
+    std::vector<std::function<void()>> due;
+    {
+        std::lock_guard<std::recursive_mutex> lock(mutex);
+        const auto now = std::chrono::steady_clock::now();
+        for (auto& task : tasks)
+            if (task.first <= now) due.push_back(std::move(task.second));
+        std::erase_if(tasks, [&](const auto& task) { return task.first <= now; });
+    }
+    for (auto& task : due) task();
+}
+
+bool Manager::endedInOrder() const { return m_impl->ended_in_order; }
+bool Manager::restartWanted() const { return m_impl->restart_wanted; }
+
+} // namespace RTC
