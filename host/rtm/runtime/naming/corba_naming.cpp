@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+// A client of one CORBA name server, as OpenRTM-aist's class CorbaNaming, which components use themselves. The
+// runtime's own names are in NameBindings, which has time limits and repeats what has failed; the calls here
+// throw what the server throws. This file: connecting, resolving, listing, names as text.
 #include <algorithm>
 #include <coil/stringutil.h>
 #include <new>
@@ -9,37 +12,14 @@ namespace {
 
 using Context = CosNaming::NamingContext;
 
-// The context in which the last element of `name` belongs, made when it is not there.
-CosNaming::NamingContext_ptr parent_of(CosNaming::NamingContext_ptr context, const CosNaming::Name& name) {
-    CosNaming::NamingContext_var at = Context::_duplicate(context);
-    for (CORBA::ULong depth = 0; depth + 1 < name.length(); ++depth) {
-        const CosNaming::Name step =
-            CorbaNaming::subName(name, static_cast<CORBA::Long>(depth), static_cast<CORBA::Long>(depth));
-        try {
-            at = at->bind_new_context(step);
-        } catch (const Context::AlreadyBound&) {
-            CORBA::Object_var there = at->resolve(step);
-            CosNaming::NamingContext_var next = Context::_narrow(there.in());
-            if (CORBA::is_nil(next.in()))
-                throw Context::CannotProceed(at.in(), step); // an object has that name
-            at = next;
-        }
-    }
-    return at._retn();
-}
-
-CosNaming::Name last_of(const CosNaming::Name& name) {
-    if (name.length() == 0) throw Context::InvalidName();
-    return CorbaNaming::subName(name, static_cast<CORBA::Long>(name.length()) - 1);
-}
-
 void append(CosNaming::BindingList& to, const CosNaming::BindingList& from) {
     const CORBA::ULong at = to.length();
     to.length(at + from.length());
     for (CORBA::ULong i = 0; i < from.length(); ++i) to[at + i] = from[i];
 }
 
-CosNaming::BindingList* all_entries(CosNaming::NamingContext_ptr context, CORBA::ULong at_once) {
+// All entries of a context, fetched `at_once` at a time.
+CosNaming::BindingList* list_all(CosNaming::NamingContext_ptr context, CORBA::ULong at_once) {
     CosNaming::BindingList_var entries, more;
     CosNaming::BindingIterator_var iterator;
     context->list(at_once, entries.out(), iterator.out());
@@ -58,6 +38,7 @@ CorbaNaming::CorbaNaming(CORBA::ORB_ptr orb, const char* name_server) : CorbaNam
     if (CORBA::is_nil(m_rootContext.in())) throw std::bad_alloc();
 }
 
+// `HOST`, `HOST:PORT` (2809 is the port that IANA has assigned to CORBA) or a whole corbaloc: URL.
 void CorbaNaming::init(const char* name_server) {
     m_nameServer = name_server;
     const std::string url = m_nameServer.compare(0, 9, "corbaloc:") == 0
@@ -72,103 +53,17 @@ void CorbaNaming::init(const char* name_server) {
 bool CorbaNaming::isAlive() {
     try {
         return !CORBA::is_nil(m_rootContext.in()) && !m_rootContext->_non_existent();
-    } catch (const CORBA::SystemException&) { // it does not answer: that is what was asked
+    } catch (const CORBA::SystemException&) { // no answer means not alive
         return false;
     }
 }
 
-void CorbaNaming::bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
-    try {
-        m_rootContext->bind(name, obj);
-    } catch (const NotFound&) {
-        if (!force) throw;
-        bindRecursive(m_rootContext.in(), name, obj);
-    }
-}
-void CorbaNaming::bindByString(const char* string_name, CORBA::Object_ptr obj, bool force) {
-    bind(toName(string_name), obj, force);
-}
-void CorbaNaming::bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
-                                CORBA::Object_ptr obj) {
-    CosNaming::NamingContext_var parent = parent_of(context, name);
-    parent->bind(last_of(name), obj);
-}
-
-void CorbaNaming::rebind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
-    try {
-        m_rootContext->rebind(name, obj);
-    } catch (const NotFound&) {
-        if (!force) throw;
-        rebindRecursive(m_rootContext.in(), name, obj);
-    }
-}
-void CorbaNaming::rebindByString(const char* string_name, CORBA::Object_ptr obj, bool force) {
-    rebind(toName(string_name), obj, force);
-}
-void CorbaNaming::rebindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
-                                  CORBA::Object_ptr obj) {
-    CosNaming::NamingContext_var parent = parent_of(context, name);
-    parent->rebind(last_of(name), obj);
-}
-
-void CorbaNaming::bindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt,
-                              bool force) {
-    try {
-        m_rootContext->bind_context(name, name_cxt);
-    } catch (const NotFound&) {
-        if (!force) throw;
-        bindContextRecursive(m_rootContext.in(), name, name_cxt);
-    }
-}
-void CorbaNaming::bindContext(const char* string_name, CosNaming::NamingContext_ptr name_cxt, bool force) {
-    bindContext(toName(string_name), name_cxt, force);
-}
-void CorbaNaming::bindContextRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
-                                       CosNaming::NamingContext_ptr name_cxt) {
-    CosNaming::NamingContext_var parent = parent_of(context, name);
-    parent->bind_context(last_of(name), name_cxt);
-}
-
-void CorbaNaming::rebindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt,
-                                bool force) {
-    try {
-        m_rootContext->rebind_context(name, name_cxt);
-    } catch (const NotFound&) {
-        if (!force) throw;
-        rebindContextRecursive(m_rootContext.in(), name, name_cxt);
-    }
-}
-void CorbaNaming::rebindContext(const char* string_name, CosNaming::NamingContext_ptr name_cxt, bool force) {
-    rebindContext(toName(string_name), name_cxt, force);
-}
-void CorbaNaming::rebindContextRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
-                                         CosNaming::NamingContext_ptr name_cxt) {
-    CosNaming::NamingContext_var parent = parent_of(context, name);
-    parent->rebind_context(last_of(name), name_cxt);
-}
-
 CORBA::Object_ptr CorbaNaming::resolve(const CosNaming::Name& name) { return m_rootContext->resolve(name); }
 CORBA::Object_ptr CorbaNaming::resolve(const char* string_name) { return resolve(toName(string_name)); }
-void CorbaNaming::unbind(const CosNaming::Name& name) { m_rootContext->unbind(name); }
-void CorbaNaming::unbind(const char* string_name) { unbind(toName(string_name)); }
 
-CosNaming::NamingContext_ptr CorbaNaming::newContext() { return m_rootContext->new_context(); }
-CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const CosNaming::Name& name, bool force) {
-    try {
-        return m_rootContext->bind_new_context(name);
-    } catch (const NotFound&) {
-        if (!force) throw;
-        CosNaming::NamingContext_var parent = parent_of(m_rootContext.in(), name);
-        return parent->bind_new_context(last_of(name));
-    }
-}
-CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const char* string_name, bool force) {
-    return bindNewContext(toName(string_name), force);
-}
-void CorbaNaming::destroy(CosNaming::NamingContext_ptr context) { context->destroy(); }
-
+// Empties a context: contexts below it are emptied, unbound and destroyed, other entries only unbound.
 void CorbaNaming::destroyRecursive(CosNaming::NamingContext_ptr context) {
-    CosNaming::BindingList_var entries = all_entries(context, m_blLength);
+    CosNaming::BindingList_var entries = list_all(context, m_blLength);
     for (CORBA::ULong i = 0; i < entries->length(); ++i) {
         const CosNaming::Binding& entry = entries[i];
         CosNaming::NamingContext_var below;
@@ -187,26 +82,43 @@ void CorbaNaming::list(CosNaming::NamingContext_ptr name_cxt, CORBA::ULong how_m
                        CosNaming::BindingList_var& bl, CosNaming::BindingIterator_var& bi) {
     name_cxt->list(how_many, bl.out(), bi.out());
 }
+// An empty name stands for the root context.
 void CorbaNaming::list(const char* string_name, CosNaming::BindingList_var& bl) {
     CORBA::Object_var object =
         *string_name == '\0' ? CORBA::Object::_duplicate(m_rootContext.in()) : resolve(string_name);
     CosNaming::NamingContext_var context = Context::_narrow(object.in());
-    bl = CORBA::is_nil(context.in()) ? new CosNaming::BindingList : all_entries(context.in(), m_blLength);
+    bl = CORBA::is_nil(context.in()) ? new CosNaming::BindingList : list_all(context.in(), m_blLength);
 }
+// Entries of one kind, `rtc` or `host_cxt` for example.
 void CorbaNaming::listByKind(const char* string_name, const char* string_kind,
                              CosNaming::BindingList_var& bl) {
     CosNaming::BindingList_var entries;
     list(string_name, entries);
-    CosNaming::BindingList_var chosen = new CosNaming::BindingList;
+    CosNaming::BindingList_var matching = new CosNaming::BindingList;
     for (CORBA::ULong i = 0; i < entries->length(); ++i) {
         const CosNaming::Name& name = entries[i].binding_name;
         if (std::string(name[name.length() - 1].kind) != string_kind) continue;
-        chosen->length(chosen->length() + 1);
-        chosen[chosen->length() - 1] = entries[i];
+        matching->length(matching->length() + 1);
+        matching[matching->length() - 1] = entries[i];
     }
-    bl = chosen._retn();
+    bl = matching._retn();
 }
 
+bool CorbaNaming::isNamingContext(CORBA::Object_ptr obj) {
+    try {
+        CosNaming::NamingContext_var context = Context::_narrow(obj);
+        return !CORBA::is_nil(context.in());
+    } catch (const CORBA::SystemException&) { // an object that does not answer is not usable as one
+        return false;
+    }
+}
+bool CorbaNaming::isNamingContext(const CosNaming::Name& name) {
+    CORBA::Object_var object = resolve(name);
+    return isNamingContext(object.in());
+}
+bool CorbaNaming::isNamingContext(const char* string_name) { return isNamingContext(toName(string_name)); }
+
+// Names as text: `id.kind` parts separated by slashes. A part without a dot has the empty kind.
 char* CorbaNaming::toString(const CosNaming::Name& name) {
     if (name.length() == 0) throw InvalidName();
     std::string text;
@@ -233,46 +145,7 @@ CosNaming::Name CorbaNaming::toName(const char* string_name) {
 
 char* CorbaNaming::toUrl(char* addr, char* string_name) { return m_rootContext->to_url(addr, string_name); }
 
-CORBA::Object_ptr CorbaNaming::bindOrResolve(CosNaming::NamingContext_ptr context,
-                                             const CosNaming::Name& name, CORBA::Object_ptr obj) {
-    try {
-        context->bind(name, obj);
-        return CORBA::Object::_duplicate(obj);
-    } catch (const AlreadyBound&) {
-        return context->resolve(name);
-    }
-}
-CosNaming::NamingContext_ptr CorbaNaming::bindOrResolveContext(CosNaming::NamingContext_ptr context,
-                                                               const CosNaming::Name& name,
-                                                               CosNaming::NamingContext_ptr new_context) {
-    try {
-        context->bind_context(name, new_context);
-        return Context::_duplicate(new_context);
-    } catch (const AlreadyBound&) {
-        CORBA::Object_var there = context->resolve(name);
-        return Context::_narrow(there.in());
-    }
-}
-CosNaming::NamingContext_ptr CorbaNaming::bindOrResolveContext(CosNaming::NamingContext_ptr context,
-                                                               const CosNaming::Name& name) {
-    CosNaming::NamingContext_var made = newContext();
-    return bindOrResolveContext(context, name, made.in());
-}
-
-bool CorbaNaming::isNamingContext(CORBA::Object_ptr obj) {
-    try {
-        CosNaming::NamingContext_var context = Context::_narrow(obj);
-        return !CORBA::is_nil(context.in());
-    } catch (const CORBA::SystemException&) { // nobody answers who could be one
-        return false;
-    }
-}
-bool CorbaNaming::isNamingContext(const CosNaming::Name& name) {
-    CORBA::Object_var object = resolve(name);
-    return isNamingContext(object.in());
-}
-bool CorbaNaming::isNamingContext(const char* string_name) { return isNamingContext(toName(string_name)); }
-
+// `begin` to `end`, both included; a negative `end` means the last part.
 CosNaming::Name CorbaNaming::subName(const CosNaming::Name& name, CORBA::Long begin, CORBA::Long end) {
     const auto length = static_cast<CORBA::Long>(name.length());
     if (end < 0 || end >= length) end = length - 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of CORBA_RTCUtil about connections and configurations.
+// The part of CORBA_RTCUtil about connections between ports, local or remote. Ports are called through CORBA,
+// with the ORB's general time limit; what they cannot do comes as a return code or a CORBA exception.
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/CORBA_SeqUtil.h>
@@ -12,45 +13,48 @@ using RTC::RTObject_ptr;
 
 namespace {
 
-template <class Part>
-coil::vstring of_connectors(RTC::PortService_ptr port, Part part) {
+using ConnectorText = const char* (*)(const RTC::ConnectorProfile&);
+
+// One text of each connector of the port.
+coil::vstring list_connectors(RTC::PortService_ptr port, ConnectorText text) {
     coil::vstring texts;
     RTC::ConnectorProfileList_var connectors = port->get_connector_profiles();
-    for (CORBA::ULong i = 0; i < connectors->length(); ++i) texts.emplace_back(part(connectors[i]));
+    for (CORBA::ULong i = 0; i < connectors->length(); ++i) texts.emplace_back(text(connectors[i]));
     return texts;
 }
 
 const char* name_of(const RTC::ConnectorProfile& connector) { return connector.name; }
 const char* id_of(const RTC::ConnectorProfile& connector) { return connector.connector_id; }
 
-coil::vstring of_port(RTObject_ptr rtc, const std::string& port_name,
-                      const char* (*part)(const RTC::ConnectorProfile&)) {
+// The same for a port by its name; empty when the component has no such port.
+coil::vstring list_connectors(RTObject_ptr rtc, const std::string& port_name, ConnectorText text) {
     RTC::PortService_var port = get_port_by_name(rtc, port_name);
-    return CORBA::is_nil(port.in()) ? coil::vstring() : of_connectors(port.in(), part);
+    return CORBA::is_nil(port.in()) ? coil::vstring() : list_connectors(port.in(), text);
 }
 
-// Ends the connections that `chosen` is true for; BAD_PARAMETER when there are none.
-template <class Chosen>
-RTC::ReturnCode_t disconnect_those(RTC::PortService_ptr port, Chosen chosen) {
+// Disconnects the connectors that `predicate` is true for. BAD_PARAMETER: there are none; otherwise RTC_OK, or
+// the last error. It goes on after an error, so that one dead peer does not keep the other connections.
+template <class Predicate>
+RTC::ReturnCode_t disconnect_if(RTC::PortService_ptr port, Predicate predicate) {
     RTC::ConnectorProfileList_var connectors = port->get_connector_profiles();
     RTC::ReturnCode_t result = RTC::BAD_PARAMETER;
     for (CORBA::ULong i = 0; i < connectors->length(); ++i) {
-        if (!chosen(connectors[i])) continue;
-        const RTC::ReturnCode_t ended = port->disconnect(connectors[i].connector_id);
-        if (result == RTC::BAD_PARAMETER || ended != RTC::RTC_OK) result = ended;
+        if (!predicate(connectors[i])) continue;
+        const RTC::ReturnCode_t disconnected = port->disconnect(connectors[i].connector_id);
+        if (result == RTC::BAD_PARAMETER || disconnected != RTC::RTC_OK) result = disconnected;
     }
     return result;
 }
 
 } // namespace
 
-coil::vstring get_connector_names(RTC::PortService_ptr port) { return of_connectors(port, name_of); }
+coil::vstring get_connector_names(RTC::PortService_ptr port) { return list_connectors(port, name_of); }
 coil::vstring get_connector_names(RTObject_ptr rtc, const std::string& port_name) {
-    return of_port(rtc, port_name, name_of);
+    return list_connectors(rtc, port_name, name_of);
 }
-coil::vstring get_connector_ids(RTC::PortService_ptr port) { return of_connectors(port, id_of); }
+coil::vstring get_connector_ids(RTC::PortService_ptr port) { return list_connectors(port, id_of); }
 coil::vstring get_connector_ids(RTObject_ptr rtc, const std::string& port_name) {
-    return of_port(rtc, port_name, id_of);
+    return list_connectors(rtc, port_name, id_of);
 }
 
 bool find_port::operator()(RTC::PortService_ptr port) const {
@@ -58,6 +62,7 @@ bool find_port::operator()(RTC::PortService_ptr port) const {
     return m_name == static_cast<const char*>(profile->name);
 }
 
+// The profile of a connection of one or two ports, pushed by corba_cdr unless the properties say otherwise.
 RTC::ConnectorProfile* create_connector(const std::string& name, const coil::Properties& properties,
                                         RTC::PortService_ptr port0, RTC::PortService_ptr port1) {
     RTC::ConnectorProfile_var profile = new RTC::ConnectorProfile;
@@ -97,13 +102,15 @@ RTC::ReturnCode_t connect_by_name(const std::string& name, const coil::Propertie
     return connect(name, properties, a.in(), b.in());
 }
 
+// Connects one port with each of several; ports that it is connected with already are skipped. The first
+// error is returned, after all have been tried.
 RTC::ReturnCode_t connect_multi(const std::string& name, const coil::Properties& properties,
                                 RTC::PortService_ptr port, RTC::PortServiceList& target_ports) {
     RTC::ReturnCode_t result = RTC::RTC_OK;
     for (CORBA::ULong i = 0; i < target_ports.length(); ++i) {
         if (port->_is_equivalent(target_ports[i]) || already_connected(port, target_ports[i])) continue;
-        const RTC::ReturnCode_t made = connect(name, properties, port, target_ports[i]);
-        if (result == RTC::RTC_OK) result = made;
+        const RTC::ReturnCode_t connected = connect(name, properties, port, target_ports[i]);
+        if (result == RTC::RTC_OK) result = connected;
     }
     return result;
 }
@@ -113,22 +120,23 @@ RTC::ReturnCode_t disconnect(const RTC::ConnectorProfile& connector) {
     return connector.ports[0]->disconnect(connector.connector_id);
 }
 RTC::ReturnCode_t disconnect_connector_name(RTC::PortService_ptr port, const std::string& connector_name) {
-    return disconnect_those(port,
-                            [&](const RTC::ConnectorProfile& c) { return connector_name == name_of(c); });
+    return disconnect_if(port, [&](const RTC::ConnectorProfile& c) { return connector_name == name_of(c); });
 }
 RTC::ReturnCode_t disconnect_connector_id(RTC::PortService_ptr port, const std::string& connector_id) {
-    return disconnect_those(port, [&](const RTC::ConnectorProfile& c) { return connector_id == id_of(c); });
+    return disconnect_if(port, [&](const RTC::ConnectorProfile& c) { return connector_id == id_of(c); });
 }
-RTC::ReturnCode_t disconnect_name(RTC::PortService_ptr port, const std::string& other_name) {
-    const find_port is_other(other_name);
-    return disconnect_those(port, [&](const RTC::ConnectorProfile& c) {
+// Disconnects from the ports of that name; asks each peer for its profile.
+RTC::ReturnCode_t disconnect_name(RTC::PortService_ptr port, const std::string& peer_name) {
+    const find_port is_peer(peer_name);
+    return disconnect_if(port, [&](const RTC::ConnectorProfile& c) {
         for (CORBA::ULong i = 0; i < c.ports.length(); ++i)
-            if (!c.ports[i]->_is_equivalent(port) && is_other(c.ports[i])) return true;
+            if (!c.ports[i]->_is_equivalent(port) && is_peer(c.ports[i])) return true;
         return false;
     });
 }
 RTC::ReturnCode_t disconnect_all(RTC::PortService_ptr port) { return port->disconnect_all(); }
 
+// `Component.port` of this process, or rtcname:// or rtcloc:// names; nil when it is not available.
 RTC::PortService_ptr get_port_by_url(const std::string& port_name) {
     const std::string component = port_name.substr(0, port_name.rfind('.'));
     const std::string port = port_name.substr(port_name.rfind('.') + 1);
@@ -143,15 +151,16 @@ RTC::PortService_ptr get_port_by_url(const std::string& port_name) {
     try {
         RTC::RTObject_var rtc = RTC::resolve_component(manager.theORB(), component, servers);
         return get_port_by_name(rtc.in(), port);
-    } catch (const RTC::RemoteUnavailable&) { // the answer is nil, as in OpenRTM-aist
+    } catch (const RTC::RemoteUnavailable&) { // OpenRTM-aist returns nil, too
         return RTC::PortService::_nil();
     }
 }
 
 namespace {
 
+// Calls `call` with the port of that name; BAD_PARAMETER when it is not available.
 template <class Call>
-RTC::ReturnCode_t at_port(const std::string& port_name, Call call) {
+RTC::ReturnCode_t with_port(const std::string& port_name, Call call) {
     RTC::PortService_var port = get_port_by_url(port_name);
     return CORBA::is_nil(port.in()) ? RTC::BAD_PARAMETER : call(port.in());
 }
@@ -159,58 +168,15 @@ RTC::ReturnCode_t at_port(const std::string& port_name, Call call) {
 } // namespace
 
 RTC::ReturnCode_t disconnect_connector_name(const std::string& port_name, const std::string& connector_name) {
-    return at_port(port_name,
-                   [&](RTC::PortService_ptr p) { return disconnect_connector_name(p, connector_name); });
+    return with_port(port_name,
+                     [&](RTC::PortService_ptr p) { return disconnect_connector_name(p, connector_name); });
 }
 RTC::ReturnCode_t disconnect_connector_id(const std::string& port_name, const std::string& connector_id) {
-    return at_port(port_name,
-                   [&](RTC::PortService_ptr p) { return disconnect_connector_id(p, connector_id); });
+    return with_port(port_name,
+                     [&](RTC::PortService_ptr p) { return disconnect_connector_id(p, connector_id); });
 }
 RTC::ReturnCode_t disconnect_all(const std::string& port_name) {
-    return at_port(port_name, [](RTC::PortService_ptr p) { return disconnect_all(p); });
-}
-
-coil::Properties get_configuration(RTObject_ptr rtc, const std::string& set_name) {
-    SDOPackage::Configuration_var configuration = rtc->get_configuration();
-    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
-    return NVUtil::toProperties(set->configuration_data);
-}
-
-std::string get_active_configuration_name(RTObject_ptr rtc) {
-    SDOPackage::Configuration_var configuration = rtc->get_configuration();
-    SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
-    return static_cast<const char*>(set->id);
-}
-
-coil::Properties get_active_configuration(RTObject_ptr rtc) {
-    SDOPackage::Configuration_var configuration = rtc->get_configuration();
-    SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
-    return NVUtil::toProperties(set->configuration_data);
-}
-
-std::string get_parameter_by_key(RTObject_ptr rtc, const std::string& set_name,
-                                 const std::string& parameter) {
-    return get_configuration(rtc, set_name).getProperty(parameter);
-}
-
-bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
-                                 SDOPackage::ConfigurationSet& set, const std::string& parameter,
-                                 const std::string& value) {
-    coil::Properties change;
-    change.setProperty(parameter, value);
-    NVUtil::mergeFromProperties(set.configuration_data, change);
-    return configuration->set_configuration_set_values(set);
-}
-
-bool set_active_configuration(RTObject_ptr rtc, const std::string& parameter, const std::string& value) {
-    return set_configuration(rtc, get_active_configuration_name(rtc), parameter, value);
-}
-
-bool set_configuration(RTObject_ptr rtc, const std::string& set_name, const std::string& parameter,
-                       const std::string& value) {
-    SDOPackage::Configuration_var configuration = rtc->get_configuration();
-    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
-    return set_configuration_parameter(configuration.in(), set.inout(), parameter, value);
+    return with_port(port_name, [](RTC::PortService_ptr p) { return disconnect_all(p); });
 }
 
 } // namespace CORBA_RTCUtil

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The part of OpenRTM-aist's CORBA_RTCUtil about components, their states and their contexts, with the same
+// function names. They are written against the CORBA interfaces alone, so they work for any RT-Component.
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/NVUtil.h>
@@ -17,11 +19,12 @@ coil::Properties get_component_profile(RTObject_ptr rtc) {
 bool is_existing(RTObject_ptr rtc) {
     try {
         return !CORBA::is_nil(rtc) && !rtc->_non_existent();
-    } catch (const CORBA::SystemException&) {
+    } catch (const CORBA::SystemException&) { // its process does not answer
         return false;
     }
 }
 
+// Ids from ECOTHER_OFFSET (1000) on are contexts of other components; 0 is the component's first own one.
 RTC::ExecutionContext_ptr get_actual_ec(RTObject_ptr rtc, UniqueId ec_id) { return rtc->get_context(ec_id); }
 
 bool is_alive_in_default_ec(RTObject_ptr rtc) {
@@ -33,7 +36,8 @@ namespace {
 
 using Transition = RTC::ReturnCode_t (RTC::_objref_ExecutionContext::*)(RTC::LightweightRTObject_ptr);
 
-RTC::ReturnCode_t transit(RTObject_ptr rtc, UniqueId ec_id, Transition transition) {
+// Requests a transition; the context decides whether the call waits for it (exec_cxt.sync_transition).
+RTC::ReturnCode_t request_transition(RTObject_ptr rtc, UniqueId ec_id, Transition transition) {
     RTC::ExecutionContext_var context = get_actual_ec(rtc, ec_id);
     return CORBA::is_nil(context.in()) ? RTC::BAD_PARAMETER : (context.in()->*transition)(rtc);
 }
@@ -41,13 +45,13 @@ RTC::ReturnCode_t transit(RTObject_ptr rtc, UniqueId ec_id, Transition transitio
 } // namespace
 
 RTC::ReturnCode_t activate(RTObject_ptr rtc, UniqueId ec_id) {
-    return transit(rtc, ec_id, &RTC::_objref_ExecutionContext::activate_component);
+    return request_transition(rtc, ec_id, &RTC::_objref_ExecutionContext::activate_component);
 }
 RTC::ReturnCode_t deactivate(RTObject_ptr rtc, UniqueId ec_id) {
-    return transit(rtc, ec_id, &RTC::_objref_ExecutionContext::deactivate_component);
+    return request_transition(rtc, ec_id, &RTC::_objref_ExecutionContext::deactivate_component);
 }
 RTC::ReturnCode_t reset(RTObject_ptr rtc, UniqueId ec_id) {
-    return transit(rtc, ec_id, &RTC::_objref_ExecutionContext::reset_component);
+    return request_transition(rtc, ec_id, &RTC::_objref_ExecutionContext::reset_component);
 }
 
 bool get_state(LifeCycleState& state, RTObject_ptr rtc, UniqueId ec_id) {
@@ -59,17 +63,18 @@ bool get_state(LifeCycleState& state, RTObject_ptr rtc, UniqueId ec_id) {
 
 namespace {
 
-bool is_in(LifeCycleState wanted, RTObject_ptr rtc, UniqueId ec_id) {
+bool has_state(LifeCycleState wanted, RTObject_ptr rtc, UniqueId ec_id) {
     LifeCycleState state;
     return get_state(state, rtc, ec_id) && state == wanted;
 }
 
 } // namespace
 
-bool is_in_inactive(RTObject_ptr rtc, UniqueId ec_id) { return is_in(RTC::INACTIVE_STATE, rtc, ec_id); }
-bool is_in_active(RTObject_ptr rtc, UniqueId ec_id) { return is_in(RTC::ACTIVE_STATE, rtc, ec_id); }
-bool is_in_error(RTObject_ptr rtc, UniqueId ec_id) { return is_in(RTC::ERROR_STATE, rtc, ec_id); }
+bool is_in_inactive(RTObject_ptr rtc, UniqueId ec_id) { return has_state(RTC::INACTIVE_STATE, rtc, ec_id); }
+bool is_in_active(RTObject_ptr rtc, UniqueId ec_id) { return has_state(RTC::ACTIVE_STATE, rtc, ec_id); }
+bool is_in_error(RTObject_ptr rtc, UniqueId ec_id) { return has_state(RTC::ERROR_STATE, rtc, ec_id); }
 
+// In Hz; -1 when there is no such context.
 double get_default_rate(RTObject_ptr rtc) {
     RTC::ExecutionContext_var context = get_actual_ec(rtc);
     return CORBA::is_nil(context.in()) ? -1.0 : context->get_rate();
@@ -103,6 +108,7 @@ RTC::ReturnCode_t remove_rtc_to_default_ec(RTObject_ptr rtc, RTObject_ptr other)
                                                                : context->remove_component(other);
 }
 
+// The members of the component's first context; only the extended interface of a context lists them.
 RTC::RTCList get_participants_rtc(RTObject_ptr rtc) {
     RTC::ExecutionContext_var context = get_actual_ec(rtc);
     RTC::ExecutionContextService_var service = RTC::ExecutionContextService::_narrow(context.in());
@@ -113,8 +119,8 @@ RTC::RTCList get_participants_rtc(RTObject_ptr rtc) {
 
 namespace {
 
-// Names of all ports, or of those of one kind.
-coil::vstring names_of(RTObject_ptr rtc, const char* kind) {
+// Full names (`Component.port`) of all ports (`kind` NULL), or of those whose port.port_type is `kind`.
+coil::vstring list_port_names(RTObject_ptr rtc, const char* kind) {
     coil::vstring names;
     RTC::PortServiceList_var ports = rtc->get_ports();
     for (CORBA::ULong i = 0; i < ports->length(); ++i) {
@@ -127,11 +133,12 @@ coil::vstring names_of(RTObject_ptr rtc, const char* kind) {
 
 } // namespace
 
-coil::vstring get_port_names(RTObject_ptr rtc) { return names_of(rtc, nullptr); }
-coil::vstring get_inport_names(RTObject_ptr rtc) { return names_of(rtc, "DataInPort"); }
-coil::vstring get_outport_names(RTObject_ptr rtc) { return names_of(rtc, "DataOutPort"); }
-coil::vstring get_svcport_names(RTObject_ptr rtc) { return names_of(rtc, "CorbaPort"); }
+coil::vstring get_port_names(RTObject_ptr rtc) { return list_port_names(rtc, nullptr); }
+coil::vstring get_inport_names(RTObject_ptr rtc) { return list_port_names(rtc, "DataInPort"); }
+coil::vstring get_outport_names(RTObject_ptr rtc) { return list_port_names(rtc, "DataOutPort"); }
+coil::vstring get_svcport_names(RTObject_ptr rtc) { return list_port_names(rtc, "CorbaPort"); }
 
+// Accepts the full name or the part after the dot. Nil: the component has no such port.
 RTC::PortService_ptr get_port_by_name(RTObject_ptr rtc, const std::string& name) {
     RTC::PortServiceList_var ports = rtc->get_ports();
     for (CORBA::ULong i = 0; i < ports->length(); ++i) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// OpenRTM-aist: NamingOnCorba, and NamingManager::update() with naming.update.enable and naming.update.rebind.
 #include "host/rtm/runtime/naming/name_bindings.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include <algorithm>
@@ -6,12 +7,12 @@
 namespace RTC {
 namespace {
 
-void make_contexts(CosNaming::NamingContext_ptr root, const CosNaming::Name& name) {
+void create_contexts(CosNaming::NamingContext_ptr root, const CosNaming::Name& name) {
     for (CORBA::ULong depth = 1; depth < name.length(); ++depth) {
         CosNaming::Name prefix(name);
         prefix.length(depth);
         try {
-            CosNaming::NamingContext_var made = root->bind_new_context(prefix);
+            CosNaming::NamingContext_var created = root->bind_new_context(prefix);
         } catch (const CosNaming::NamingContext::AlreadyBound&) {
             continue;
         }
@@ -20,20 +21,23 @@ void make_contexts(CosNaming::NamingContext_ptr root, const CosNaming::Name& nam
 
 void bind_path(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
     const CosNaming::Name name = to_corba_name(path);
-    make_contexts(root, name);
-    root->rebind(name, object);
+    create_contexts(root, name);
+    root->rebind(name, object); // an entry of an earlier life of this host may be there
 }
 
+// To what a server has bound one of our names.
 enum class Binding { ours, foreign, missing, context_missing };
 
 Binding query_binding(CosNaming::NamingContext_ptr root, const std::string& path, CORBA::Object_ptr object) {
+    const CosNaming::Name name = to_corba_name(path);
     try {
-        CORBA::Object_var present = root->resolve(to_corba_name(path));
+        CORBA::Object_var present = root->resolve(name);
         return present->_is_equivalent(object) ? Binding::ours : Binding::foreign;
     } catch (const CosNaming::NamingContext::NotFound& e) {
-        // A server that does not even know our host's context has lost its entries: nobody unbinds contexts.
-        const bool first = e.rest_of_name.length() == to_corba_name(path).length();
-        return first && e.rest_of_name.length() > 1 ? Binding::context_missing : Binding::missing;
+        // Nobody unbinds contexts: a server without even the first context of the path was restarted and has
+        // lost all entries.
+        const bool first_part_missing = e.rest_of_name.length() == name.length();
+        return first_part_missing && name.length() > 1 ? Binding::context_missing : Binding::missing;
     }
 }
 
@@ -57,10 +61,14 @@ std::vector<NameBindings::Entry> NameBindings::entries() const {
     return entries_;
 }
 
-std::vector<std::string> NameBindings::servers() const {
+std::vector<NameBindings::Server> NameBindings::server_states() const {
     std::lock_guard<std::mutex> lock(mutex_);
+    return servers_;
+}
+
+std::vector<std::string> NameBindings::servers() const {
     std::vector<std::string> addresses;
-    for (const auto& server : servers_) addresses.push_back(server.address);
+    for (const auto& server : server_states()) addresses.push_back(server.address);
     return addresses;
 }
 
@@ -71,51 +79,48 @@ void NameBindings::set_reachable(const std::string& address, bool reachable) {
 }
 
 std::vector<std::string> NameBindings::bind(const std::string& path, CORBA::Object_ptr object) {
-    std::vector<Server> servers;
     {
         std::lock_guard<std::mutex> lock(mutex_);
         std::erase_if(entries_, [&](const Entry& entry) { return entry.path == path; });
         entries_.push_back({path, CORBA::Object::_duplicate(object)});
-        servers = servers_;
     }
-    std::vector<std::string> refusals;
-    for (const auto& server : servers) {
-        if (!server.reachable) continue; // was said when it went
+    std::vector<std::string> errors;
+    for (const auto& server : server_states()) {
+        if (!server.reachable) continue; // reported when it became unreachable
         try {
             CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
             bind_path(root.in(), path, object);
         } catch (const RemoteUnavailable& e) {
             set_reachable(server.address, false);
-            refusals.push_back(
-                std::string(e.what()) +
-                "; names are bound when it comes; start omniNames there or set naming.enable: NO");
+            errors.push_back(std::string(e.what()) +
+                             "; names are bound when it is available; start omniNames "
+                             "there or set naming.enable: NO");
         } catch (const CORBA::Exception& e) {
-            refusals.push_back("name server " + server.address + " does not take " + path + " (" + e._name() +
-                               ")");
+            errors.push_back("name server " + server.address + " refuses the name " + path + ": " +
+                             describe_exception(e));
         }
     }
-    return refusals;
+    return errors;
 }
 
 void NameBindings::unbind(const std::string& path) {
     CORBA::Object_var object;
-    std::vector<Server> servers;
     {
         std::lock_guard<std::mutex> lock(mutex_);
         for (const auto& entry : entries_)
             if (entry.path == path) object = entry.object;
         std::erase_if(entries_, [&](const Entry& entry) { return entry.path == path; });
-        servers = servers_;
     }
     if (CORBA::is_nil(object.in())) return;
-    for (const auto& server : servers) {
+    for (const auto& server : server_states()) {
         if (!server.reachable) continue;
         try {
             CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
+            // Another process may have taken the name since; its entry is left alone.
             if (query_binding(root.in(), path, object.in()) == Binding::ours)
                 root->unbind(to_corba_name(path));
         } catch (const RemoteUnavailable&) {
-            set_reachable(server.address, false); // its entries are gone with it, or stale
+            set_reachable(server.address, false); // nothing to remove until it is back
         } catch (const CORBA::Exception&) {
             continue; // somebody else has removed the entry just now
         }
@@ -123,41 +128,39 @@ void NameBindings::unbind(const std::string& path) {
 }
 
 std::vector<std::string> NameBindings::update(bool rebind) {
-    std::vector<Server> servers;
-    {
-        std::lock_guard<std::mutex> lock(mutex_);
-        servers = servers_;
-    }
-    std::vector<std::string> news;
-    for (const auto& server : servers) {
-        std::string line;
+    std::vector<std::string> messages;
+    for (const auto& server : server_states()) {
+        std::string message;
         try {
-            line = update(server, rebind);
+            message = update(server, rebind);
         } catch (const RemoteUnavailable& e) {
-            if (server.reachable) line = std::string(e.what()) + "; names are bound again when it is back";
+            // Reported once, not at each update.
+            if (server.reachable) message = std::string(e.what()) + "; names are bound again when it is back";
             set_reachable(server.address, false);
         } catch (const CORBA::Exception& e) {
-            line = "name server " + server.address + " does not take our names (" + e._name() + ")";
+            message = "name server " + server.address + " refuses our names: " + describe_exception(e);
         }
-        if (!line.empty()) news.push_back(line);
+        if (!message.empty()) messages.push_back(message);
     }
-    return news;
+    return messages;
 }
 
+// `server` is a copy from before the call: server.reachable says what it was at the last one.
 std::string NameBindings::update(const Server& server, bool rebind) {
-    const auto all = entries();
     CosNaming::NamingContext_var root = resolve_name_server(orb_.in(), server.address);
     std::vector<Entry> missing;
-    bool contexts_lost = false;
-    for (const auto& entry : all) {
-        const Binding found = query_binding(root.in(), entry.path, entry.object.in());
-        // What another process has taken since is left to it, as long as the server was there.
-        if (found != Binding::ours && !(found == Binding::foreign && server.reachable))
+    bool lost_entries = false;
+    for (const auto& entry : entries()) {
+        const Binding binding = query_binding(root.in(), entry.path, entry.object.in());
+        // A name that another process has taken while the server was reachable is left to it. While the
+        // server was not, the foreign object may as well be of an earlier life of this host.
+        if (binding != Binding::ours && !(binding == Binding::foreign && server.reachable))
             missing.push_back(entry);
-        contexts_lost = contexts_lost || found == Binding::context_missing;
+        lost_entries = lost_entries || binding == Binding::context_missing;
     }
     set_reachable(server.address, true);
-    if (missing.empty() || (server.reachable && !contexts_lost && !rebind)) return "";
+    // A single missing entry was unbound by a tool: it stays so, unless `rebind` asks for it.
+    if (missing.empty() || (server.reachable && !lost_entries && !rebind)) return "";
     for (const auto& entry : missing) bind_path(root.in(), entry.path, entry.object.in());
     return "name server " + server.address + ": bound " + std::to_string(missing.size()) + " name" +
            (missing.size() == 1 ? "" : "s") + " again";

@@ -7,23 +7,24 @@
 
 namespace RTC {
 
-/// The entries of this process in CORBA name servers. A server that is away holds nobody up: what it missed
-/// is made up for by update(), when it is there again. [any-thread]
+/// The names that this process has bound in CORBA name servers. Owned by the manager. A server that is not
+/// reachable is skipped, so that it delays nobody; update() binds what it has missed. [any-thread]
 class NameBindings {
   public:
-    /// `host` or `host:port` each.
+    /// `servers`: HOST or HOST:PORT each. No server is called yet.
     NameBindings(CORBA::ORB_ptr orb, const std::vector<std::string>& servers);
 
-    /// Binds in every server, making the contexts on the way (`host.host_cxt/Name0.rtc`). Returns one line
-    /// for each server that does not take it.
+    /// Binds the object in every server, creating the contexts of the path (`host.host_cxt/Name0.rtc`), and
+    /// replaces another object of that name. Returns one message for each server that fails.
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
-    /// One more server; update() binds what there is.
+    /// Adds a server; update() binds the present names in it.
     void add_server(const std::string& server);
-    /// Removes the entry where it is still ours.
+    /// Removes the name from every server in which it still refers to our object.
     void unbind(const std::string& path);
-    /// All entries again in servers that were away, or have lost everything; with `rebind` wherever one
-    /// is missing. Returns one line for each server that has come or gone.
+    /// Binds all names again in servers that were unreachable or have lost their entries, and with `rebind`
+    /// in all servers where one is missing. Returns one message for each server whose state has changed.
     std::vector<std::string> update(bool rebind);
+    /// The addresses, HOST:PORT each.
     std::vector<std::string> servers() const;
 
   private:
@@ -33,9 +34,10 @@ class NameBindings {
     };
     struct Server {
         std::string address;
-        bool reachable = true;
+        bool reachable = true; // at the last call
     };
     std::vector<Entry> entries() const;
+    std::vector<Server> server_states() const;
     void set_reachable(const std::string& address, bool reachable);
     std::string update(const Server& server, bool rebind);
 

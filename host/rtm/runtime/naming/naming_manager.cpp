@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The public API for names in name servers, as OpenRTM-aist's class NamingManager, on top of NameBindings. It
+// remembers what it has bound itself; names that the manager binds are not in its lists.
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include <rtm/NamingManager.h>
@@ -8,7 +10,7 @@ namespace RTC {
 void NamingManager::registerNameServer(const char* method, const char* name_server) {
     Logger& rtclog = m_manager->impl().log;
     if (coil::normalize(method) != "corba") {
-        RTC_ERROR(("name server %s: there is no method %s, only corba", name_server, method));
+        RTC_ERROR(("name server %s: unknown method %s, expected corba", name_server, method));
         return;
     }
     m_manager->impl().name_bindings->add_server(name_server);
@@ -21,8 +23,8 @@ void NamingManager::bind(const std::string& name, CORBA::Object_ptr object, cons
         std::lock_guard<std::mutex> lock(m_mutex);
         m_bound[name] = component;
     }
-    for (const auto& refusal : m_manager->impl().name_bindings->bind(name, object))
-        RTC_WARN(("%s", refusal.c_str()));
+    for (const auto& error : m_manager->impl().name_bindings->bind(name, object))
+        RTC_WARN(("%s", error.c_str()));
 }
 
 void NamingManager::bindObject(const char* name, const RTObject_impl* rtobj) {
@@ -57,6 +59,7 @@ void NamingManager::unbindAll() {
     for (const auto& entry : all) m_manager->impl().name_bindings->unbind(entry.first);
 }
 
+// Only components that still exist: m_bound may hold pointers to others, which are compared but not used.
 std::vector<RTObject_impl*> NamingManager::getObjects() {
     std::vector<RTObject_impl*> objects;
     std::lock_guard<std::mutex> lock(m_mutex);
@@ -66,6 +69,7 @@ std::vector<RTObject_impl*> NamingManager::getObjects() {
     return objects;
 }
 
+// A name without a scheme is one of this process. An unavailable component is logged, and the list is empty.
 RTCList NamingManager::string_to_component(const std::string& name) {
     RTCList found;
     RTObject_var component;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Names of components in other processes. Unlike OpenRTM-aist's, each call has a time limit, and an error says
+// which of the parties on the way (name server, manager, component) did not answer.
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
+#include <rtm/CorbaNaming.h>
 
 namespace RTC {
 
@@ -18,133 +21,137 @@ std::string with_default_port(const std::string& address, int port) {
     return address.find(':') == std::string::npos ? address + ":" + std::to_string(port) : address;
 }
 
+// What omniORB's exceptions mean for calls to another process.
 std::string describe_exception(const CORBA::Exception& e) {
     const std::string name = e._name();
-    if (name == "TRANSIENT") return "nobody listens there";
+    if (name == "TRANSIENT") return "no process listens there";
     if (name == "TIMEOUT") return "no answer in time";
-    if (name == "OBJECT_NOT_EXIST") return "it is gone";
-    if (name == "COMM_FAILURE") return "the connection broke";
+    if (name == "OBJECT_NOT_EXIST") return "the object does not exist any more";
+    if (name == "COMM_FAILURE") return "the connection was lost";
     return "CORBA exception " + name;
 }
 
 CosNaming::Name to_corba_name(const std::string& path) {
-    const auto parts = coil::split(path, "/", true);
-    if (parts.empty()) throw RemoteUnavailable("an empty name; expected CONTEXT.host_cxt/NAME.rtc");
-    CosNaming::Name name;
-    name.length(static_cast<CORBA::ULong>(parts.size()));
-    for (CORBA::ULong i = 0; i < name.length(); ++i) {
-        const std::size_t dot = parts[i].rfind('.');
-        name[i].id = CORBA::string_dup(parts[i].substr(0, dot).c_str());
-        name[i].kind = CORBA::string_dup(dot == std::string::npos ? "" : parts[i].substr(dot + 1).c_str());
-    }
+    const CosNaming::Name name = path.empty() ? CosNaming::Name() : CorbaNaming::toName(path.c_str());
+    if (name.length() == 0) // a path of nothing but slashes has no parts either
+        throw RemoteUnavailable("the name is empty; expected CONTEXT.host_cxt/NAME.rtc");
     return name;
-}
-
-CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
-                                                 unsigned long milliseconds) {
-    const std::string where = with_default_port(address, 2809);
-    std::string why = "it is no name server";
-    try {
-        CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:" + where + "/NameService").c_str());
-        omniORB::setClientCallTimeout(object.in(), static_cast<CORBA::ULong>(milliseconds));
-        CosNaming::NamingContext_var root = CosNaming::NamingContext::_narrow(object.in());
-        if (!CORBA::is_nil(root.in())) {
-            omniORB::setClientCallTimeout(root.in(), static_cast<CORBA::ULong>(milliseconds));
-            return root._retn();
-        }
-    } catch (const CORBA::Exception& e) {
-        why = describe_exception(e);
-    }
-    throw RemoteUnavailable("name server " + where + ": " + why);
-}
-
-RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address, unsigned long milliseconds) {
-    const std::string where = with_default_port(address, 2810);
-    std::string why = "it is no manager";
-    try {
-        CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:" + where + "/manager").c_str());
-        omniORB::setClientCallTimeout(object.in(), static_cast<CORBA::ULong>(milliseconds));
-        RTM::Manager_var manager = RTM::Manager::_narrow(object.in());
-        if (!CORBA::is_nil(manager.in())) {
-            omniORB::setClientCallTimeout(manager.in(), static_cast<CORBA::ULong>(milliseconds));
-            return manager._retn();
-        }
-    } catch (const CORBA::Exception& e) {
-        why = describe_exception(e);
-    }
-    throw RemoteUnavailable("manager " + where + ": " + why);
 }
 
 namespace {
 
-RTObject_ptr answered(CORBA::Object_ptr object, const std::string& name, unsigned long milliseconds) {
-    std::string why = "it is no RT-Component";
+// The object of interface Interface with the corbaloc key `key` at `address`. `what` names it in messages.
+template <class Interface>
+typename Interface::_ptr_type resolve_by_key(CORBA::ORB_ptr orb, const std::string& address,
+                                             const std::string& key, const std::string& what,
+                                             unsigned long milliseconds) {
+    std::string cause = "the object there is not a " + what;
+    try {
+        CORBA::Object_var object = orb->string_to_object(("corbaloc:iiop:" + address + "/" + key).c_str());
+        omniORB::setClientCallTimeout(object.in(), static_cast<CORBA::ULong>(milliseconds));
+        typename Interface::_var_type narrowed = Interface::_narrow(object.in()); // calls the process
+        if (!CORBA::is_nil(narrowed.in())) {
+            // The time limit belongs to a reference; _narrow() makes another one.
+            omniORB::setClientCallTimeout(narrowed.in(), static_cast<CORBA::ULong>(milliseconds));
+            return narrowed._retn();
+        }
+    } catch (const CORBA::Exception& e) {
+        cause = describe_exception(e);
+    }
+    throw RemoteUnavailable(what + " " + address + ": " + cause);
+}
+
+} // namespace
+
+CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
+                                                 unsigned long milliseconds) {
+    return resolve_by_key<CosNaming::NamingContext>(orb, with_default_port(address, 2809), "NameService",
+                                                    "name server", milliseconds);
+}
+
+RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address, unsigned long milliseconds) {
+    return resolve_by_key<RTM::Manager>(orb, with_default_port(address, 2810), "manager", "manager",
+                                        milliseconds);
+}
+
+namespace {
+
+// Narrows a reference that a server has given, and makes sure that the component exists: name servers keep
+// names of processes that have ended.
+RTObject_ptr require_component(CORBA::Object_ptr object, const std::string& name,
+                               unsigned long milliseconds) {
+    std::string cause = "the object of that name is not an RT-Component";
     try {
         omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(milliseconds));
         RTObject_var component = RTObject::_narrow(object);
         if (!CORBA::is_nil(component.in()) && !component->_non_existent()) return component._retn();
     } catch (const CORBA::Exception& e) {
-        why = describe_exception(e) + "; is its process alive?";
+        cause = describe_exception(e) + "; is the component's process running?";
     }
-    throw RemoteUnavailable(name + ": " + why);
+    throw RemoteUnavailable(name + ": " + cause);
 }
 
-// All entries NAME.rtc below a context; `depth` bounds contexts that contain each other.
-void search(CosNaming::NamingContext_ptr context, const std::string& wanted, int depth,
-            std::vector<CORBA::Object_var>& found) {
-    CosNaming::BindingList_var list;
+// Collects all entries NAME.rtc in a context and below it. Contexts may contain each other, so the depth is
+// bounded, and so is the number of entries of one context.
+void find_entries(CosNaming::NamingContext_ptr context, const std::string& wanted, int max_depth,
+                  std::vector<CORBA::Object_var>& found) {
+    constexpr CORBA::ULong max_entries = 1000;
+    CosNaming::BindingList_var entries;
     CosNaming::BindingIterator_var more;
-    context->list(1000, list.out(), more.out());
+    context->list(max_entries, entries.out(), more.out());
     if (!CORBA::is_nil(more.in())) more->destroy();
-    for (CORBA::ULong i = 0; i < list->length(); ++i) {
-        const CosNaming::NameComponent& last = list[i].binding_name[0];
-        const bool is_context = list[i].binding_type == CosNaming::ncontext;
-        if (!is_context && (wanted != static_cast<const char*>(last.id) || std::string(last.kind) != "rtc"))
+    for (CORBA::ULong i = 0; i < entries->length(); ++i) {
+        const CosNaming::NameComponent& part = entries[i].binding_name[0];
+        const bool is_context = entries[i].binding_type == CosNaming::ncontext;
+        if (!is_context && (wanted != static_cast<const char*>(part.id) || std::string(part.kind) != "rtc"))
             continue;
-        CORBA::Object_var object = context->resolve(list[i].binding_name);
+        CORBA::Object_var object = context->resolve(entries[i].binding_name);
         if (!is_context) {
             found.push_back(object);
-        } else if (depth > 0) {
+        } else if (max_depth > 0) {
             CosNaming::NamingContext_var next = CosNaming::NamingContext::_narrow(object.in());
-            if (!CORBA::is_nil(next.in())) search(next.in(), wanted, depth - 1, found);
+            if (!CORBA::is_nil(next.in())) find_entries(next.in(), wanted, max_depth - 1, found);
         }
     }
 }
 
-RTObject_ptr by_name_server(CORBA::ORB_ptr orb, const std::string& server, const std::string& path,
-                            const std::string& name, unsigned long milliseconds) {
+// `path` is CONTEXT/NAME, with or without `.rtc`, or */NAME for an entry in any context.
+RTObject_ptr resolve_by_name_server(CORBA::ORB_ptr orb, const std::string& server, const std::string& path,
+                                    const std::string& name, unsigned long milliseconds) {
     CosNaming::NamingContext_var root = resolve_name_server(orb, server, milliseconds);
     try {
         if (path.compare(0, 2, "*/") == 0) {
+            constexpr int max_depth = 4;
             std::vector<CORBA::Object_var> found;
-            search(root.in(), path.substr(2), 4, found);
+            find_entries(root.in(), path.substr(2), max_depth, found);
             if (found.size() > 1)
                 throw RemoteUnavailable(name + ": there are " + std::to_string(found.size()) +
-                                        " of that name; give the whole path");
-            if (found.size() == 1) return answered(found[0].in(), name, milliseconds);
+                                        " components of that name; give the whole path");
+            if (found.size() == 1) return require_component(found[0].in(), name, milliseconds);
         } else {
             const bool has_kind = path.size() > 4 && path.compare(path.size() - 4, 4, ".rtc") == 0;
             CORBA::Object_var object = root->resolve(to_corba_name(has_kind ? path : path + ".rtc"));
-            return answered(object.in(), name, milliseconds);
+            return require_component(object.in(), name, milliseconds);
         }
     } catch (const CosNaming::NamingContext::NotFound&) {
-        // said below
+        // reported below, as for a search without a result
     } catch (const CORBA::Exception& e) {
         throw RemoteUnavailable("name server " + server + ": " + describe_exception(e));
     }
     throw RemoteUnavailable(name + ": name server " + server + " has no such entry");
 }
 
-RTObject_ptr by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, const std::string& name,
-                        unsigned long milliseconds) {
+RTObject_ptr resolve_by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, const std::string& name,
+                                unsigned long milliseconds) {
     RTM::Manager_var manager = resolve_manager(orb, parsed.address, milliseconds);
     try {
         RTCList_var found = manager->get_components_by_name(parsed.path.c_str());
-        if (found->length() == 1) return answered(found[0], name, milliseconds);
-        throw RemoteUnavailable(name + ": that manager has " +
-                                (found->length() == 0
-                                     ? "no such component"
-                                     : std::to_string(found->length()) + " components of that name"));
+        if (found->length() == 1) return require_component(found[0], name, milliseconds);
+        throw RemoteUnavailable(
+            name + ": the manager there has " +
+            (found->length() == 0
+                 ? "no such component"
+                 : std::to_string(found->length()) + " components of that name; give the category, too"));
     } catch (const CORBA::Exception& e) {
         throw RemoteUnavailable("manager " + parsed.address + ": " + describe_exception(e));
     }
@@ -156,22 +163,23 @@ RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
                                const std::vector<std::string>& servers, unsigned long milliseconds) {
     const RemoteName parsed = parse_remote_name(name);
     if (parsed.path.empty() || parsed.address.empty())
-        throw RemoteUnavailable("`" + name +
-                                "`; expected rtcname://HOST:PORT/PATH/NAME or rtcloc://HOST:PORT/NAME");
-    if (parsed.scheme == "rtcloc") return by_manager(orb, parsed, name, milliseconds);
+        throw RemoteUnavailable("`" + name + "` is not a name of a component; expected " +
+                                "rtcname://HOST:PORT/PATH/NAME or rtcloc://HOST:PORT/NAME");
+    if (parsed.scheme == "rtcloc") return resolve_by_manager(orb, parsed, name, milliseconds);
     if (parsed.scheme != "rtcname")
-        throw RemoteUnavailable("`" + name + "`: scheme " + parsed.scheme +
-                                " is unknown; expected rtcname or rtcloc");
-    if (parsed.address != "*") return by_name_server(orb, parsed.address, parsed.path, name, milliseconds);
-    std::string why = name + ": no name server is configured (corba.nameservers)";
+        throw RemoteUnavailable("`" + name + "`: unknown scheme " + parsed.scheme +
+                                "; expected rtcname or rtcloc");
+    if (parsed.address != "*")
+        return resolve_by_name_server(orb, parsed.address, parsed.path, name, milliseconds);
+    std::string cause = name + ": no name server is configured; set corba.nameservers";
     for (const auto& server : servers) {
         try {
-            return by_name_server(orb, server, parsed.path, name, milliseconds);
+            return resolve_by_name_server(orb, server, parsed.path, name, milliseconds);
         } catch (const RemoteUnavailable& e) {
-            why = e.what();
+            cause = e.what(); // the next server may know it
         }
     }
-    throw RemoteUnavailable(why);
+    throw RemoteUnavailable(cause);
 }
 
 } // namespace RTC

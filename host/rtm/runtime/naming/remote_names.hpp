@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Components and managers of other processes by name: rtcname://HOST:PORT/CONTEXT/NAME (a name server),
-// rtcloc://HOST:PORT/INSTANCE (a manager).
+// Finds components and managers of other processes by name: rtcname://HOST:PORT/CONTEXT/NAME asks a name
+// server, rtcloc://HOST:PORT/INSTANCE asks a manager. OpenRTM-aist: NamingManager::string_to_component(),
+// NamingOnCorba and NamingOnManager. Programs in apps/ include this header.
 #pragma once
 #include <omniORB4/Naming.hh>
 #include <rtm/RTC.h>
@@ -11,37 +12,44 @@
 
 namespace RTC {
 
-/// Nobody answers under a name; what() is one line that says which and what to do. It may be there later.
+/// A name server, a manager, a component or a port of another process is not available now; it may be later.
+/// what() is one line: which one, why, and what to do.
 class RemoteUnavailable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// `rtcname://localhost:2809/ctx/Name0` -> {rtcname, localhost:2809, ctx/Name0}; no scheme: {"", "", name}.
+/// The parts of a name: `rtcname://localhost:2809/ctx/Name0` -> {rtcname, localhost:2809, ctx/Name0}; a name
+/// without scheme -> {"", "", name}.
 struct RemoteName {
     std::string scheme, address, path;
 };
 RemoteName parse_remote_name(const std::string& name);
 
-/// `host`, `host:port` -> `host:port`.
+/// `HOST` -> `HOST:port`; an address with a port is returned as it is.
 std::string with_default_port(const std::string& address, int port);
 
-/// Root context of a name server; throws RemoteUnavailable. Calls to it end after `milliseconds`.
+// All functions below: [any-thread]; they call another process and wait up to `milliseconds` for each call.
+// The returned reference has that time limit, too, and is released by the caller. They throw
+// RemoteUnavailable.
+
+/// The root context of a name server at `HOST` or `HOST:PORT` (2809).
 CosNaming::NamingContext_ptr resolve_name_server(CORBA::ORB_ptr orb, const std::string& address,
                                                  unsigned long milliseconds = 2000);
-/// `a.x/b.y` as a CORBA name. Throws RemoteUnavailable for an empty one.
-CosNaming::Name to_corba_name(const std::string& path);
 
-/// The manager at corbaloc HOST:PORT/manager; throws RemoteUnavailable.
+/// The manager at `HOST` or `HOST:PORT` (2810), which is the object corbaloc:iiop:HOST:PORT/manager.
 RTM::Manager_ptr resolve_manager(CORBA::ORB_ptr orb, const std::string& address,
                                  unsigned long milliseconds = 2000);
 
-/// The component that a name with scheme stands for; it has answered. `servers`: those meant by rtcname://*/.
-/// Throws RemoteUnavailable.
+/// The component of a name with scheme; it exists, since it has answered a call. `servers` are the name
+/// servers that rtcname://*/... asks, one after the other.
 RTObject_ptr resolve_component(CORBA::ORB_ptr orb, const std::string& name,
                                const std::vector<std::string>& servers, unsigned long milliseconds = 2000);
 
-/// What a failed call means, for the end of a line: `nobody listens there`, `no answer in time` ...
+/// `a.x/b.y` as a CORBA name of two parts, id and kind each. Throws RemoteUnavailable for an empty path.
+CosNaming::Name to_corba_name(const std::string& path);
+
+/// The cause of a failed call as the end of a message: `connection refused`, `no answer in time` ...
 std::string describe_exception(const CORBA::Exception& e);
 
 } // namespace RTC

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of CORBA_RTCUtil about configuration sets of components, local or remote. Errors of a component
+// come as CORBA exceptions, as in OpenRTM-aist.
+#include <rtm/CORBA_RTCUtil.h>
+#include <rtm/NVUtil.h>
+
+namespace CORBA_RTCUtil {
+
+using RTC::RTObject_ptr;
+
+coil::Properties get_configuration(RTObject_ptr rtc, const std::string& set_name) {
+    SDOPackage::Configuration_var configuration = rtc->get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
+    return NVUtil::toProperties(set->configuration_data);
+}
+
+std::string get_active_configuration_name(RTObject_ptr rtc) {
+    SDOPackage::Configuration_var configuration = rtc->get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
+    return static_cast<const char*>(set->id);
+}
+
+coil::Properties get_active_configuration(RTObject_ptr rtc) {
+    SDOPackage::Configuration_var configuration = rtc->get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
+    return NVUtil::toProperties(set->configuration_data);
+}
+
+std::string get_parameter_by_key(RTObject_ptr rtc, const std::string& set_name,
+                                 const std::string& parameter) {
+    return get_configuration(rtc, set_name).getProperty(parameter);
+}
+
+// Changes one value of `set` and writes the whole set back: the interface knows no smaller change.
+bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
+                                 SDOPackage::ConfigurationSet& set, const std::string& parameter,
+                                 const std::string& value) {
+    coil::Properties change;
+    change.setProperty(parameter, value);
+    NVUtil::mergeFromProperties(set.configuration_data, change);
+    return configuration->set_configuration_set_values(set);
+}
+
+bool set_active_configuration(RTObject_ptr rtc, const std::string& parameter, const std::string& value) {
+    return set_configuration(rtc, get_active_configuration_name(rtc), parameter, value);
+}
+
+bool set_configuration(RTObject_ptr rtc, const std::string& set_name, const std::string& parameter,
+                       const std::string& value) {
+    SDOPackage::Configuration_var configuration = rtc->get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
+    return set_configuration_parameter(configuration.in(), set.inout(), parameter, value);
+}
+
+} // namespace CORBA_RTCUtil
