@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+// Creation and deletion of the components of one type, and the number in their instance names. OpenRTM-aist:
+// class FactoryCXX and the numbering policy `process_unique`.
 #include <algorithm>
 #include <rtm/Factory.h>
 #include <rtm/RTObject.h>
 
 namespace RTM {
 
+// The lowest number that is not in use: that of a deleted component is given again.
 std::string ProcessUniquePolicy::onCreate(void* object) {
     std::lock_guard<std::mutex> lock(mutex_);
-    auto free = std::find(objects_.begin(), objects_.end(), nullptr);
-    const auto number = free - objects_.begin();
-    if (free == objects_.end())
+    auto unused = std::find(objects_.begin(), objects_.end(), nullptr);
+    const auto number = unused - objects_.begin();
+    if (unused == objects_.end())
         objects_.push_back(object);
     else
-        *free = object;
+        *unused = object;
     return std::to_string(number);
 }
 
@@ -25,6 +28,7 @@ void ProcessUniquePolicy::onDelete(void* object) {
 
 namespace RTC {
 
+// The object is destroyed by m_Delete, the function of its own library, if naming it fails.
 RTObject_impl* FactoryCXX::create(Manager* manager) {
     std::unique_ptr<RTObject_impl, RtcDeleteFunc> object(m_New(manager), m_Delete);
     if (object == nullptr) return nullptr;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// State machines of components: the queue of their events, and who is told of their actions.
+// What StaticFSM.h needs of the library: the queue of events of a component's state machine, and the calls of
+// the listeners of its actions (FsmActionListener.h). The machine itself is in Macho.h.
 #include <rtm/StaticFSM.h>
 
 namespace RTC {
 
+// Options of the connection's `buffer.*`; what cannot be read leaves the default.
 void FsmEvents::init(const coil::Properties& buffer) {
     std::lock_guard<std::mutex> lock(m_mutex);
     std::size_t length = 0;
@@ -12,6 +14,7 @@ void FsmEvents::init(const coil::Properties& buffer) {
     if (!policy.empty()) m_overwrite = policy == "overwrite";
 }
 
+// False: the queue is full and its policy is not `overwrite`, which drops the oldest event instead.
 bool FsmEvents::put(std::function<void()> event) {
     std::lock_guard<std::mutex> lock(m_mutex);
     if (m_events.size() >= m_length) {
@@ -22,6 +25,7 @@ bool FsmEvents::put(std::function<void()> event) {
     return true;
 }
 
+// The event runs after this returns, outside the mutex, because an event may put others.
 bool FsmEvents::take(std::function<void()>& event) {
     std::lock_guard<std::mutex> lock(m_mutex);
     if (m_events.empty()) return false;
@@ -35,6 +39,7 @@ std::size_t FsmEvents::readable() const {
     return m_events.size();
 }
 
+// Defines preOnFsmNAME() and postOnFsmNAME(), which the states of a machine call around their actions.
 #define TANDEM_FSM_ACTION(Name, NAME)                                                                        \
     void RTObject_impl::preOnFsm##Name(const char* state) {                                                  \
         m_fsmListeners.preaction_[static_cast<std::size_t>(PreFsmActionListenerType::PRE_ON_##NAME)]         \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of listeners, as text.
+// toString() of each kind of listener: the names that OpenRTM-aist gives them, in the order of the enumerators.
 #include <rtm/ComponentActionListener.h>
 #include <rtm/ConfigurationListener.h>
 #include <rtm/FsmActionListener.h>
@@ -8,7 +8,7 @@
 namespace RTC {
 namespace {
 
-// Empty for what is no kind, the number of kinds included.
+// Empty for a value that is no kind, which includes the enumerator that counts them.
 template <class Type, std::size_t Count>
 const char* name_of(Type type, const char* const (&names)[Count]) {
     const auto index = static_cast<std::size_t>(type);

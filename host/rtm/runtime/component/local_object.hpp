@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Access to objects of this process without CORBA. OpenRTM-aist does the same where it calls
+// POA::reference_to_servant(): a call through the pointer costs no marshalling and can return C++ values.
 #pragma once
 #include <cstddef>
 #include <omniORB4/CORBA.h>
@@ -6,8 +8,8 @@
 
 namespace RTC {
 
-/// An object of this process found by its reference, or nothing. Its owner ends it when it likes; ports wait
-/// a second for those who hold them like this.
+/// A counted reference to an object of this process, or none. While it lives, the servant is not deleted by
+/// the ORB; its owner may still deactivate it. A port that is removed waits up to a second for these holders.
 template <class T>
 class LocalObject {
   public:
@@ -24,7 +26,7 @@ class LocalObject {
     T* object_ = nullptr;
 };
 
-/// The object behind a reference when it lives in this process under the root POA.
+/// The object of a reference, if it is in this process, in the root POA, and a T; otherwise none. [any-thread]
 template <class T>
 LocalObject<T> local_object(CORBA::Object_ptr reference) {
     if (CORBA::is_nil(reference)) return {};
@@ -36,7 +38,7 @@ LocalObject<T> local_object(CORBA::Object_ptr reference) {
         return {};
     } catch (const PortableServer::POA::WrongAdapter&) {
         return {};
-    } catch (const CORBA::SystemException&) { // the ORB is going down
+    } catch (const CORBA::SystemException&) { // the ORB has been shut down
         return {};
     }
 }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// Transitions of hierarchical state machines: our own implementation of the interface of Macho (Eduard Hiti),
+// on which OpenRTM-aist's StaticFSM.h is built. Leaving goes from the innermost state outwards, entering from
+// the outermost inwards.
 #include <rtm/MachoBase.h>
 #include <vector>
 
 namespace Macho {
 
+// Enters `target` and those of its superstates that are not entered already because `previous` is in them too.
 void _MachineBase::enter(_StateInstance& target, _StateInstance* previous) {
     std::vector<_StateInstance*> path{&target};
     for (auto* super = target.super(); super != nullptr; super = super->super())
@@ -14,28 +18,32 @@ void _MachineBase::enter(_StateInstance& target, _StateInstance* previous) {
     }
 }
 
+// Leaves the current state and its superstates, up to one that contains `target`. `target` itself is left as
+// well when it is among them: a transition to a state that is entered already leaves and enters it again.
 void _MachineBase::exitTo(_StateInstance& target) {
-    _StateInstance* below = m_current; // the substate of `left` that was left before it
+    _StateInstance* substate = m_current; // the substate of `left`, which was left before it
     for (auto* left = m_current; left != nullptr && (left == &target || !target.isChild(*left));
          left = left->super()) {
         left->specification().exit();
         if (left != m_current) {
             const auto kind = left->specification()._history();
-            if (kind == _History::shallow) left->m_history = below;
+            if (kind == _History::shallow) left->m_history = substate;
             if (kind == _History::deep) left->m_history = m_current;
         }
         if (!left->specification()._persistent()) left->m_box.reset();
-        below = left;
+        substate = left;
     }
 }
 
+// Carries out the pending transition. The actions of the new states may request another one, which start()
+// or the dispatcher then carries out.
 void _MachineBase::change() {
     const std::unique_ptr<Pending> wanted(std::move(m_pending));
     _StateInstance& target = wanted->state.m_find(*this);
     _StateInstance* const previous = m_current;
     if (previous != nullptr) exitTo(target);
     if (wanted->box != nullptr) target.m_box = wanted->box;
-    m_pending.reset(); // a state that is left has no say in where it goes
+    m_pending.reset(); // a transition that an exit action has requested is ignored
     m_current = &target;
     enter(target, previous);
     if (wanted->state.m_history && target.m_history != nullptr && target.m_history != &target) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component as an object: construction, life, contexts.
+// A component as a CORBA object: construction, initialize() to exit(), and its execution contexts.
+// OpenRTM-aist: class RTObject_impl; interface RTC::RTObject of the OMG RTC specification.
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/execution/contexts_wanted.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
@@ -25,6 +26,7 @@ RTObject_impl::RTObject_impl(CORBA::ORB_ptr orb, PortableServer::POA_ptr poa)
     becomeServant();
 }
 
+// A component has a reference from its construction on, as in OpenRTM-aist: its ports and contexts use it.
 void RTObject_impl::becomeServant() {
     m_objref = this->_this();
     m_oid = m_pPOA->servant_to_id(this);
@@ -48,18 +50,20 @@ void RTObject_impl::retire() {
     try {
         m_pPOA->deactivate_object(m_oid.in());
     } catch (const CORBA::Exception&) {
-        // deactivated before, or the ORB is gone
+        // already deactivated, or the ORB has been shut down
     }
 }
 
+// Contexts are created before onInitialize, which may use them, and start after it. Any tool can call this
+// through CORBA, so only the first call counts.
 ReturnCode_t RTObject_impl::initialize() {
-    if (m_initialized.exchange(true)) return PRECONDITION_NOT_MET; // anybody may ask for it, by CORBA
+    if (m_initialized.exchange(true)) return PRECONDITION_NOT_MET;
     createContexts();
     const ReturnCode_t result = on_initialize();
     if (result != RTC_OK) return result;
     m_created = false;
     if (!SdoServiceProviderFactory::instance().getIdentifiers().empty()) {
-        SDOPackage::Configuration_var made = get_configuration();
+        SDOPackage::Configuration_var created = get_configuration();
         m_sdoConfiguration->services().start_providers();
     }
     for (auto* context : m_eclist) context->start();
@@ -70,14 +74,16 @@ void RTObject_impl::createContexts() {
     for (auto& options : contexts_wanted(m_properties)) {
         ExecutionContextBase* context = m_pManager->createContext(options.getProperty("type").c_str());
         if (context == nullptr)
-            throw ManagerError("there is no execution context type " + options.getProperty("type"));
+            throw ManagerError("there is no execution context type " + options.getProperty("type") +
+                               "; load the module that has it, or correct execution_contexts");
         context->init(options);
         m_eclist.push_back(context);
         context->bindComponent(this);
     }
 }
 
-// Anybody may ask for it, by CORBA; it is the last step of exit() and of nothing else.
+// Any tool can call this through CORBA. finish() does the work, as the last step of exit() only: a component
+// whose contexts still run must not be finalized.
 ReturnCode_t RTObject_impl::finalize() { return PRECONDITION_NOT_MET; }
 
 ReturnCode_t RTObject_impl::finish() {
@@ -94,12 +100,15 @@ ReturnCode_t RTObject_impl::finish() {
     return result;
 }
 
+// Leaves composites, stops the own contexts, leaves those of others, finalizes. Calls after the first return at
+// once. A context that does not stop is still in a callback of this component, which then stays as it is.
 ReturnCode_t RTObject_impl::exit() {
     if (m_created) return PRECONDITION_NOT_MET;
     if (m_exiting) return RTC_OK;
     for (auto* context : m_eclist) {
         if (!context->insideCycle()) continue;
-        m_pManager->invoke([this] { exit(); }); // a component cannot end under its own feet
+        // Called by the component's own callback: the context cannot be stopped from within its cycle.
+        m_pManager->invoke([this] { exit(); });
         return RTC_OK;
     }
     if (m_exiting.exchange(true)) return RTC_OK;
@@ -107,7 +116,7 @@ ReturnCode_t RTObject_impl::exit() {
     RTObject_var self = getObjRef();
     ReturnCode_t stopped = RTC_OK;
     for (auto* context : m_eclist) {
-        if (context->halt() != RTC_OK) {
+        if (context->halt() != RTC_OK) { // waits for the running callback
             stopped = RTC_ERROR;
             continue;
         }
@@ -125,11 +134,11 @@ ReturnCode_t RTObject_impl::exit() {
             context->deactivate_component(self.in());
             context->remove_component(self.in());
         } catch (const CORBA::SystemException&) {
-            continue; // that context's process is gone
+            continue; // the context's process has ended
         }
     }
     if (stopped != RTC_OK) {
-        RTC_ERROR(("a callback does not return; the component is left as it is"));
+        RTC_ERROR(("a callback does not return; the component is not finalized"));
         return RTC_ERROR;
     }
     return finish();
@@ -155,6 +164,7 @@ CORBA::Boolean RTObject_impl::is_alive(ExecutionContext_ptr exec_context) {
     return get_context_handle(exec_context) >= 0;
 }
 
+// Ids below ECOTHER_OFFSET are indices of own contexts, those from there on of contexts it participates in.
 ExecutionContext_ptr RTObject_impl::get_context(UniqueId ec_id) {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
     const auto& list = ec_id < ECOTHER_OFFSET ? m_ecMine : m_ecOther;
@@ -165,14 +175,15 @@ ExecutionContext_ptr RTObject_impl::get_context(UniqueId ec_id) {
 
 namespace {
 
-ExecutionContextList* copied(const std::vector<ExecutionContext_var>& contexts) {
+// Without the nil entries of detached contexts.
+ExecutionContextList* to_list(const std::vector<ExecutionContext_var>& contexts) {
     ExecutionContextList_var list = new ExecutionContextList;
     for (auto& context : contexts)
         if (!CORBA::is_nil(context.in())) CORBA_SeqUtil::push_back(list.inout(), context);
     return list._retn();
 }
 
-UniqueId position(const std::vector<ExecutionContext_var>& contexts, ExecutionContext_ptr wanted) {
+UniqueId index_of(const std::vector<ExecutionContext_var>& contexts, ExecutionContext_ptr wanted) {
     for (std::size_t i = 0; i < contexts.size(); ++i)
         if (!CORBA::is_nil(contexts[i].in()) && contexts[i]->_is_equivalent(wanted))
             return static_cast<UniqueId>(i);
@@ -183,23 +194,24 @@ UniqueId position(const std::vector<ExecutionContext_var>& contexts, ExecutionCo
 
 ExecutionContextList* RTObject_impl::get_owned_contexts() {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
-    return copied(m_ecMine);
+    return to_list(m_ecMine);
 }
 
 ExecutionContextList* RTObject_impl::get_participating_contexts() {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
-    return copied(m_ecOther);
+    return to_list(m_ecOther);
 }
 
 ExecutionContextHandle_t RTObject_impl::get_context_handle(ExecutionContext_ptr context) {
     if (CORBA::is_nil(context)) return -1;
     std::lock_guard<std::mutex> lock(m_contextsMutex);
-    const UniqueId mine = position(m_ecMine, context);
+    const UniqueId mine = index_of(m_ecMine, context);
     if (mine >= 0) return mine;
-    const UniqueId other = position(m_ecOther, context);
+    const UniqueId other = index_of(m_ecOther, context);
     return other >= 0 ? other + ECOTHER_OFFSET : -1;
 }
 
+// For an own context; attach_context() is for one of another component.
 UniqueId RTObject_impl::bindContext(ExecutionContext_ptr context) {
     if (CORBA::is_nil(context)) return -1;
     UniqueId id;
@@ -217,11 +229,11 @@ UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
     UniqueId id;
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);
-        std::size_t free = 0; // ids of detached contexts are given again
-        while (free < m_ecOther.size() && !CORBA::is_nil(m_ecOther[free].in())) ++free;
-        if (free == m_ecOther.size()) m_ecOther.emplace_back();
-        m_ecOther[free] = ExecutionContext::_duplicate(context);
-        id = static_cast<UniqueId>(free) + ECOTHER_OFFSET;
+        std::size_t unused = 0; // the id of a detached context is given again
+        while (unused < m_ecOther.size() && !CORBA::is_nil(m_ecOther[unused].in())) ++unused;
+        if (unused == m_ecOther.size()) m_ecOther.emplace_back();
+        m_ecOther[unused] = ExecutionContext::_duplicate(context);
+        id = static_cast<UniqueId>(unused) + ECOTHER_OFFSET;
     }
     m_actionListeners.ecaction_[0].forEach([&](auto& listener) { listener(id); });
     return id;
@@ -230,7 +242,7 @@ UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
 ReturnCode_t RTObject_impl::detach_context(UniqueId ec_id) {
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);
-        const std::int64_t index = std::int64_t{ec_id} - ECOTHER_OFFSET; // any id may come by CORBA
+        const std::int64_t index = std::int64_t{ec_id} - ECOTHER_OFFSET; // 64 bits: a tool may send any id
         if (index < 0 || index >= std::ssize(m_ecOther) ||
             CORBA::is_nil(m_ecOther[static_cast<std::size_t>(index)].in()))
             return BAD_PARAMETER;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an execution context calls: the component's callbacks, and what comes before and after each.
+// The actions that an execution context calls (on_...), and the user's callbacks (on...) within them.
+// OpenRTM-aist: RTObject_impl::on_initialize() ... on_rate_changed(); the order of callback, ports and
+// configuration in each action is the same.
 #include "host/rt/periodic_tick.hpp"
 #include <atomic>
 #include <rtm/RTObject.h>
@@ -19,21 +21,22 @@ ReturnCode_t RTObject_impl::onReset(UniqueId) { return RTC_OK; }
 ReturnCode_t RTObject_impl::onStateUpdate(UniqueId) { return RTC_OK; }
 ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
 
-// Nothing a component throws may end its host: the reason is logged, and the state machine sees an error.
+// Runs one callback between its listeners. Whatever it throws is logged and becomes RTC_ERROR for the state
+// machine, so that a component cannot end its host. OpenRTM-aist catches the exception without a message.
 template <class Callback>
 ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
                                     PostComponentActionListenerType post, Callback callback, bool rehearsal) {
     ReturnCode_t result = RTC_ERROR;
-    std::string trouble;
+    std::string error;
     auto attempt = [&](auto call) {
         try {
             call();
         } catch (const std::exception& e) {
-            trouble = std::string("threw: ") + e.what();
+            error = std::string("threw: ") + e.what();
         } catch (const CORBA::Exception& e) {
-            trouble = std::string("threw CORBA exception ") + e._name();
+            error = std::string("threw CORBA exception ") + e._name();
         } catch (...) {
-            trouble = "threw something that is not a std::exception";
+            error = "threw something that is not a std::exception";
         }
     };
     attempt([&] {
@@ -41,34 +44,36 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
             if (!rehearsal) listener(ec_id);
         });
         result = callback();
-        if (result != RTC_OK) trouble = "returned " + std::to_string(static_cast<int>(result));
+        if (result != RTC_OK) error = "returned " + std::to_string(static_cast<int>(result));
     });
-    // onError may fail in each cycle, in several contexts at once: it is said once for each time in
-    // error.
+    // onError runs in each cycle of the error state, in several contexts at once, and may fail in each: its
+    // failure is logged once per stay in that state.
     std::atomic_ref<bool> reported(m_errorReported);
-    bool said = false;
+    bool already_logged = false;
     if (pre == PreComponentActionListenerType::PRE_ON_ABORTING) reported = false;
-    if (pre == PreComponentActionListenerType::PRE_ON_ERROR) said = reported.exchange(!trouble.empty());
-    if (!trouble.empty() && !said) RTC_ERROR(("%s %s", what, trouble.c_str()));
-    trouble.clear();
+    if (pre == PreComponentActionListenerType::PRE_ON_ERROR)
+        already_logged = reported.exchange(!error.empty());
+    if (!error.empty() && !already_logged) RTC_ERROR(("%s %s", what, error.c_str()));
+    error.clear();
     attempt([&] {
         m_actionListeners.postaction_[m_actionListeners.at(post)].forEach([&](auto& listener) {
             if (!rehearsal) listener(ec_id, result);
         });
     });
-    if (trouble.empty()) return result;
-    RTC_ERROR(("a listener after %s %s", what, trouble.c_str()));
+    if (error.empty()) return result;
+    RTC_ERROR(("a listener after %s %s", what, error.c_str()));
     return RTC_ERROR;
 }
 
 using Pre = PreComponentActionListenerType;
 using Post = PostComponentActionListenerType;
 
+// The active configuration set is applied after onInitialize, which has bound the variables.
 ReturnCode_t RTObject_impl::on_initialize() {
     return guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE, [&] {
         const ReturnCode_t result = onInitialize();
-        const std::string wanted = m_properties.getProperty("configuration.active_config", "default");
-        const std::string set = m_configsets.haveConfig(wanted.c_str()) ? wanted : "default";
+        const std::string configured = m_properties.getProperty("configuration.active_config", "default");
+        const std::string set = m_configsets.haveConfig(configured.c_str()) ? configured : "default";
         m_configsets.activateConfigurationSet(set.c_str());
         m_configsets.update(set.c_str());
         return result;
@@ -90,6 +95,8 @@ ReturnCode_t RTObject_impl::on_shutdown(UniqueId ec_id) {
                    [&] { return onShutdown(ec_id); });
 }
 
+// Ports become active after onActivated has returned, whatever it returns, as in OpenRTM-aist: until then
+// providers of services cannot be called.
 ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
     return guarded("onActivated", ec_id, Pre::PRE_ON_ACTIVATED, Post::POST_ON_ACTIVATED, [&] {
         m_configsets.update();
@@ -153,6 +160,7 @@ ReturnCode_t RTObject_impl::on_rate_changed(UniqueId ec_id) {
                    [&] { return onRateChanged(ec_id); });
 }
 
+// Stops at the first port that has nothing, unless `completion` was asked for.
 bool RTObject_impl::readAll() {
     bool all = true;
     for (auto* port : m_inports) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component's ports, profile, properties and listeners.
+// A component's ports, profile, properties and action listeners. OpenRTM-aist: RTObject_impl and PortAdmin.
+// A port gets the settings `port.inport.NAME.*` (outport, corbaport), and below them those of all ports of its
+// kind, `port.inport.dataport.*` or `port.corba.*`.
 #include <rtm/RTObject.h>
 
 namespace RTC {
@@ -25,6 +27,7 @@ std::vector<std::string> RTObject_impl::getNamingNames() {
 
 void RTObject_impl::setObjRef(RTObject_ptr rtobj) { m_objref = RTC::RTObject::_duplicate(rtobj); }
 
+// Merges; the profile that tools read is derived from the properties.
 void RTObject_impl::setProperties(const coil::Properties& prop) {
     m_properties << prop;
     auto text = [this](const char* key) { return CORBA::string_dup(m_properties.getProperty(key).c_str()); };
@@ -38,14 +41,14 @@ void RTObject_impl::setProperties(const coil::Properties& prop) {
 }
 
 bool RTObject_impl::addNamed(const char* name, PortBase& port) {
-    // What rtc.conf says of all data ports of a kind is there for each of them.
+    // The owner's name becomes part of the port's full name (`Component.port`).
     port.setOwner(m_objref.in(), m_profile.instance_name);
     if (m_portAdmin.addPort(port)) {
         port.setPortConnectListenerHolder(&m_portConnectListeners);
         m_actionListeners.portaction_[0].forEach([&](auto& listener) { listener(port.getPortProfile()); });
         return true;
     }
-    RTC_ERROR(("there is already a port %s", name));
+    RTC_ERROR(("there is already a port %s; the second one is not added", name));
     return false;
 }
 
@@ -93,7 +96,7 @@ bool RTObject_impl::removePort(PortBase& port) {
     std::erase_if(m_inports, [&](InPortBase* p) { return static_cast<PortBase*>(p) == &port; });
     std::erase_if(m_outports, [&](OutPortBase* p) { return static_cast<PortBase*>(p) == &port; });
     if (!m_portAdmin.removePort(port)) return false;
-    port.setPortConnectListenerHolder(nullptr); // the port may live longer
+    port.setPortConnectListenerHolder(nullptr); // the port may outlive the component
     m_actionListeners.portaction_[1].forEach([&](auto& listener) { listener(port.getPortProfile()); });
     return true;
 }
@@ -102,6 +105,7 @@ void RTObject_impl::deletePortByName(const char* port_name) {
     if (PortBase* port = m_portAdmin.getPort(port_name)) removePort(*port);
 }
 
+// Defines addKIND() and removeKIND() of one kind of listener.
 #define TANDEM_ACTION_LISTENERS(Kind, table)                                                                 \
     void RTObject_impl::add##Kind(Kind##Type type, Kind* listener, bool autoclean) {                         \
         m_actionListeners.table.at(m_actionListeners.at(type)).addListener(listener, autoclean);             \
