@@ -112,7 +112,7 @@ ReturnCode_t RTObject_impl::exit() {
         return RTC_OK;
     }
     if (m_exiting.exchange(true)) return RTC_OK;
-    m_organizations->leave(getInstanceName());
+    m_organizations->leave_all(getInstanceName());
     RTObject_var self = getObjRef();
     ReturnCode_t stopped = RTC_OK;
     for (auto* context : m_eclist) {

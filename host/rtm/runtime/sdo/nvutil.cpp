@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Lists of named values (SDOPackage::NVList), which are how properties travel in CORBA calls, as OpenRTM-aist's
+// namespace NVUtil. A value is an `any`; properties are those that are strings.
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/NVUtil.h>
@@ -8,12 +10,13 @@
 namespace NVUtil {
 namespace {
 
-SDOPackage::NameValue named(const char* name) {
+SDOPackage::NameValue without_value(const char* name) {
     SDOPackage::NameValue nv;
     nv.name = CORBA::string_dup(name);
     return nv;
 }
 
+// Replaces the value of that name, or adds it.
 void set(SDOPackage::NVList& nv, const char* name, const char* value) {
     const CORBA::Long index = find_index(nv, name);
     if (index < 0)
@@ -25,22 +28,22 @@ void set(SDOPackage::NVList& nv, const char* name, const char* value) {
 } // namespace
 
 SDOPackage::NameValue newNVChar(const char* name, CORBA::Char value) {
-    auto nv = named(name);
+    auto nv = without_value(name);
     nv.value <<= CORBA::Any::from_char(value);
     return nv;
 }
 SDOPackage::NameValue newNVBool(const char* name, CORBA::Boolean value) {
-    auto nv = named(name);
+    auto nv = without_value(name);
     nv.value <<= CORBA::Any::from_boolean(value);
     return nv;
 }
 SDOPackage::NameValue newNVOctet(const char* name, CORBA::Octet value) {
-    auto nv = named(name);
+    auto nv = without_value(name);
     nv.value <<= CORBA::Any::from_octet(value);
     return nv;
 }
 SDOPackage::NameValue newNVAny(const char* name, const CORBA::Any& value) {
-    auto nv = named(name);
+    auto nv = without_value(name);
     nv.value = value;
     return nv;
 }
@@ -54,9 +57,11 @@ void mergeFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop) {
     for (const auto& key : prop.propertyNames()) set(nv, key.c_str(), prop.getProperty(key).c_str());
 }
 
-// Lists come from other processes; looking a name up takes the longer the more there are.
+// Values that are no strings are skipped. The length is bounded because lists come from other processes, and
+// the time to build the tree grows with the square of it.
 void copyToProperties(coil::Properties& prop, const SDOPackage::NVList& nv) {
-    if (nv.length() > 10000) throw CORBA::IMP_LIMIT(0, CORBA::COMPLETED_NO);
+    constexpr CORBA::ULong max_values = 10000;
+    if (nv.length() > max_values) throw CORBA::IMP_LIMIT(0, CORBA::COMPLETED_NO);
     for (CORBA::ULong i = 0; i < nv.length(); ++i) {
         const char* value = nullptr;
         if (nv[i].value >>= value) prop.setProperty(static_cast<const char*>(nv[i].name), value);
@@ -69,6 +74,7 @@ coil::Properties toProperties(const SDOPackage::NVList& nv) {
     return prop;
 }
 
+// -1: no value of that name. If there are several, the first counts.
 CORBA::Long find_index(const SDOPackage::NVList& nv, const char* name) {
     for (CORBA::ULong i = 0; i < nv.length(); ++i)
         if (std::string(nv[i].name) == name) return static_cast<CORBA::Long>(i);
@@ -98,6 +104,7 @@ std::string toString(const SDOPackage::NVList& nv, const char* name) {
     return value;
 }
 
+// Adds `value` to a comma-separated list, unless it is in the list already.
 bool appendStringValue(SDOPackage::NVList& nv, const char* name, const char* value) {
     const std::string present = toString(nv, name);
     if (coil::includes(present, value, false)) return true;

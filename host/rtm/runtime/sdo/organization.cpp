@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// OpenRTM-aist: class Organization_impl of SdoOrganization.h. Members and owners may be in other processes, so no
+// mutex is held while they are called.
 #include "host/rtm/runtime/sdo/organization.hpp"
 #include <coil/UUID.h>
 #include <rtm/CORBA_SeqUtil.h>
@@ -9,15 +11,15 @@ namespace SDOPackage {
 OrganizationList* Organizations::list() const {
     std::lock_guard<std::mutex> lock(mutex_);
     OrganizationList_var list = new OrganizationList;
-    for (auto& one : all_) CORBA_SeqUtil::push_back(list.inout(), one);
+    for (auto& organization : all_) CORBA_SeqUtil::push_back(list.inout(), organization);
     return list._retn();
 }
 
 bool Organizations::add(Organization_ptr organization) {
     if (CORBA::is_nil(organization)) return false;
     std::lock_guard<std::mutex> lock(mutex_);
-    for (auto& one : all_)
-        if (one->_is_equivalent(organization)) return false;
+    for (auto& present : all_)
+        if (present->_is_equivalent(organization)) return false;
     all_.emplace_back(Organization::_duplicate(organization));
     return true;
 }
@@ -25,21 +27,21 @@ bool Organizations::add(Organization_ptr organization) {
 bool Organizations::remove(const std::string& id) {
     OrganizationList_var present = list();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
-        CORBA::String_var one = present[i]->get_organization_id(); // may be a call to another process
-        if (id != one.in()) continue;
+        CORBA::String_var present_id = present[i]->get_organization_id(); // may call another process
+        if (id != present_id.in()) continue;
         std::lock_guard<std::mutex> lock(mutex_);
         return std::erase_if(all_, [&](auto& o) { return o->_is_equivalent(present[i]); }) > 0;
     }
     return false;
 }
 
-void Organizations::leave(const std::string& id) {
+void Organizations::leave_all(const std::string& id) {
     OrganizationList_var present = list();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
         try {
             present[i]->remove_member(id.c_str());
         } catch (const CORBA::Exception&) {
-            continue; // that organization is gone
+            continue; // its process has ended, or it does not know the member
         }
     }
     std::lock_guard<std::mutex> lock(mutex_);
@@ -56,7 +58,7 @@ void Organization_impl::retire() {
     try {
         RTC::Manager::instance().thePOA()->deactivate_object(oid_.in());
     } catch (const CORBA::Exception&) {
-        // the ORB has gone down before: nothing is left to deactivate
+        // the ORB has been shut down before: nothing is active any more
     }
 }
 
@@ -67,7 +69,7 @@ OrganizationProperty* Organization_impl::get_organization_property() {
 
 namespace {
 
-CORBA::Long position(const NVList& properties, const char* name) {
+CORBA::Long index_of(const NVList& properties, const char* name) {
     return CORBA_SeqUtil::find(properties, [&](const NameValue& nv) { return std::string(nv.name) == name; });
 }
 
@@ -75,11 +77,12 @@ CORBA::Long position(const NVList& properties, const char* name) {
 
 CORBA::Any* Organization_impl::get_organization_property_value(const char* name) {
     std::lock_guard<std::mutex> lock(mutex_);
-    const CORBA::Long at = position(property_.properties, name);
-    if (at < 0) throw InvalidParameter("no such property");
-    return new CORBA::Any(property_.properties[static_cast<CORBA::ULong>(at)].value);
+    const CORBA::Long index = index_of(property_.properties, name);
+    if (index < 0) throw InvalidParameter("no such property");
+    return new CORBA::Any(property_.properties[static_cast<CORBA::ULong>(index)].value);
 }
 
+// Replaces all properties, as in OpenRTM-aist.
 CORBA::Boolean Organization_impl::add_organization_property(const OrganizationProperty& property) {
     std::lock_guard<std::mutex> lock(mutex_);
     property_ = property;
@@ -89,9 +92,9 @@ CORBA::Boolean Organization_impl::add_organization_property(const OrganizationPr
 CORBA::Boolean Organization_impl::set_organization_property_value(const char* name, const CORBA::Any& value) {
     if (name[0] == '\0') throw InvalidParameter("a property needs a name");
     std::lock_guard<std::mutex> lock(mutex_);
-    const CORBA::Long at = position(property_.properties, name);
-    if (at >= 0) {
-        property_.properties[static_cast<CORBA::ULong>(at)].value = value;
+    const CORBA::Long index = index_of(property_.properties, name);
+    if (index >= 0) {
+        property_.properties[static_cast<CORBA::ULong>(index)].value = value;
         return true;
     }
     NameValue added;
@@ -103,9 +106,9 @@ CORBA::Boolean Organization_impl::set_organization_property_value(const char* na
 
 CORBA::Boolean Organization_impl::remove_organization_property(const char* name) {
     std::lock_guard<std::mutex> lock(mutex_);
-    const CORBA::Long at = position(property_.properties, name);
-    if (at < 0) throw InvalidParameter("no such property");
-    CORBA_SeqUtil::erase(property_.properties, static_cast<CORBA::ULong>(at));
+    const CORBA::Long index = index_of(property_.properties, name);
+    if (index < 0) throw InvalidParameter("no such property");
+    CORBA_SeqUtil::erase(property_.properties, static_cast<CORBA::ULong>(index));
     return true;
 }
 
@@ -135,8 +138,8 @@ CORBA::Boolean Organization_impl::set_members(const SDOList& sdos) {
 CORBA::Boolean Organization_impl::add_members(const SDOList& sdos) {
     std::lock_guard<std::mutex> lock(mutex_);
     for (CORBA::ULong i = 0; i < sdos.length(); ++i) {
-        SDO_var one = SDO::_duplicate(sdos[i]);
-        CORBA_SeqUtil::push_back(members_, one);
+        SDO_var member = SDO::_duplicate(sdos[i]);
+        CORBA_SeqUtil::push_back(members_, member);
     }
     return true;
 }
@@ -144,13 +147,14 @@ CORBA::Boolean Organization_impl::add_members(const SDOList& sdos) {
 CORBA::Boolean Organization_impl::remove_member(const char* id) {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
-        CORBA::String_var one = present[i]->get_sdo_id();
-        if (std::string(id) != one.in()) continue;
+        CORBA::String_var member_id = present[i]->get_sdo_id(); // may call another process
+        if (std::string(id) != member_id.in()) continue;
+        // Looked for again: the list may have changed during the calls.
         std::lock_guard<std::mutex> lock(mutex_);
-        const CORBA::Long at =
+        const CORBA::Long index =
             CORBA_SeqUtil::find(members_, [&](SDO_ptr sdo) { return sdo->_is_equivalent(present[i]); });
-        if (at >= 0) CORBA_SeqUtil::erase(members_, static_cast<CORBA::ULong>(at));
-        return at >= 0;
+        if (index >= 0) CORBA_SeqUtil::erase(members_, static_cast<CORBA::ULong>(index));
+        return index >= 0;
     }
     throw InvalidParameter("no such member");
 }

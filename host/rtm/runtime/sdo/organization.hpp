@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Groups of components as the SDO specification has them: an owner and its members.
+// Groups of components: the interface Organization of the OMG SDO specification, an owner and its members.
 #pragma once
 #include <memory>
 #include <mutex>
@@ -9,15 +9,17 @@
 
 namespace SDOPackage {
 
-/// References to organizations, by their ids. [any-thread]
+/// A set of references to organizations, local or remote: those that a component owns, or is a member of.
+/// [any-thread]
 class Organizations {
   public:
     OrganizationList* list() const;
-    /// False: nil, or there already.
+    /// False: the reference is nil, or in the set already.
     bool add(Organization_ptr organization);
+    /// Calls the organizations for their ids. False: none has this id.
     bool remove(const std::string& id);
-    /// Takes the member `id` out of all of them.
-    void leave(const std::string& id);
+    /// Removes the member `id` from all organizations and empties the set. Unreachable ones are skipped.
+    void leave_all(const std::string& id);
 
   private:
     mutable std::mutex mutex_;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The interface Configuration of the OMG SDO specification, and the SDO part of RTC::RTObject. OpenRTM-aist:
+// class Configuration_impl of SdoConfiguration.h, RTObject_impl. Errors are the specification's exceptions.
 #include "host/rtm/runtime/sdo/sdo_configuration.hpp"
 #include <rtm/Manager.h>
 
@@ -19,7 +21,8 @@ coil::Properties to_properties(const ConfigurationSet& set) {
     return out;
 }
 
-bool describes_parameters(const coil::Properties& set) {
+// __widget__, __constraints__ ...: sets that tell tools how to present parameters.
+bool is_description(const coil::Properties& set) {
     return std::string(set.getName()).compare(0, 2, "__") == 0;
 }
 
@@ -37,7 +40,7 @@ void Configuration_impl::retire() {
     try {
         poa_->deactivate_object(id_.in());
     } catch (const CORBA::Exception&) {
-        // the ORB has gone down before: nothing is left to deactivate
+        // the ORB has been shut down before: nothing is active any more
     }
 }
 
@@ -60,17 +63,20 @@ NVList* Configuration_impl::get_configuration_parameter_values() {
     return values._retn();
 }
 
+// Values are strings, whatever the type of the variable: that is how configuration sets hold them.
 CORBA::Any* Configuration_impl::get_configuration_parameter_value(const char* name) {
     const coil::Properties set = sets_.getActiveConfigurationSet();
-    if (set.findNode(name) == nullptr) throw InvalidParameter("no such parameter");
+    if (set.findNode(name) == nullptr)
+        throw InvalidParameter("the active configuration set has no such parameter");
     CORBA::Any_var value = new CORBA::Any;
     value.inout() <<= set.getProperty(name).c_str();
     return value._retn();
 }
 
+// Changes one value of the active set; the variable follows between two cycles (ConfigAdmin::update()).
 CORBA::Boolean Configuration_impl::set_configuration_parameter(const char* name, const CORBA::Any& value) {
     const char* text = nullptr;
-    if (!(value >>= text)) throw InvalidParameter("the value is not a string");
+    if (!(value >>= text)) throw InvalidParameter("the value of a parameter must be a string");
     coil::Properties change(sets_.activeId().c_str());
     change.setProperty(name, text);
     return sets_.setConfigurationSetValues(change);
@@ -79,7 +85,7 @@ CORBA::Boolean Configuration_impl::set_configuration_parameter(const char* name,
 ConfigurationSetList* Configuration_impl::get_configuration_sets() {
     ConfigurationSetList_var list = new ConfigurationSetList;
     for (const auto& set : sets_.copies())
-        if (!describes_parameters(set)) CORBA_SeqUtil::push_back(list.inout(), to_corba(set));
+        if (!is_description(set)) CORBA_SeqUtil::push_back(list.inout(), to_corba(set));
     return list._retn();
 }
 
@@ -120,34 +126,36 @@ char* RTObject_impl::get_sdo_id() { return CORBA::string_dup(m_profile.instance_
 char* RTObject_impl::get_sdo_type() { return CORBA::string_dup(m_profile.description); }
 SDOPackage::DeviceProfile* RTObject_impl::get_device_profile() { return new SDOPackage::DeviceProfile; }
 SDOPackage::ServiceProfileList* RTObject_impl::get_service_profiles() {
-    SDOPackage::Configuration_var made = get_configuration();
+    SDOPackage::Configuration_var created = get_configuration();
     return m_sdoConfiguration->services().profiles();
 }
 SDOPackage::ServiceProfile* RTObject_impl::get_service_profile(const char* id) {
-    SDOPackage::Configuration_var made = get_configuration();
+    SDOPackage::Configuration_var created = get_configuration();
     return new SDOPackage::ServiceProfile(m_sdoConfiguration->services().profile(id));
 }
 SDOPackage::SDOService_ptr RTObject_impl::get_sdo_service(const char* id) {
-    SDOPackage::Configuration_var made = get_configuration();
+    SDOPackage::Configuration_var created = get_configuration();
     return SDOPackage::SDOService::_duplicate(m_sdoConfiguration->services().profile(id).service);
 }
 bool RTObject_impl::addSdoServiceProvider(const SDOPackage::ServiceProfile& profile,
                                           SdoServiceProviderBase* provider) {
-    SDOPackage::Configuration_var made = get_configuration();
+    SDOPackage::Configuration_var created = get_configuration();
     return m_sdoConfiguration->services().add_provider(profile, provider);
 }
 bool RTObject_impl::removeSdoServiceProvider(const char* id) {
-    SDOPackage::Configuration_var made = get_configuration();
+    SDOPackage::Configuration_var created = get_configuration();
     return m_sdoConfiguration->services().remove_provider(id);
 }
 bool RTObject_impl::addSdoServiceConsumer(const SDOPackage::ServiceProfile& profile) {
-    SDOPackage::Configuration_var made = get_configuration();
+    SDOPackage::Configuration_var created = get_configuration();
     return m_sdoConfiguration->services().add_consumer(profile);
 }
 bool RTObject_impl::removeSdoServiceConsumer(const char* id) {
-    SDOPackage::Configuration_var made = get_configuration();
+    SDOPackage::Configuration_var created = get_configuration();
     return m_sdoConfiguration->services().remove_consumer(id);
 }
+// Created at the first request, since most components are never asked. The functions above call this to be sure
+// that m_sdoConfiguration exists.
 SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
     std::lock_guard<std::mutex> lock(m_contextsMutex);
     if (m_sdoConfiguration == nullptr)
@@ -155,7 +163,7 @@ SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
     return m_sdoConfiguration->_this();
 }
 SDOPackage::Monitoring_ptr RTObject_impl::get_monitoring() {
-    throw SDOPackage::InterfaceNotImplemented("no monitoring");
+    throw SDOPackage::InterfaceNotImplemented("this component has no Monitoring interface");
 }
 SDOPackage::OrganizationList* RTObject_impl::get_organizations() { return m_organizations->list(); }
 SDOPackage::NVList* RTObject_impl::get_status_list() { return new SDOPackage::NVList; }

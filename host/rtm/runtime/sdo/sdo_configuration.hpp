@@ -6,12 +6,14 @@
 
 namespace SDOPackage {
 
-/// The configuration sets of a component as tools see and set them.
+/// The remote interface to the configuration sets and SDO services of one component. Created at the first
+/// request for it; owned by the component through its reference count. [any-thread]
 class Configuration_impl : public POA_SDOPackage::Configuration {
   public:
     Configuration_impl(RTC::RTObject_impl& owner, RTC::ConfigAdmin& sets,
                        std::shared_ptr<Organizations> organizations);
     RTC::SdoServices& services() { return services_; }
+    /// Ends the services and deactivates the servant; called when the component exits.
     void retire();
 
     CORBA::Boolean set_device_profile(const DeviceProfile& dProfile) override;
@@ -34,7 +36,7 @@ class Configuration_impl : public POA_SDOPackage::Configuration {
   private:
     RTC::ConfigAdmin& sets_;
     RTC::SdoServices services_;
-    std::shared_ptr<Organizations> organizations_; // that the component is a member of
+    std::shared_ptr<Organizations> organizations_; // of which the component is a member
     PortableServer::POA_var poa_;
     PortableServer::ObjectId_var id_;
 };

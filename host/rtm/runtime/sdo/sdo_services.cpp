@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// OpenRTM-aist: class SdoServiceAdmin.
 #include "host/rtm/runtime/sdo/sdo_services.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
@@ -10,20 +11,21 @@ namespace {
 using Lock = std::lock_guard<std::recursive_mutex>;
 
 template <class Service>
-typename std::vector<Service*>::iterator of_id(std::vector<Service*>& services, const std::string& id) {
+typename std::vector<Service*>::iterator find_by_id(std::vector<Service*>& services, const std::string& id) {
     return std::find_if(services.begin(), services.end(), [&](Service* service) {
         return id == static_cast<const char*>(service->getProfile().id);
     });
 }
 
-void end(SdoServiceProviderBase* provider) {
+void release(SdoServiceProviderBase* provider) {
     provider->finalize();
-    provider->_remove_ref(); // a call of a tool that is under way keeps it
+    provider->_remove_ref(); // a servant: a call in progress still holds a reference
 }
 
-void end(SdoServiceConsumerBase* consumer) {
+void release(SdoServiceConsumerBase* consumer) {
     consumer->finalize();
     auto& factory = SdoServiceConsumerFactory::instance();
+    // The factory does not know the object any more when its type was unregistered meanwhile.
     if (factory.deleteObject(consumer) != coil::FactoryReturn::OK) delete consumer;
 }
 
@@ -34,36 +36,36 @@ SdoServices::SdoServices(RTObject_impl& owner, const coil::Properties& config)
 
 SdoServices::~SdoServices() { finalize(); }
 
-bool SdoServices::enabled(const char* kind, const std::string& type) const {
-    const std::string wanted =
+bool SdoServices::is_enabled(const char* kind, const std::string& type) const {
+    const std::string enabled =
         config_.getProperty(std::string("sdo.service.") + kind + ".enabled_services", "ALL");
-    return coil::includes(wanted, "all") || coil::includes(wanted, type);
+    return coil::includes(enabled, "all") || coil::includes(enabled, type);
 }
 
 void SdoServices::start_providers() {
     for (const auto& type : SdoServiceProviderFactory::instance().getIdentifiers()) {
-        if (!enabled("provider", type)) continue;
+        if (!is_enabled("provider", type)) continue;
         SdoServiceProviderBase* provider = SdoServiceProviderFactory::instance().createObject(type);
         if (provider == nullptr) continue;
         SDOPackage::ServiceProfile profile;
         profile.id = CORBA::string_dup(type.c_str());
         profile.interface_type = CORBA::string_dup(type.c_str());
         profile.service = provider->_this();
-        if (!add_provider(profile, provider)) end(provider);
+        if (!add_provider(profile, provider)) release(provider);
     }
 }
 
 void SdoServices::finalize() {
     Lock lock(mutex_);
-    for (auto* provider : providers_) end(provider);
-    for (auto* consumer : consumers_) end(consumer);
+    for (auto* provider : providers_) release(provider);
+    for (auto* consumer : consumers_) release(consumer);
     providers_.clear();
     consumers_.clear();
 }
 
 bool SdoServices::add_provider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider) {
     Lock lock(mutex_);
-    if (of_id(providers_, static_cast<const char*>(profile.id)) != providers_.end()) return false;
+    if (find_by_id(providers_, static_cast<const char*>(profile.id)) != providers_.end()) return false;
     if (!provider->init(owner_, profile)) return false;
     providers_.push_back(provider);
     return true;
@@ -71,23 +73,23 @@ bool SdoServices::add_provider(const SDOPackage::ServiceProfile& profile, SdoSer
 
 bool SdoServices::remove_provider(const std::string& id) {
     Lock lock(mutex_);
-    auto found = of_id(providers_, id);
+    auto found = find_by_id(providers_, id);
     if (found == providers_.end()) return false;
-    end(*found);
+    release(*found);
     providers_.erase(found);
     return true;
 }
 
 bool SdoServices::add_consumer(const SDOPackage::ServiceProfile& profile) {
     Lock lock(mutex_);
-    auto found = of_id(consumers_, static_cast<const char*>(profile.id));
+    auto found = find_by_id(consumers_, static_cast<const char*>(profile.id));
     if (found != consumers_.end()) return (*found)->reinit(profile);
     const std::string type(profile.interface_type);
-    if (!enabled("consumer", type)) return false;
+    if (!is_enabled("consumer", type)) return false;
     SdoServiceConsumerBase* consumer = SdoServiceConsumerFactory::instance().createObject(type);
     if (consumer == nullptr) return false;
     if (!consumer->init(owner_, profile)) {
-        end(consumer);
+        release(consumer);
         return false;
     }
     consumers_.push_back(consumer);
@@ -96,9 +98,9 @@ bool SdoServices::add_consumer(const SDOPackage::ServiceProfile& profile) {
 
 bool SdoServices::remove_consumer(const std::string& id) {
     Lock lock(mutex_);
-    auto found = of_id(consumers_, id);
+    auto found = find_by_id(consumers_, id);
     if (found == consumers_.end()) return false;
-    end(*found);
+    release(*found);
     consumers_.erase(found);
     return true;
 }

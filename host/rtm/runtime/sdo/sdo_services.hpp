@@ -9,8 +9,9 @@
 
 namespace RTC {
 
-/// The SDO services of one component: those it offers to tools, and those of tools that it uses. What makes
-/// them comes from the factories SdoServiceProviderFactory and SdoServiceConsumerFactory. [any-thread]
+/// The SDO services of one component: providers, which tools call, and consumers, which call a tool's service.
+/// Modules bring their types along through SdoServiceProviderFactory and SdoServiceConsumerFactory. Owned by
+/// the component's Configuration_impl. [any-thread]
 class SdoServices {
   public:
     SdoServices(RTObject_impl& owner, const coil::Properties& config);
@@ -18,25 +19,28 @@ class SdoServices {
     SdoServices(const SdoServices&) = delete;
     SdoServices& operator=(const SdoServices&) = delete;
 
-    /// Makes every provider that `sdo.service.provider.enabled_services` names (ALL).
+    /// Creates a provider of each registered type that `sdo.service.provider.enabled_services` names
+    /// (default: ALL).
     void start_providers();
-    /// Ends them all; nothing calls the component any more.
+    /// Finalizes all services; none calls the component afterwards.
     void finalize();
 
-    /// False: there is one of that id.
+    /// Takes the provider over. False: the id is in use, or init() of the provider fails.
     bool add_provider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider);
     bool remove_provider(const std::string& id);
-    /// A consumer of that id gets the new profile. False: no library brings one for its interface type, or
-    /// `sdo.service.consumer.enabled_services` does not name it.
+    /// Creates a consumer for the profile's interface type; one that has this id already gets the new profile.
+    /// False: the type is not registered or not named in `sdo.service.consumer.enabled_services`, or its
+    /// init() fails.
     bool add_consumer(const SDOPackage::ServiceProfile& profile);
     bool remove_consumer(const std::string& id);
 
+    /// The profiles of all providers; the caller owns the list.
     SDOPackage::ServiceProfileList* profiles() const;
-    /// Throws SDOPackage::InvalidParameter when there is none of that id.
+    /// The profile of a provider. Throws SDOPackage::InvalidParameter when there is none of that id.
     SDOPackage::ServiceProfile profile(const std::string& id) const;
 
   private:
-    bool enabled(const char* kind, const std::string& type) const;
+    bool is_enabled(const char* kind, const std::string& type) const;
 
     RTObject_impl& owner_;
     coil::Properties config_;

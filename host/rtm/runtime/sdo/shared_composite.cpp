@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// PeriodicECSharedComposite: its members lend themselves to its execution context.
+// A composite whose members run in its execution context, one after the other, instead of their own. OpenRTM-aist:
+// classes PeriodicECSharedComposite and PeriodicECOrganization. Members may be in other processes: they are
+// called through CORBA only.
 #include "host/rtm/runtime/sdo/shared_composite.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
 #include <algorithm>
@@ -13,15 +15,16 @@ PeriodicECOrganization::PeriodicECOrganization(RTC::RTObject_impl* composite, SD
     : Organization_impl(owner), rtclog("composite"), m_rtobj(composite) {}
 PeriodicECOrganization::~PeriodicECOrganization() = default;
 
+// True: all have become members. Those that cannot are logged and left out.
 CORBA::Boolean PeriodicECOrganization::add_members(const SDOList& sdos) {
-    SDOList taken;
+    SDOList accepted;
     for (CORBA::ULong i = 0; i < sdos.length(); ++i) {
         RTC::RTObject_var member = RTC::RTObject::_narrow(sdos[i]);
         if (CORBA::is_nil(member.in()) || !takeIn(member.in())) continue;
-        SDO_var one = SDO::_duplicate(sdos[i]);
-        CORBA_SeqUtil::push_back(taken, one);
+        SDO_var sdo = SDO::_duplicate(sdos[i]);
+        CORBA_SeqUtil::push_back(accepted, sdo);
     }
-    return Organization_impl::add_members(taken) && taken.length() == sdos.length();
+    return Organization_impl::add_members(accepted) && accepted.length() == sdos.length();
 }
 
 CORBA::Boolean PeriodicECOrganization::set_members(const SDOList& sdos) {
@@ -32,8 +35,8 @@ CORBA::Boolean PeriodicECOrganization::set_members(const SDOList& sdos) {
 CORBA::Boolean PeriodicECOrganization::remove_member(const char* id) {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
-        CORBA::String_var one = present[i]->get_sdo_id();
-        if (std::string(id) != one.in()) continue;
+        CORBA::String_var member_id = present[i]->get_sdo_id();
+        if (std::string(id) != member_id.in()) continue;
         RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
         if (!CORBA::is_nil(member.in())) letGo(member.in());
     }
@@ -47,7 +50,8 @@ void PeriodicECOrganization::removeAllMembers() {
             CORBA::String_var id = present[i]->get_sdo_id();
             remove_member(id.in());
         } catch (const CORBA::Exception& e) {
-            RTC_WARN(("a member of %s cannot be reached: %s", m_rtobj->getInstanceName(), e._name()));
+            RTC_WARN(("%s: a member cannot be reached and stays in the list: CORBA exception %s",
+                      m_rtobj->getInstanceName(), e._name()));
         }
     }
 }
@@ -60,6 +64,7 @@ void PeriodicECOrganization::updateDelegatedPorts() {
     }
 }
 
+// Requests a transition of every member in the composite's context.
 void PeriodicECOrganization::forAllMembers(
     RTC::ReturnCode_t (RTC::ExecutionContextBase::*request)(RTC::LightweightRTObject_ptr)) {
     SDOList_var present = get_members();
@@ -73,9 +78,15 @@ RTC::ExecutionContextBase& PeriodicECOrganization::context() { return *m_rtobj->
 
 void PeriodicECOrganization::runOwnContexts(RTC::RTObject_ptr member, bool run) {
     RTC::ExecutionContextList_var own = member->get_owned_contexts();
-    for (CORBA::ULong i = 0; i < own->length(); ++i) run ? own[i]->start() : own[i]->stop();
+    for (CORBA::ULong i = 0; i < own->length(); ++i) {
+        if (run)
+            own[i]->start();
+        else
+            own[i]->stop();
+    }
 }
 
+// Stops the member's own contexts before it joins this one, so that it never runs in two at once.
 bool PeriodicECOrganization::takeIn(RTC::RTObject_ptr member) {
     if (m_rtobj->getOwnContexts().empty()) return false;
     runOwnContexts(member, false);
@@ -83,7 +94,8 @@ bool PeriodicECOrganization::takeIn(RTC::RTObject_ptr member) {
     configuration->add_organization(Organization_var(getObjRef()).in());
     if (context().addComponent(member) != RTC::RTC_OK) {
         CORBA::String_var id = member->get_sdo_id();
-        RTC_ERROR(("%s cannot take part in the context of %s", id.in(), m_rtobj->getInstanceName()));
+        RTC_ERROR(("%s cannot join composite %s: its execution context does not accept it", id.in(),
+                   m_rtobj->getInstanceName()));
         runOwnContexts(member, true);
         return false;
     }
@@ -93,7 +105,8 @@ bool PeriodicECOrganization::takeIn(RTC::RTObject_ptr member) {
 
 void PeriodicECOrganization::letGo(RTC::RTObject_ptr member) {
     exportPortsOf(member, false);
-    // Within a cycle the deactivation is only asked for; the member leaves when it is done.
+    // Called by a callback within a cycle of the context, these transitions are only requested; the member is
+    // still active then, and removeComponent() refuses it.
     if (context().getComponentState(member) == RTC::ACTIVE_STATE) context().deactivateComponent(member);
     if (context().getComponentState(member) == RTC::ERROR_STATE) context().resetComponent(member);
     context().removeComponent(member);
@@ -102,13 +115,17 @@ void PeriodicECOrganization::letGo(RTC::RTObject_ptr member) {
     runOwnContexts(member, true);
 }
 
+// Adds the ports of a member that conf.default.exported_ports names (`Member.port`) to the composite's own
+// ports, and removes those that it does not name any more.
 void PeriodicECOrganization::exportPortsOf(RTC::RTObject_ptr member, bool is_member) {
-    auto wanted = coil::split(m_rtobj->getProperties().getProperty("conf.default.exported_ports"), ",", true);
+    auto exported_names =
+        coil::split(m_rtobj->getProperties().getProperty("conf.default.exported_ports"), ",", true);
     RTC::PortServiceList_var ports = member->get_ports();
     for (CORBA::ULong i = 0; i < ports->length(); ++i) {
         RTC::PortProfile_var profile = ports[i]->get_port_profile();
         const std::string name(profile->name);
-        const bool exported = is_member && std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+        const bool exported = is_member && std::find(exported_names.begin(), exported_names.end(), name) !=
+                                               exported_names.end();
         if (exported)
             m_rtobj->addPort(ports[i]);
         else
@@ -121,13 +138,15 @@ void PeriodicECOrganization::exportPortsOf(RTC::RTObject_ptr member, bool is_mem
 namespace RTC {
 namespace {
 
-bool to_names(std::vector<std::string>& names, const char* text) {
+// `A,B`; older configurations write `|A|,|B|`.
+bool parse_names(std::vector<std::string>& names, const char* text) {
     names = coil::split(coil::replaceString(text, "|", ""), ",", true);
     return true;
 }
 
-struct PortsChanged : ConfigurationSetListener {
-    explicit PortsChanged(SDOPackage::PeriodicECOrganization& o) : organization(o) {}
+// Follows changes of exported_ports by tools.
+struct ExportedPortsListener : ConfigurationSetListener {
+    explicit ExportedPortsListener(SDOPackage::PeriodicECOrganization& o) : organization(o) {}
     void operator()(const coil::Properties&) override { organization.updateDelegatedPorts(); }
     SDOPackage::PeriodicECOrganization& organization;
 };
@@ -169,10 +188,10 @@ PeriodicECSharedComposite::PeriodicECSharedComposite(Manager* manager)
     : RTObject_impl(manager),
       m_org(new SDOPackage::PeriodicECOrganization(this, RTObject_var(getObjRef()).in())) {
     m_ownedOrganizations->add(SDOPackage::Organization_var(m_org->getObjRef()).in());
-    bindParameter("members", m_members, "", to_names);
+    bindParameter("members", m_members, "", parse_names);
     for (const auto type :
          {ConfigurationSetListenerType::ON_SET_CONFIG_SET, ConfigurationSetListenerType::ON_ADD_CONFIG_SET})
-        addConfigurationSetListener(type, new PortsChanged(*m_org));
+        addConfigurationSetListener(type, new ExportedPortsListener(*m_org));
 }
 
 PeriodicECSharedComposite::~PeriodicECSharedComposite() {
@@ -180,6 +199,7 @@ PeriodicECSharedComposite::~PeriodicECSharedComposite() {
     m_org->_remove_ref();
 }
 
+// The configuration is applied here, before its members are needed; on_initialize() would do so afterwards.
 ReturnCode_t PeriodicECSharedComposite::onInitialize() {
     const std::string active = m_properties.getProperty("configuration.active_config", "default");
     m_configsets.update(m_configsets.haveConfig(active.c_str()) ? active.c_str() : "default");
@@ -187,7 +207,9 @@ ReturnCode_t PeriodicECSharedComposite::onInitialize() {
     for (const auto& name : m_members) {
         RTObject_impl* member = m_pManager->getComponent(coil::eraseBothEndsBlank(name).c_str());
         if (member == nullptr) {
-            RTC_ERROR(("member %s: there is no such component; create it before", name.c_str()));
+            RTC_ERROR(("member %s: there is no such component; name it before the composite in "
+                       "manager.components.precreate",
+                       name.c_str()));
             continue;
         }
         SDOPackage::SDO_var sdo = SDOPackage::SDO::_duplicate(RTObject_var(member->getObjRef()).in());

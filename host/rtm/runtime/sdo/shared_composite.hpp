@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// The component type PeriodicECSharedComposite, whose class is in rtm/PeriodicECSharedComposite.h.
 #pragma once
 
 namespace RTC {
 
 class Manager;
 
-/// Makes the component type PeriodicECSharedComposite known.
+/// Registers the component type with the manager; called when the manager starts.
 void register_shared_composite(Manager& manager);
 
 } // namespace RTC
