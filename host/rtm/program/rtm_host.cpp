@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// rtm_host: runs the RT-Components that an rtc.conf names.
+// rtm_host: runs the RT-Components that an rtc.conf names, as OpenRTM-aist's rtcd does, with the same options.
+// It prints `ready` on standard output when all of rtc.conf has been carried out, and ends on SIGINT, SIGTERM
+// and SIGHUP. Exit code 0: ended in order, or a component that hangs was left behind; 1: bad input, or a static
+// destructor that hangs; any other: what a component gave to exit().
 #include "host/plugin/probe_switches.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
@@ -28,46 +31,49 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    std::string conf_file, port, lockstep;
+    std::string conf_file, port;
+    std::string lockstep_socket; // empty: cycles run on timers
     std::vector<std::string> settings;
     std::vector<fs::path> plugin_path;
-    bool daemon = false, may_be_missing = false, no_servant = false;
+    bool master = false, conf_file_may_be_missing = false, no_corba_servant = false;
     tandem::plugin::ProbeSwitches probe;
     tandem::rt::Switches switches;
 };
 
-void describe(CLI::App& app, Arguments& a) {
+void declare_options(CLI::App& app, Arguments& a) {
     app.add_option("-f", a.conf_file,
                    "configuration file (default: $RTC_MANAGER_CONFIG, ./rtc.conf, /etc/rtc.conf)");
-    app.add_option("-o", a.settings, "a setting of rtc.conf, key:value; wins over the file (repeatable)")
+    app.add_option("-o", a.settings, "a setting of rtc.conf, KEY:VALUE; wins over the file (repeatable)")
         ->allow_extra_args(false);
     app.add_option("-p", a.port, "TCP port of the CORBA endpoint on the loopback interface");
-    app.add_flag("-d", a.daemon, "run as master manager: do not leave without components");
-    app.add_flag("-i", a.may_be_missing, "go on without the file of -f when there is none");
-    app.add_flag("-a", a.no_servant, "the manager cannot be reached by CORBA");
-    app.add_option("--lockstep", a.lockstep,
-                   "unix socket: cycles run when a conductor asks there, not on timers");
-    app.add_option("--plugin-path", a.plugin_path, "further folder of component libraries (repeatable)")
+    app.add_flag("-d", a.master, "master manager: keep running without components");
+    app.add_flag("-i", a.conf_file_may_be_missing, "ignore that the file of -f does not exist");
+    app.add_flag("-a", a.no_corba_servant, "do not offer the manager as a CORBA object");
+    app.add_option("--lockstep", a.lockstep_socket,
+                   "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
+    app.add_option("--plugin-path", a.plugin_path, "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);
     tandem::plugin::declare(app, a.probe);
     tandem::rt::declare(app, a.switches);
 }
 
-// --plugin-path, $TANDEM_PLUGIN_PATH, then where build and installation put plugins.
+// Folders in which component libraries are searched after manager.modules.load_path: --plugin-path,
+// $TANDEM_PLUGIN_PATH, then those of the build or the installation that this program belongs to.
 std::vector<fs::path> plugin_path(const Arguments& a) {
     std::vector<fs::path> dirs = a.plugin_path;
     if (const char* path = std::getenv("TANDEM_PLUGIN_PATH"))
         for (const auto& dir : coil::split(path, ":", true)) dirs.emplace_back(dir);
-    std::error_code none;
-    const fs::path root = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path();
+    std::error_code ignored;
+    const fs::path root = fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path();
     dirs.push_back(root / "plugins/rtm");
     for (const char* lib : {"lib", "lib64"}) dirs.push_back(root / lib / "tandem/plugins/rtm");
-    for (const auto& entry : fs::directory_iterator(root / "lib", none)) // lib/x86_64-linux-gnu
+    for (const auto& entry : fs::directory_iterator(root / "lib", ignored)) // lib/x86_64-linux-gnu
         if (entry.is_directory() && fs::exists(entry.path() / "tandem/plugins/rtm"))
             dirs.push_back(entry.path() / "tandem/plugins/rtm");
     return dirs;
 }
 
+// The arguments that the manager understands itself (configuration/command_line.hpp).
 coil::vstring manager_arguments(const Arguments& a) {
     coil::vstring args{"rtm_host"};
     auto add = [&](const char* option, const std::string& value) {
@@ -77,65 +83,67 @@ coil::vstring manager_arguments(const Arguments& a) {
     if (!a.conf_file.empty()) add("-f", a.conf_file);
     for (const auto& setting : a.settings) add("-o", setting);
     if (!a.port.empty()) add("-p", a.port);
-    if (a.daemon) args.push_back("-d");
-    if (a.may_be_missing) args.push_back("-i");
-    if (a.no_servant) args.push_back("-a");
+    if (a.master) args.push_back("-d");
+    if (a.conf_file_may_be_missing) args.push_back("-i");
+    if (a.no_corba_servant) args.push_back("-a");
     return args;
 }
 
-// While components are created a signal has to wait for them; not for ever, since one may hang.
-class SignalWatch {
+// Ends the process when a signal came while components are created and their callbacks do not return in time.
+// Until the main loop runs nobody else looks at the signal.
+class StartupSignalWatcher {
   public:
-    explicit SignalWatch(RTC::Manager& manager) : thread_([this, &manager] { run(manager); }) {}
-    ~SignalWatch() {
+    explicit StartupSignalWatcher(RTC::Manager& manager) : thread_([this, &manager] { run(manager); }) {}
+    ~StartupSignalWatcher() {
         done_ = true;
         thread_.join();
     }
 
   private:
     void run(RTC::Manager& manager) {
-        constexpr auto patience = std::chrono::seconds(5);
-        auto wanted_since = std::chrono::steady_clock::time_point::max();
+        constexpr auto grace = std::chrono::seconds(5);
+        auto requested_at = std::chrono::steady_clock::time_point::max();
         while (!done_) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             const auto now = std::chrono::steady_clock::now();
             if (!RTC::Manager::endWanted()) continue;
-            wanted_since = std::min(wanted_since, now);
-            if (now - wanted_since < patience) continue;
-            spdlog::warn("a component does not let the host start; leaving without it");
+            requested_at = std::min(requested_at, now);
+            if (now - requested_at < grace) continue;
+            spdlog::warn("a callback of a component that is being created does not return; exiting without "
+                         "waiting for it");
             manager.shutdown();
             tandem::process::exit_process(0);
         }
     }
     std::atomic<bool> done_{false};
-    std::thread thread_;
+    std::thread thread_; // last, so that it sees done_ initialized
 };
 
-// The same program with the same arguments; what this process has opened is closed on the way.
-[[noreturn]] void begin_anew(char** argv) {
+// Replaces this process by the same program with the same arguments, which keeps the process id for whoever
+// supervises it. Descriptors are closed by exec (FD_CLOEXEC).
+[[noreturn]] void restart(char** argv) {
     tandem::process::flush_streams();
     execv("/proc/self/exe", argv);
-    std::fprintf(stderr, "rtm_host: cannot begin anew: %s\n", std::strerror(errno));
+    std::fprintf(stderr, "rtm_host: cannot restart: %s\n", std::strerror(errno));
     tandem::process::exit_process(1);
 }
 
-// Static destructors of component libraries run after main().
+// Limits the time of the static destructors of component libraries, which run after main().
 void bound_static_destructors(RTC::Manager& manager) {
     std::string libraries;
     for (const auto& module : manager.getLoadedModules())
         libraries += (libraries.empty() ? "" : " or ") + module.getProperty("module_file_path");
     if (libraries.empty()) return;
-    tandem::process::set_exit_timeout(
-        std::chrono::seconds(2),
-        "rtm_host: " + libraries +
-            " does not come back from its static destructors within 2 s; the host ends "
-            "without it");
+    tandem::process::set_exit_timeout(std::chrono::seconds(2),
+                                      "rtm_host: " + libraries +
+                                          ": static destructors do not return within 2 s; exiting without "
+                                          "waiting for them");
 }
 
-int run(const Arguments& a, char** arguments) {
+int run(const Arguments& a, char** argv_of_program) {
     for (const auto& notice : tandem::rt::apply(a.switches)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
-    options.lockstep = !a.lockstep.empty();
+    options.lockstep = !a.lockstep_socket.empty();
     options.can_restart = true;
     options.cpu = a.switches.cpu;
     options.tick_spin = a.switches.tick_spin();
@@ -143,31 +151,30 @@ int run(const Arguments& a, char** arguments) {
     options.probe = a.probe.probe();
     coil::Argv argv(manager_arguments(a));
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
-    const tandem::process::ExitGuard exit_guard;
+    const tandem::process::ExitGuard exit_guard; // from here on components may call exit()
     bool all_ended = true;
     try {
         {
-            SignalWatch watch(manager);
+            const StartupSignalWatcher signal_watcher(manager);
             manager.activateOrThrow();
         }
         std::unique_ptr<tandem::rt::StepServer> steps;
         if (options.lockstep)
             steps = std::make_unique<tandem::rt::StepServer>(
-                a.lockstep, [&](const std::string& name) { manager.step(name); });
-        std::puts("ready");
+                a.lockstep_socket, [&](const std::string& name) { manager.step(name); });
+        std::puts("ready"); // supervisors and tests wait for this line
         std::fflush(stdout);
         manager.runManager();
         all_ended = manager.endedInOrder();
         steps.reset();
-        if (manager.restartWanted()) begin_anew(arguments);
+        if (manager.restartWanted()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         manager.shutdown();
-        tandem::process::exit_process(
-            1); // components may be half made: none of their static objects shall run now
+        tandem::process::exit_process(1); // without static destructors: components may be half constructed
     }
     if (!all_ended) {
-        spdlog::warn("a component does not stop; leaving without it");
+        spdlog::warn("a component does not stop; exiting without waiting for it");
         tandem::process::exit_process(0);
     }
     bound_static_destructors(manager);
@@ -177,15 +184,15 @@ int run(const Arguments& a, char** arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
+    // In the child process of a module probe this does the probe and does not return.
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
     spdlog::set_default_logger(
         std::make_shared<spdlog::logger>("rtm_host", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
-    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of write(), not the end of the host
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });
-    CLI::App app{"Runs the RT-Components that an rtc.conf names."};
+    CLI::App app{"Runs the RT-Components that an rtc.conf names"};
     Arguments arguments;
-    app.set_version_flag("--version", std::string("rtm_host ") + tandem::version);
-    describe(app, arguments);
+    declare_options(app, arguments);
     CLI11_PARSE(app, argc, argv);
     try {
         return run(arguments, argv);

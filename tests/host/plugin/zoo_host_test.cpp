@@ -111,7 +111,7 @@ TEST_CASE("rtm_host warns of a component whose destructor hangs, runs it and lea
     CHECK(result.exit_code == 0);
     CHECK_THAT(result.errors, Catch::Contains("the destructor of Endless does not return; the host"));
     CHECK_THAT(result.errors, Catch::Contains("Endless0: its destructor does not return"));
-    CHECK_THAT(result.errors, Catch::Contains("leaving without it"));
+    CHECK_THAT(result.errors, Catch::Contains("exiting without waiting for it"));
 }
 
 TEST_CASE(

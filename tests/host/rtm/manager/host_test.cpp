@@ -227,7 +227,7 @@ TEST_CASE("A component that ends the process ends it with its own code and in ti
 TEST_CASE("Neither a read of stdin nor a static destructor holds the host for ever") {
     for (const auto& [how, said, code, line] :
          {std::tuple("stdin", "reads\n", 0, "a component does not stop"),
-          {"static", "is there\n", 1, "does not come back from its static destructors"}}) {
+          {"static", "is there\n", 1, "static destructors do not return"}}) {
         CAPTURE(how);
         Folder folder;
         HostProcess host(
