@@ -50,8 +50,8 @@ void probe_module(const tandem::plugin::Probe& how, const std::string& library, 
                                                     {init, std::to_string(destructor_timeout.count())});
     if (!stuck.empty())
         RTC_WARN(
-            ("module %s: the destructor of %s does not return; when such a component exits, the host will "
-             "go on without waiting for it",
+            ("module %s: the destructor of %s does not return; the host will not wait for it when such a "
+             "component exits",
              library.c_str(), stuck.c_str()));
 }
 
