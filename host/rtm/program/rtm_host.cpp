@@ -30,6 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The command line, as CLI11 fills it in.
 struct Arguments {
     std::string conf_file, port;
     std::string lockstep_socket; // empty: cycles run on timers
@@ -140,6 +141,7 @@ void bound_static_destructors(RTC::Manager& manager) {
                                           "waiting for them");
 }
 
+// From the start of the manager to its end; the exit code. Throws std::runtime_error before the manager runs.
 int run(const Arguments& a, char** argv_of_program) {
     for (const auto& notice : tandem::rt::apply(a.switches)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
@@ -166,13 +168,14 @@ int run(const Arguments& a, char** argv_of_program) {
         std::fflush(stdout);
         manager.runManager();
         all_ended = manager.endedInOrder();
-        steps.reset();
+        steps.reset(); // its thread ends before restart() replaces the process
         if (manager.restartWanted()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         manager.shutdown();
         tandem::process::exit_process(1); // without static destructors: components may be half constructed
     }
+    // Static destructors must not run while the thread of a callback that hangs uses static objects.
     if (!all_ended) {
         spdlog::warn("a component does not stop; exiting without waiting for it");
         tandem::process::exit_process(0);
@@ -189,6 +192,8 @@ int main(int argc, char** argv) {
     spdlog::set_default_logger(
         std::make_shared<spdlog::logger>("rtm_host", std::make_shared<spdlog::sinks::stderr_sink_mt>()));
     std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of write(), not the end of the host
+    // Installed before components are created, so that a signal meanwhile ends the host in order, too.
+    // runManager() keeps these handlers.
     for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { RTC::Manager::terminate(); });
     CLI::App app{"Runs the RT-Components that an rtc.conf names"};
     Arguments arguments;

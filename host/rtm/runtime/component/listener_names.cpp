@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// toString() of each kind of listener: the names that OpenRTM-aist gives them, in the order of the enumerators.
+// toString() of each kind of listener. OpenRTM-aist has the same function in ComponentActionListener.h,
+// ConfigurationListener.h, FsmActionListener.h and PortConnectListener.h; programs print these names and match
+// them. Each table is in the order of its enumerators.
 #include <rtm/ComponentActionListener.h>
 #include <rtm/ConfigurationListener.h>
 #include <rtm/FsmActionListener.h>

@@ -33,6 +33,7 @@ void RTObject_impl::becomeServant() {
     m_profile.parent = RTC::RTObject::_nil();
 }
 
+// The Configuration servant may still be in a call of a tool: its last reference deletes it.
 RTObject_impl::~RTObject_impl() {
     if (m_sdoConfiguration != nullptr) m_sdoConfiguration->_remove_ref();
 }
@@ -41,11 +42,14 @@ DataFlowComponentBase::DataFlowComponentBase(Manager* manager) : RTObject_impl(m
 DataFlowComponentBase::~DataFlowComponentBase() = default;
 void DataFlowComponentBase::init() {}
 
+// What RTC::Delete<T> calls. Deactivated first, so that no new call of a tool comes; one in progress holds a
+// reference of its own and defers the deletion.
 void deleteRTObject(RTObject_impl* rtc) {
     rtc->retire();
     rtc->_remove_ref();
 }
 
+// Deactivates the servant: calls to the component now raise OBJECT_NOT_EXIST.
 void RTObject_impl::retire() {
     try {
         m_pPOA->deactivate_object(m_oid.in());
@@ -62,6 +66,7 @@ ReturnCode_t RTObject_impl::initialize() {
     const ReturnCode_t result = on_initialize();
     if (result != RTC_OK) return result;
     m_created = false;
+    // Most programs have no SDO services; without types of them the Configuration servant is not created.
     if (!SdoServiceProviderFactory::instance().getIdentifiers().empty()) {
         SDOPackage::Configuration_var created = get_configuration();
         m_sdoConfiguration->services().start_providers();
@@ -70,6 +75,8 @@ ReturnCode_t RTObject_impl::initialize() {
     return RTC_OK;
 }
 
+// Creates the contexts that the settings ask for (contexts_wanted()), and binds this component to each as its
+// owner. Throws ManagerError.
 void RTObject_impl::createContexts() {
     for (auto& options : contexts_wanted(m_properties)) {
         ExecutionContextBase* context = m_pManager->createContext(options.getProperty("type").c_str());
@@ -86,6 +93,8 @@ void RTObject_impl::createContexts() {
 // whose contexts still run must not be finalized.
 ReturnCode_t RTObject_impl::finalize() { return PRECONDITION_NOT_MET; }
 
+// The end of a component whose contexts have stopped, in the reverse order of initialize(): onFinalize may
+// still use ports and contexts. The manager comes last, because it may delete the component at any time after.
 ReturnCode_t RTObject_impl::finish() {
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);
@@ -106,12 +115,12 @@ ReturnCode_t RTObject_impl::exit() {
     if (m_created) return PRECONDITION_NOT_MET;
     if (m_exiting) return RTC_OK;
     for (auto* context : m_eclist) {
-        if (!context->insideCycle()) continue;
+        if (!context->insideCycle()) continue; // of the calling thread
         // Called by the component's own callback: the context cannot be stopped from within its cycle.
         m_pManager->invoke([this] { exit(); });
         return RTC_OK;
     }
-    if (m_exiting.exchange(true)) return RTC_OK;
+    if (m_exiting.exchange(true)) return RTC_OK; // another thread was faster
     m_organizations->leave_all(getInstanceName());
     RTObject_var self = getObjRef();
     ReturnCode_t stopped = RTC_OK;
@@ -123,6 +132,7 @@ ReturnCode_t RTObject_impl::exit() {
         if (context->getComponentState(self.in()) == ACTIVE_STATE) context->deactivateComponent(self.in());
         context->stop();
     }
+    // Copied, because these contexts call detach_context(), which takes the mutex.
     std::vector<ExecutionContext_var> others;
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);
@@ -144,12 +154,14 @@ ReturnCode_t RTObject_impl::exit() {
     return finish();
 }
 
+// Disconnects and deactivates all ports. They are members of the derived class, so they are not deleted here.
 void RTObject_impl::finalizePorts() {
     m_portAdmin.finalizePorts();
     m_inports.clear();
     m_outports.clear();
 }
 
+// Retired first: a context that is deleted must not be called by tools any more.
 void RTObject_impl::finalizeContexts() {
     for (auto* context : m_eclist) {
         context->retire();
@@ -160,6 +172,7 @@ void RTObject_impl::finalizeContexts() {
     m_ecMine.clear();
 }
 
+// In the sense of the RTC specification: alive in a context, owned or attached.
 CORBA::Boolean RTObject_impl::is_alive(ExecutionContext_ptr exec_context) {
     return get_context_handle(exec_context) >= 0;
 }
@@ -202,6 +215,7 @@ ExecutionContextList* RTObject_impl::get_participating_contexts() {
     return to_list(m_ecOther);
 }
 
+// The id by which get_context() finds this context; -1 for one that the component has no part in.
 ExecutionContextHandle_t RTObject_impl::get_context_handle(ExecutionContext_ptr context) {
     if (CORBA::is_nil(context)) return -1;
     std::lock_guard<std::mutex> lock(m_contextsMutex);
@@ -224,6 +238,8 @@ UniqueId RTObject_impl::bindContext(ExecutionContext_ptr context) {
     return id;
 }
 
+// Called by a context of another component that takes this one in. Listeners are called without the mutex,
+// because they may ask for contexts.
 UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
     if (CORBA::is_nil(context)) return -1;
     UniqueId id;
@@ -239,6 +255,7 @@ UniqueId RTObject_impl::attach_context(ExecutionContext_ptr context) {
     return id;
 }
 
+// Leaves a gap, so that the ids of the other contexts stay.
 ReturnCode_t RTObject_impl::detach_context(UniqueId ec_id) {
     {
         std::lock_guard<std::mutex> lock(m_contextsMutex);
@@ -252,6 +269,7 @@ ReturnCode_t RTObject_impl::detach_context(UniqueId ec_id) {
     return RTC_OK;
 }
 
+// The functions below ask the context through CORBA, which is a local call for own contexts. Rates are in Hz.
 double RTObject_impl::getExecutionRate(UniqueId ec_id) {
     ExecutionContext_var context = get_context(ec_id);
     return CORBA::is_nil(context.in()) ? 0.0 : context->get_rate();

@@ -8,6 +8,7 @@
 
 namespace RTC {
 
+// Callbacks that a component does not override do nothing.
 ReturnCode_t RTObject_impl::onInitialize() { return RTC_OK; }
 ReturnCode_t RTObject_impl::onFinalize() { return RTC_OK; }
 ReturnCode_t RTObject_impl::onStartup(UniqueId) { return RTC_OK; }
@@ -106,6 +107,7 @@ ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
     });
 }
 
+// The reverse: no service is called any more when onDeactivated runs.
 ReturnCode_t RTObject_impl::on_deactivated(UniqueId ec_id) {
     return guarded("onDeactivated", ec_id, Pre::PRE_ON_DEACTIVATED, Post::POST_ON_DEACTIVATED, [&] {
         m_portAdmin.deactivatePorts();
@@ -118,6 +120,7 @@ ReturnCode_t RTObject_impl::on_aborting(UniqueId ec_id) {
                    [&] { return onAborting(ec_id); });
 }
 
+// Configuration changes are applied in the error state, too: they may be what removes the cause.
 ReturnCode_t RTObject_impl::on_error(UniqueId ec_id) {
     return guarded("onError", ec_id, Pre::PRE_ON_ERROR, Post::POST_ON_ERROR, [&] {
         const ReturnCode_t result = onError(ec_id);
@@ -147,6 +150,7 @@ ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool rehearsal) {
     return guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, callback, rehearsal);
 }
 
+// The place where a running component's configuration changes, after onExecute and onStateUpdate.
 ReturnCode_t RTObject_impl::on_state_update(UniqueId ec_id) {
     return guarded("onStateUpdate", ec_id, Pre::PRE_ON_STATE_UPDATE, Post::POST_ON_STATE_UPDATE, [&] {
         const ReturnCode_t result = onStateUpdate(ec_id);
@@ -171,6 +175,7 @@ bool RTObject_impl::readAll() {
     return all;
 }
 
+// The same for the OutPorts.
 bool RTObject_impl::writeAll() {
     bool all = true;
     for (auto* port : m_outports) {

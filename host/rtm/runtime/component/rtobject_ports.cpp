@@ -6,6 +6,7 @@
 
 namespace RTC {
 
+// The caller owns the profile. Built at each call, because ports and properties change.
 ComponentProfile* RTObject_impl::get_component_profile() {
     ComponentProfile_var profile = new ComponentProfile(m_profile);
     NVUtil::copyFromProperties(profile->properties, m_properties);
@@ -40,6 +41,7 @@ void RTObject_impl::setProperties(const coil::Properties& prop) {
     rtclog.setName(m_profile.instance_name);
 }
 
+// The part that all kinds of ports have in common. False: the component has a port of that name.
 bool RTObject_impl::addNamed(const char* name, PortBase& port) {
     // The owner's name becomes part of the port's full name (`Component.port`).
     port.setOwner(m_objref.in(), m_profile.instance_name);
@@ -62,6 +64,7 @@ bool RTObject_impl::addPort(CorbaPort& port) {
     return addNamed(name.c_str(), port);
 }
 
+// False: the component has a port of that name.
 bool RTObject_impl::addInPort(const char* name, InPortBase& inport) {
     coil::Properties& node = m_properties.getNode(std::string("port.inport.") + name);
     if (const auto* common = m_properties.findNode("port.inport.dataport")) node << *common;
@@ -80,6 +83,7 @@ bool RTObject_impl::addOutPort(const char* name, OutPortBase& outport) {
     return true;
 }
 
+// Ports of other components, which a composite shows as its own.
 bool RTObject_impl::addPort(PortService_ptr port) { return m_portAdmin.addPort(port); }
 bool RTObject_impl::removePort(PortService_ptr port) { return m_portAdmin.removePort(port); }
 
@@ -92,6 +96,7 @@ bool RTObject_impl::removeOutPort(OutPortBase& port) {
     return removePort(static_cast<PortBase&>(port));
 }
 
+// Ports that are in neither list are service ports. Connections are ended by PortAdmin.
 bool RTObject_impl::removePort(PortBase& port) {
     std::erase_if(m_inports, [&](InPortBase* p) { return static_cast<PortBase*>(p) == &port; });
     std::erase_if(m_outports, [&](OutPortBase* p) { return static_cast<PortBase*>(p) == &port; });

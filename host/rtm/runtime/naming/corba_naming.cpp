@@ -33,6 +33,7 @@ CosNaming::BindingList* list_all(CosNaming::NamingContext_ptr context, CORBA::UL
 
 CorbaNaming::CorbaNaming(CORBA::ORB_ptr orb) : m_varORB(CORBA::ORB::_duplicate(orb)) {}
 
+// Throws std::bad_alloc when there is no name server, as OpenRTM-aist does.
 CorbaNaming::CorbaNaming(CORBA::ORB_ptr orb, const char* name_server) : CorbaNaming(orb) {
     init(name_server);
     if (CORBA::is_nil(m_rootContext.in())) throw std::bad_alloc();
@@ -50,6 +51,7 @@ void CorbaNaming::init(const char* name_server) {
     m_rootContext = CosNaming::NamingContextExt::_narrow(object.in());
 }
 
+// Calls the server, within the ORB's time limit.
 bool CorbaNaming::isAlive() {
     try {
         return !CORBA::is_nil(m_rootContext.in()) && !m_rootContext->_non_existent();
@@ -58,6 +60,7 @@ bool CorbaNaming::isAlive() {
     }
 }
 
+// The caller releases the reference. Throws NotFound and the other exceptions of CosNaming.
 CORBA::Object_ptr CorbaNaming::resolve(const CosNaming::Name& name) { return m_rootContext->resolve(name); }
 CORBA::Object_ptr CorbaNaming::resolve(const char* string_name) { return resolve(toName(string_name)); }
 
@@ -104,6 +107,7 @@ void CorbaNaming::listByKind(const char* string_name, const char* string_kind,
     bl = matching._retn();
 }
 
+// _narrow() may have to ask the object's process for its type.
 bool CorbaNaming::isNamingContext(CORBA::Object_ptr obj) {
     try {
         CosNaming::NamingContext_var context = Context::_narrow(obj);

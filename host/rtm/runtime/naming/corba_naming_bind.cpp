@@ -46,6 +46,7 @@ void bind_with_contexts(bool force, Direct direct, Recursive recursive) {
 
 } // namespace
 
+// Throws AlreadyBound when the name is in use.
 void CorbaNaming::bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
     bind_with_contexts(
         force, [&] { m_rootContext->bind(name, obj); },
@@ -60,6 +61,7 @@ void CorbaNaming::bindRecursive(CosNaming::NamingContext_ptr context, const CosN
     parent->bind(last_part(name), obj);
 }
 
+// Replaces another object of the name.
 void CorbaNaming::rebind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
     bind_with_contexts(
         force, [&] { m_rootContext->rebind(name, obj); },
@@ -74,6 +76,7 @@ void CorbaNaming::rebindRecursive(CosNaming::NamingContext_ptr context, const Co
     parent->rebind(last_part(name), obj);
 }
 
+// The same two for contexts: a name server resolves names through contexts that are bound as such.
 void CorbaNaming::bindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt,
                               bool force) {
     bind_with_contexts(
@@ -108,6 +111,7 @@ void CorbaNaming::unbind(const CosNaming::Name& name) { m_rootContext->unbind(na
 void CorbaNaming::unbind(const char* string_name) { unbind(toName(string_name)); }
 
 CosNaming::NamingContext_ptr CorbaNaming::newContext() { return m_rootContext->new_context(); }
+// Creates a context and binds it; the caller releases the reference.
 CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const CosNaming::Name& name, bool force) {
     CosNaming::NamingContext_var made;
     bind_with_contexts(

@@ -14,6 +14,7 @@ coil::Properties get_configuration(RTObject_ptr rtc, const std::string& set_name
     return NVUtil::toProperties(set->configuration_data);
 }
 
+// The id of the active set, `default` as a rule.
 std::string get_active_configuration_name(RTObject_ptr rtc) {
     SDOPackage::Configuration_var configuration = rtc->get_configuration();
     SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();

@@ -16,6 +16,7 @@ coil::Properties get_component_profile(RTObject_ptr rtc) {
     return NVUtil::toProperties(profile->properties);
 }
 
+// False as well when its process does not answer.
 bool is_existing(RTObject_ptr rtc) {
     try {
         return !CORBA::is_nil(rtc) && !rtc->_non_existent();
@@ -54,6 +55,7 @@ RTC::ReturnCode_t reset(RTObject_ptr rtc, UniqueId ec_id) {
     return request_transition(rtc, ec_id, &RTC::_objref_ExecutionContext::reset_component);
 }
 
+// False: the component has no context of this id; `state` is unchanged then.
 bool get_state(LifeCycleState& state, RTObject_ptr rtc, UniqueId ec_id) {
     RTC::ExecutionContext_var context = get_actual_ec(rtc, ec_id);
     if (CORBA::is_nil(context.in())) return false;
@@ -93,6 +95,7 @@ RTC::ReturnCode_t set_current_rate(RTObject_ptr rtc, UniqueId ec_id, double rate
     return CORBA::is_nil(context.in()) ? RTC::BAD_PARAMETER : context->set_rate(rate);
 }
 
+// -1: the component has no part in the context.
 UniqueId get_ec_id(RTObject_ptr rtc, RTC::ExecutionContext_ptr context) {
     return CORBA::is_nil(context) ? -1 : rtc->get_context_handle(context);
 }

@@ -7,6 +7,7 @@
 namespace RTC {
 namespace {
 
+// Creates all contexts of a path; those that exist are kept.
 void create_contexts(CosNaming::NamingContext_ptr root, const CosNaming::Name& name) {
     for (CORBA::ULong depth = 1; depth < name.length(); ++depth) {
         CosNaming::Name prefix(name);
@@ -78,6 +79,7 @@ void NameBindings::set_reachable(const std::string& address, bool reachable) {
         if (server.address == address) server.reachable = reachable;
 }
 
+// The entry is recorded first: a server that fails now gets it by update().
 std::vector<std::string> NameBindings::bind(const std::string& path, CORBA::Object_ptr object) {
     {
         std::lock_guard<std::mutex> lock(mutex_);

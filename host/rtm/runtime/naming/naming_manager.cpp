@@ -7,6 +7,7 @@
 
 namespace RTC {
 
+// CORBA is the only method; OpenRTM-aist also has `manager`, which rtcloc:// names replace here.
 void NamingManager::registerNameServer(const char* method, const char* name_server) {
     Logger& rtclog = m_manager->impl().log;
     if (coil::normalize(method) != "corba") {
@@ -39,6 +40,7 @@ void NamingManager::bindObject(const char* name, const RTM::ManagerServant* mgr)
     bind(name, RTM::Manager_var(mgr->getObjRef()).in(), nullptr);
 }
 
+// On request of the program; the connection keeper does the same every naming.update.interval.
 void NamingManager::update() {
     Logger& rtclog = m_manager->impl().log;
     for (const auto& line : m_manager->impl().name_bindings->update(true)) RTC_INFO(("%s", line.c_str()));
@@ -50,6 +52,7 @@ void NamingManager::unbindObject(const char* name) {
     m_bound.erase(name);
 }
 
+// Entries are taken out under the mutex and unbound without it, since unbinding calls name servers.
 void NamingManager::unbindAll() {
     std::map<std::string, const RTObject_impl*> all;
     {

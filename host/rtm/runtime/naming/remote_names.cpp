@@ -141,6 +141,7 @@ RTObject_ptr resolve_by_name_server(CORBA::ORB_ptr orb, const std::string& serve
     throw RemoteUnavailable(name + ": name server " + server + " has no such entry");
 }
 
+// The path is an instance name, or category/name, as RTM::Manager::get_components_by_name() takes it.
 RTObject_ptr resolve_by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, const std::string& name,
                                 unsigned long milliseconds) {
     RTM::Manager_var manager = resolve_manager(orb, parsed.address, milliseconds);

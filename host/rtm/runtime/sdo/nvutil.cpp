@@ -27,6 +27,7 @@ void set(SDOPackage::NVList& nv, const char* name, const char* value) {
 
 } // namespace
 
+// An `any` needs to be told these types, which are one C++ type: char, boolean and octet.
 SDOPackage::NameValue newNVChar(const char* name, CORBA::Char value) {
     auto nv = without_value(name);
     nv.value <<= CORBA::Any::from_char(value);
@@ -48,6 +49,7 @@ SDOPackage::NameValue newNVAny(const char* name, const CORBA::Any& value) {
     return nv;
 }
 
+// Leaves of the tree become values whose names are the full keys, `conf.default.gain`.
 void copyFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop) {
     nv.length(0);
     mergeFromProperties(nv, prop);
@@ -81,6 +83,7 @@ CORBA::Long find_index(const SDOPackage::NVList& nv, const char* name) {
     return -1;
 }
 
+// Throws std::invalid_argument when there is no value of that name.
 const CORBA::Any& find(const SDOPackage::NVList& nv, const char* name) {
     const CORBA::Long index = find_index(nv, name);
     if (index < 0) throw std::invalid_argument(std::string("no value named ") + name + " in the list");
@@ -97,6 +100,7 @@ bool isStringValue(const SDOPackage::NVList& nv, const char* name, const char* v
     return isString(nv, name) && toString(nv, name) == value;
 }
 
+// Empty: no such value, or not a string.
 std::string toString(const SDOPackage::NVList& nv, const char* name) {
     const CORBA::Long index = find_index(nv, name);
     const char* value = nullptr;
@@ -116,6 +120,7 @@ void append(SDOPackage::NVList& dest, const SDOPackage::NVList& src) {
     CORBA_SeqUtil::push_back_list(dest, src);
 }
 
+// One `name: value` per line, for people.
 std::ostream& dump(std::ostream& out, const SDOPackage::NVList& nv) {
     for (CORBA::ULong i = 0; i < nv.length(); ++i) {
         const char* value = nullptr;

@@ -15,6 +15,7 @@ OrganizationList* Organizations::list() const {
     return list._retn();
 }
 
+// Compares references, not ids: comparing does not call the organizations' processes.
 bool Organizations::add(Organization_ptr organization) {
     if (CORBA::is_nil(organization)) return false;
     std::lock_guard<std::mutex> lock(mutex_);
@@ -24,6 +25,7 @@ bool Organizations::add(Organization_ptr organization) {
     return true;
 }
 
+// Walks a copy, because the ids are asked for without the mutex.
 bool Organizations::remove(const std::string& id) {
     OrganizationList_var present = list();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -35,6 +37,7 @@ bool Organizations::remove(const std::string& id) {
     return false;
 }
 
+// The last thing a component does with its organizations when it exits.
 void Organizations::leave_all(const std::string& id) {
     OrganizationList_var present = list();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -48,6 +51,7 @@ void Organizations::leave_all(const std::string& id) {
     all_.clear();
 }
 
+// A servant from its construction on; its id is a new UUID.
 Organization_impl::Organization_impl(SDOSystemElement_ptr owner)
     : id_(coil::UUID_Generator().generateUUID()->to_string()), owner_(SDOSystemElement::_duplicate(owner)) {
     oid_ = RTC::Manager::instance().thePOA()->activate_object(this);
@@ -75,6 +79,7 @@ CORBA::Long index_of(const NVList& properties, const char* name) {
 
 } // namespace
 
+// The caller owns the copy.
 CORBA::Any* Organization_impl::get_organization_property_value(const char* name) {
     std::lock_guard<std::mutex> lock(mutex_);
     const CORBA::Long index = index_of(property_.properties, name);
@@ -129,6 +134,7 @@ SDOList* Organization_impl::get_members() {
     return new SDOList(members_);
 }
 
+// Members are not told that they are members: PeriodicECOrganization does more.
 CORBA::Boolean Organization_impl::set_members(const SDOList& sdos) {
     std::lock_guard<std::mutex> lock(mutex_);
     members_ = sdos;
@@ -144,6 +150,7 @@ CORBA::Boolean Organization_impl::add_members(const SDOList& sdos) {
     return true;
 }
 
+// By the member's SDO id, which is its instance name. Throws InvalidParameter when there is none.
 CORBA::Boolean Organization_impl::remove_member(const char* id) {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {

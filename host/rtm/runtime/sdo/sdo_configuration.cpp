@@ -7,6 +7,7 @@
 namespace SDOPackage {
 namespace {
 
+// A set as tools see it: its name, its description, and its parameters as strings.
 ConfigurationSet to_corba(const coil::Properties& set) {
     ConfigurationSet out;
     out.id = CORBA::string_dup(set.getName());
@@ -35,6 +36,7 @@ Configuration_impl::Configuration_impl(RTC::RTObject_impl& owner, RTC::ConfigAdm
     id_ = poa_->activate_object(this);
 }
 
+// Ends the services, then refuses calls of tools.
 void Configuration_impl::retire() {
     services_.finalize();
     try {
@@ -44,7 +46,9 @@ void Configuration_impl::retire() {
     }
 }
 
+// Device profiles are not supported; false tells the tool so.
 CORBA::Boolean Configuration_impl::set_device_profile(const DeviceProfile&) { return false; }
+// A tool offers a service of its own: the component gets a consumer for it.
 CORBA::Boolean Configuration_impl::add_service_profile(const ServiceProfile& profile) {
     return services_.add_consumer(profile);
 }
@@ -89,6 +93,7 @@ ConfigurationSetList* Configuration_impl::get_configuration_sets() {
     return list._retn();
 }
 
+// Also returns description sets, which tools read by name.
 ConfigurationSet* Configuration_impl::get_configuration_set(const char* config_id) {
     if (!sets_.haveConfig(config_id)) throw InternalError("no such configuration set");
     return new ConfigurationSet(to_corba(sets_.getConfigurationSet(config_id)));
@@ -122,6 +127,7 @@ namespace RTC {
 SDOPackage::OrganizationList* RTObject_impl::get_owned_organizations() {
     return m_ownedOrganizations->list();
 }
+// The id within organizations; the caller frees the string.
 char* RTObject_impl::get_sdo_id() { return CORBA::string_dup(m_profile.instance_name); }
 char* RTObject_impl::get_sdo_type() { return CORBA::string_dup(m_profile.description); }
 SDOPackage::DeviceProfile* RTObject_impl::get_device_profile() { return new SDOPackage::DeviceProfile; }
@@ -162,6 +168,7 @@ SDOPackage::Configuration_ptr RTObject_impl::get_configuration() {
         m_sdoConfiguration = new SDOPackage::Configuration_impl(*this, m_configsets, m_organizations);
     return m_sdoConfiguration->_this();
 }
+// Optional in the specification; OpenRTM-aist does not implement it either.
 SDOPackage::Monitoring_ptr RTObject_impl::get_monitoring() {
     throw SDOPackage::InterfaceNotImplemented("this component has no Monitoring interface");
 }

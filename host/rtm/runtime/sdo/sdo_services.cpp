@@ -17,6 +17,7 @@ typename std::vector<Service*>::iterator find_by_id(std::vector<Service*>& servi
     });
 }
 
+// Finalizes a service and gives it up.
 void release(SdoServiceProviderBase* provider) {
     provider->finalize();
     provider->_remove_ref(); // a servant: a call in progress still holds a reference
@@ -36,12 +37,14 @@ SdoServices::SdoServices(RTObject_impl& owner, const coil::Properties& config)
 
 SdoServices::~SdoServices() { finalize(); }
 
+// `kind` is provider or consumer.
 bool SdoServices::is_enabled(const char* kind, const std::string& type) const {
     const std::string enabled =
         config_.getProperty(std::string("sdo.service.") + kind + ".enabled_services", "ALL");
     return coil::includes(enabled, "all") || coil::includes(enabled, type);
 }
 
+// The id of such a provider is its interface type: there is one of each type.
 void SdoServices::start_providers() {
     for (const auto& type : SdoServiceProviderFactory::instance().getIdentifiers()) {
         if (!is_enabled("provider", type)) continue;
@@ -63,6 +66,7 @@ void SdoServices::finalize() {
     consumers_.clear();
 }
 
+// The mutex is recursive, because init() and finalize() of a service may ask the component for its services.
 bool SdoServices::add_provider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider) {
     Lock lock(mutex_);
     if (find_by_id(providers_, static_cast<const char*>(profile.id)) != providers_.end()) return false;
@@ -112,6 +116,7 @@ SDOPackage::ServiceProfileList* SdoServices::profiles() const {
     return list._retn();
 }
 
+// Consumers are not listed: their services belong to tools.
 SDOPackage::ServiceProfile SdoServices::profile(const std::string& id) const {
     Lock lock(mutex_);
     for (auto* provider : providers_)

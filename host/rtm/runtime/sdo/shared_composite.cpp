@@ -32,6 +32,7 @@ CORBA::Boolean PeriodicECOrganization::set_members(const SDOList& sdos) {
     return add_members(sdos);
 }
 
+// Throws InvalidParameter when there is no member of that id.
 CORBA::Boolean PeriodicECOrganization::remove_member(const char* id) {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -43,6 +44,7 @@ CORBA::Boolean PeriodicECOrganization::remove_member(const char* id) {
     return Organization_impl::remove_member(id);
 }
 
+// Goes on after a member that cannot be reached, whose process may have ended.
 void PeriodicECOrganization::removeAllMembers() {
     SDOList_var present = get_members();
     for (CORBA::ULong i = 0; i < present->length(); ++i) {
@@ -74,8 +76,10 @@ void PeriodicECOrganization::forAllMembers(
     }
 }
 
+// The composite's first own context is the one that its members share.
 RTC::ExecutionContextBase& PeriodicECOrganization::context() { return *m_rtobj->getOwnContexts().at(0); }
 
+// Starts or stops the member's own contexts.
 void PeriodicECOrganization::runOwnContexts(RTC::RTObject_ptr member, bool run) {
     RTC::ExecutionContextList_var own = member->get_owned_contexts();
     for (CORBA::ULong i = 0; i < own->length(); ++i) {
@@ -103,6 +107,7 @@ bool PeriodicECOrganization::takeIn(RTC::RTObject_ptr member) {
     return true;
 }
 
+// The reverse of takeIn().
 void PeriodicECOrganization::letGo(RTC::RTObject_ptr member) {
     exportPortsOf(member, false);
     // Called by a callback within a cycle of the context, these transitions are only requested; the member is
@@ -184,6 +189,7 @@ void register_shared_composite(Manager& manager) {
     manager.registerFactory(profile, Create<PeriodicECSharedComposite>, Delete<PeriodicECSharedComposite>);
 }
 
+// The organization exists before onInitialize, so that tools can add members at any time.
 PeriodicECSharedComposite::PeriodicECSharedComposite(Manager* manager)
     : RTObject_impl(manager),
       m_org(new SDOPackage::PeriodicECOrganization(this, RTObject_var(getObjRef()).in())) {
@@ -218,6 +224,7 @@ ReturnCode_t PeriodicECSharedComposite::onInitialize() {
     return m_org->add_members(members) ? RTC_OK : RTC_ERROR;
 }
 
+// Transitions of the composite are those of all its members, in the shared context.
 ReturnCode_t PeriodicECSharedComposite::onActivated(UniqueId) {
     m_org->forAllMembers(&ExecutionContextBase::activateComponent);
     return RTC_OK;
@@ -237,4 +244,5 @@ ReturnCode_t PeriodicECSharedComposite::onFinalize() {
 
 } // namespace RTC
 
+// The init function of OpenRTM-aist's module of this name, for programs that call it.
 void PeriodicECSharedCompositeInit(RTC::Manager* manager) { RTC::register_shared_composite(*manager); }
