@@ -2,19 +2,30 @@
 # What every target of the tree shares: warnings, sanitizers, output folders, run paths, and the two ways to
 # declare a plugin and a test.
 
+# ccache keeps objects between builds. It can cache what uses a precompiled header only if told that no macro in front of
+# it and no time of day matters, which holds here.
 find_program(CCACHE_PROGRAM ccache)
-if(CCACHE_PROGRAM)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
 
-set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
-set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
-set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
+# Most of the compile time is headers (CORBA, CLI11, spdlog, Catch2), so files of one library are compiled together. The
+# preset dev compiles each file by itself, which shows a missing #include.
+set(CMAKE_UNITY_BUILD ${TANDEM_UNITY_BUILD})
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
 set(TANDEM_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/tandem/plugins)
 
 # Relative run paths, so that the installed tree works from any prefix.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+
+# For code that no robot waits for (command lines, reports, tests): the optimizer costs more time there than it saves.
+set(TANDEM_COLD_CODE $<$<CONFIG:Release>:-O1>)
 
 # g++ 12 sees overlaps in std::string's operator+ that are not there (GCC bug 105329).
 add_compile_options(-Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
@@ -36,6 +47,21 @@ if(TANDEM_COVERAGE)
   add_link_options(--coverage)
 endif()
 
+# tandem_sources(OUT FOLDER...)
+# The .cpp files of the named folders, below the current one. A new file needs no line in a CMakeLists.txt.
+function(tandem_sources out)
+  set(found "")
+  foreach(folder ${ARGN})
+    file(REAL_PATH ${folder} absolute BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+    file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${absolute}/*.cpp)
+    if(NOT files)
+      message(FATAL_ERROR "tandem_sources: ${CMAKE_CURRENT_SOURCE_DIR}/${folder} has no .cpp file")
+    endif()
+    list(APPEND found ${files})
+  endforeach()
+  set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
 # tandem_add_plugin(NAME opros|rtm SOURCES a.cpp ... [LIBRARIES x ...])
 # A component library NAME.so in plugins/MODEL, linked with that model's component library only.
 function(tandem_add_plugin name model)
@@ -44,18 +70,26 @@ function(tandem_add_plugin name model)
   target_link_libraries(plugin_${model}_${name} PRIVATE tandem_${model} ${arg_LIBRARIES})
   set_target_properties(plugin_${model}_${name} PROPERTIES
     PREFIX "" OUTPUT_NAME ${name}
-    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/plugins/${model}
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/plugins/${model}
     INSTALL_RPATH "$ORIGIN/../../..")
   install(TARGETS plugin_${model}_${name} LIBRARY DESTINATION ${TANDEM_PLUGIN_DIR}/${model})
 endfunction()
 
-# tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [ARGUMENTS_TO add_test properties ...])
-# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test.
+# tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [SEPARATE])
+# A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. SEPARATE compiles each file by itself, for files
+# whose helpers have the same names.
 function(tandem_add_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
+  cmake_parse_arguments(arg "SEPARATE" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE tandem_test_main ${arg_LIBRARIES})
-  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_compile_options(test_${name} PRIVATE ${TANDEM_COLD_CODE})
+  if(arg_SEPARATE)
+    set_target_properties(test_${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
+  if(TANDEM_UNITY_BUILD)
+    target_precompile_headers(test_${name} REUSE_FROM tandem_test_main)
+  endif()
+  set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
     PROPERTIES TIMEOUT 300 ${arg_PROPERTIES})
 endfunction()

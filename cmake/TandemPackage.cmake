@@ -5,8 +5,8 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
 set(package_source ${PROJECT_SOURCE_DIR}/cmake/package)
-set(package_built ${CMAKE_BINARY_DIR}/${package_dir})
-set(package_installed ${CMAKE_BINARY_DIR}/package) # what differs in the installed tree
+set(package_built ${PROJECT_BINARY_DIR}/${package_dir})
+set(package_installed ${PROJECT_BINARY_DIR}/package) # what differs in the installed tree
 
 function(tandem_package_config file prefix)
   configure_package_config_file(${package_source}/TandemConfig.cmake.in ${file}
@@ -15,7 +15,7 @@ function(tandem_package_config file prefix)
 endfunction()
 set(RTM_GENERATED_DIR ${TANDEM_RTM_IDL_INCLUDE})
 set(RTM_CMAKE_DIR ${PROJECT_SOURCE_DIR}/host/rtm/cmake)
-tandem_package_config(${package_built}/TandemConfig.cmake ${CMAKE_BINARY_DIR})
+tandem_package_config(${package_built}/TandemConfig.cmake ${PROJECT_BINARY_DIR})
 set(RTM_GENERATED_DIR ${CMAKE_INSTALL_INCLUDEDIR}/tandem/rtm)
 set(RTM_CMAKE_DIR ${CMAKE_INSTALL_DATADIR}/tandem/rtm/cmake)
 tandem_package_config(${package_installed}/TandemConfig.cmake ${CMAKE_INSTALL_PREFIX})

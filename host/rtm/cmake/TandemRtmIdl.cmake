@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # tandem_add_rtm_idl(TARGET F.idl ... [INCLUDE_DIRS dir ...])
-# Compiles service and data IDL files of a component into TARGET: F.hh FSK.cc FDynSK.cc (omniidl),
-# the thin FSkel.h FSkel.cpp FStub.h FStub.cpp that component sources include, and FSignatures.cpp, with
-# which the operations' signatures are known at run time (RTC::InterfaceSignatures).
-# FSkel.cpp is compiled; FStub.cpp, its equal for targets that only call, is written beside it.
+# Compiles service and data IDL files of a component into TARGET. omniidl writes F.hh, FSK.cc, FDynSK.cc and
+# FSignatures.cpp, which registers the operations' signatures at run time (RTC::InterfaceSignatures). FSkel.cpp includes
+# the three sources, so that each IDL file is one translation unit; FSkel.h and FStub.h are what component sources
+# include. FStub.cpp is for targets that only call, and is written but not compiled.
+# Several components that use one IDL file share the code through an object library:
+#   add_library(my_idl OBJECT)   tandem_add_rtm_idl(my_idl F.idl)   target_link_libraries(MyComponent PRIVATE my_idl)
 set(TANDEM_RTM_IDL_TOOLS ${CMAKE_CURRENT_LIST_DIR}/../idl CACHE INTERNAL "")
 find_program(OMNIIDL omniidl REQUIRED)
 
@@ -23,7 +25,7 @@ function(tandem_run_omniidl out idl directory)
     file(CONFIGURE OUTPUT ${directory}/${base}${kind}.h @ONLY CONTENT
 "// Made from ${base}.idl; changes are lost.\n#pragma once\n#include \"${base}.hh\"\n")
     file(CONFIGURE OUTPUT ${directory}/${base}${kind}.cpp @ONLY CONTENT
-"// Made from ${base}.idl; changes are lost.\n#include \"${base}${kind}.h\"\n#include \"${base}SK.cc\"\n#include \"${base}DynSK.cc\"\n")
+"// Made from ${base}.idl; changes are lost.\n#include \"${base}${kind}.h\"\n#include \"${base}SK.cc\"\n#include \"${base}DynSK.cc\"\n#include \"${base}Signatures.cpp\"\n")
   endforeach()
   add_custom_command(
     OUTPUT ${directory}/${base}.hh ${directory}/${base}SK.cc ${directory}/${base}DynSK.cc
@@ -33,13 +35,11 @@ function(tandem_run_omniidl out idl directory)
             -btandem_signatures -C${directory} ${includes} ${idl}
     DEPENDS ${idl} ${TANDEM_RTM_IDL_TOOLS}/tandem_signatures.py
     COMMENT "omniidl ${base}.idl" VERBATIM)
-  set_source_files_properties(
-    ${directory}/${base}SK.cc ${directory}/${base}DynSK.cc ${directory}/${base}Skel.cpp
-    ${directory}/${base}Signatures.cpp PROPERTIES COMPILE_OPTIONS -w SKIP_LINTING ON)
+  # -O1: stubs marshal sequences by calls into omniORB, so that higher levels cost compile time only.
   set_source_files_properties(${directory}/${base}Skel.cpp PROPERTIES
-    OBJECT_DEPENDS "${directory}/${base}SK.cc;${directory}/${base}DynSK.cc;${directory}/${base}.hh")
-  set(${out} ${directory}/${base}.hh ${directory}/${base}SK.cc ${directory}/${base}DynSK.cc
-      ${directory}/${base}Skel.cpp ${directory}/${base}Signatures.cpp PARENT_SCOPE)
+    COMPILE_OPTIONS "-w;$<$<CONFIG:Release>:-O1>" SKIP_LINTING ON SKIP_PRECOMPILE_HEADERS ON
+    OBJECT_DEPENDS "${directory}/${base}SK.cc;${directory}/${base}DynSK.cc;${directory}/${base}Signatures.cpp")
+  set(${out} ${directory}/${base}.hh ${directory}/${base}Skel.cpp PARENT_SCOPE)
 endfunction()
 
 function(tandem_add_rtm_idl target)
@@ -48,8 +48,7 @@ function(tandem_add_rtm_idl target)
   foreach(idl ${arg_UNPARSED_ARGUMENTS})
     tandem_run_omniidl(sources ${idl} ${directory}
       INCLUDE_DIRS ${arg_INCLUDE_DIRS} ${TANDEM_RTM_IDL_TOOLS} ${TANDEM_RTM_IDL_INCLUDE})
-    list(FILTER sources EXCLUDE REGEX "SK.cc$")
     target_sources(${target} PRIVATE ${sources})
   endforeach()
-  target_include_directories(${target} SYSTEM PRIVATE ${directory})
+  target_include_directories(${target} SYSTEM PUBLIC ${directory})
 endfunction()

@@ -7,8 +7,6 @@
 namespace tandem::engine {
 namespace {
 
-std::string tag(const char* name) { return std::string("<").append(name).append(">"); }
-
 PortReference port_reference(const XmlFile& xml, const pugi::xml_node& connection, const char* end) {
     const pugi::xml_node node = connection.child(end);
     if (!node) xml.fail(connection, std::string("<port_connection> lacks its <").append(end).append(">"));

@@ -10,9 +10,10 @@
 #include <fstream>
 
 namespace tandem::engine {
-namespace {
 
 std::string tag(const char* name) { return std::string("<").append(name).append(">"); }
+
+namespace {
 
 std::string read_profile_bytes(const std::filesystem::path& file) {
     const auto fail = [&](const std::string& why) {

@@ -14,6 +14,9 @@ namespace tandem::engine {
 /// No profile is larger: those of real components have 1 to 10 KB.
 constexpr std::size_t max_profile_bytes = 1 << 20;
 
+/// An element as messages name it: "<name>".
+std::string tag(const char* name);
+
 /// An XML file with its line numbers, in any encoding that it declares. Every complaint is a SetupError with
 /// the place.
 class XmlFile {

@@ -53,6 +53,7 @@ OPROS_LOAD_NUMBER(unsigned long long)
 OPROS_LOAD_NUMBER(float)
 OPROS_LOAD_NUMBER(double)
 OPROS_LOAD_NUMBER(long double)
+#undef OPROS_LOAD_NUMBER
 
 void binary_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);

@@ -42,6 +42,7 @@ OPROS_SAVE_NUMBER(unsigned long long)
 OPROS_SAVE_NUMBER(float)
 OPROS_SAVE_NUMBER(double)
 OPROS_SAVE_NUMBER(long double)
+#undef OPROS_SAVE_NUMBER
 
 oarchive& binary_oarchive::save_binary(const char* p, long size) {
     m_os->put(BINARY_CODE);

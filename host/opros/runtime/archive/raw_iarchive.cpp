@@ -48,6 +48,7 @@ OPROS_LOAD_NUMBER(unsigned long long)
 OPROS_LOAD_NUMBER(float)
 OPROS_LOAD_NUMBER(double)
 OPROS_LOAD_NUMBER(long double)
+#undef OPROS_LOAD_NUMBER
 
 void raw_iarchive::get_blob(std::string& bytes) {
     unsigned long count = 0;

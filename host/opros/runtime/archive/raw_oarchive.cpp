@@ -38,6 +38,7 @@ OPROS_SAVE_NUMBER(unsigned long long)
 OPROS_SAVE_NUMBER(float)
 OPROS_SAVE_NUMBER(double)
 OPROS_SAVE_NUMBER(long double)
+#undef OPROS_SAVE_NUMBER
 
 oarchive& raw_oarchive::save_binary(const char* p, long size) {
     put(size);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/archive/checked_input.hpp"
+#include "host/opros/runtime/archive/pair_type.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
 #include <archive/opros_string_iarchive.h>
@@ -12,8 +13,6 @@ namespace opros::archive {
 namespace {
 
 constexpr std::size_t max_token_length = 4096; // the name of a type; numbers are much shorter
-
-bool is_pair(const std::string& name) { return name.rfind("std::pair<", 0) == 0; }
 
 template <typename T>
 T from_decimal(const std::string& text) {
@@ -85,6 +84,7 @@ iarchive& string_iarchive::load(bool& value) {
 OPROS_LOAD_CHARACTER(char)
 OPROS_LOAD_CHARACTER(signed char)
 OPROS_LOAD_CHARACTER(unsigned char)
+#undef OPROS_LOAD_CHARACTER
 
 iarchive& string_iarchive::load(wchar_t& value) {
     expect(WCHAR_T_CODE);
@@ -106,6 +106,7 @@ OPROS_LOAD_NUMBER(unsigned long long)
 OPROS_LOAD_NUMBER(float)
 OPROS_LOAD_NUMBER(double)
 OPROS_LOAD_NUMBER(long double)
+#undef OPROS_LOAD_NUMBER
 
 void string_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
@@ -143,7 +144,7 @@ iarchive& string_iarchive::load(std::wstring& value) {
 }
 
 iarchive& string_iarchive::read_class_head(const std::string& name) {
-    if (is_pair(name)) return *this;
+    if (is_pair_type(name)) return *this;
     expect(CLASS_CODE);
     expect('[');
     // Names of types have no brackets but those of arrays, which are none that can be archived.
@@ -152,7 +153,7 @@ iarchive& string_iarchive::read_class_head(const std::string& name) {
 }
 
 iarchive& string_iarchive::read_class_end(const std::string& name) {
-    if (!is_pair(name)) expect(';');
+    if (!is_pair_type(name)) expect(';');
     return *this;
 }
 

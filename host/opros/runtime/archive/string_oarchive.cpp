@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/archive/pair_type.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
 #include <archive/opros_string_oarchive.h>
@@ -9,9 +10,6 @@
 
 namespace opros::archive {
 namespace {
-
-// The entries of a map are its keys and values, one after the other.
-bool is_pair(const std::string& name) { return name.rfind("std::pair<", 0) == 0; }
 
 template <typename T>
 std::string in_decimal(T value) {
@@ -53,6 +51,7 @@ oarchive& string_oarchive::save(bool value) {
 OPROS_SAVE_CHARACTER(char)
 OPROS_SAVE_CHARACTER(signed char)
 OPROS_SAVE_CHARACTER(unsigned char)
+#undef OPROS_SAVE_CHARACTER
 
 oarchive& string_oarchive::save(wchar_t value) {
     *m_os << WCHAR_T_CODE << to_utf8(value) << ';';
@@ -72,6 +71,7 @@ OPROS_SAVE_NUMBER(unsigned long long)
 OPROS_SAVE_NUMBER(float)
 OPROS_SAVE_NUMBER(double)
 OPROS_SAVE_NUMBER(long double)
+#undef OPROS_SAVE_NUMBER
 
 oarchive& string_oarchive::save_binary(const char* p, long size) {
     *m_os << BINARY_CODE << '[' << in_decimal(size) << ']';
@@ -96,12 +96,12 @@ oarchive& string_oarchive::save(const std::wstring& value) {
 }
 
 oarchive& string_oarchive::write_class_head(const std::string& name) {
-    if (!is_pair(name)) *m_os << CLASS_CODE << '[' << name << ']';
+    if (!is_pair_type(name)) *m_os << CLASS_CODE << '[' << name << ']';
     return *this;
 }
 
 oarchive& string_oarchive::write_class_end(const std::string& name) {
-    if (!is_pair(name)) *m_os << ';';
+    if (!is_pair_type(name)) *m_os << ';';
     return *this;
 }
 

@@ -27,9 +27,9 @@ auto call_get(OpenRTM::OutPortCdr_ptr object, OpenRTM::CdrData_out data) { retur
 auto call_get(RTC::DataPullService_ptr object, RTC::OctetSeq_out data) { return object->pull(data); }
 
 template <class Interface, class Data>
-class Receiver : public RemoteReceiver {
+class CorbaReceiver : public RemoteReceiver {
   public:
-    explicit Receiver(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
+    explicit CorbaReceiver(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         try {
@@ -46,9 +46,9 @@ class Receiver : public RemoteReceiver {
 };
 
 template <class Interface, class Data>
-class Sender : public RemoteSender {
+class CorbaSender : public RemoteSender {
   public:
-    explicit Sender(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
+    explicit CorbaSender(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
     std::optional<DataPortStatus> get(ByteData& bytes) override {
         try {
             typename Data::_var_type data;
@@ -81,8 +81,8 @@ std::unique_ptr<RemoteReceiver> RemoteReceiver::find(const ConnectorProfile& pro
     CORBA::Object_var object = published_object(profile, "dataport." + interface_type + ".inport");
     if (CORBA::is_nil(object.in())) return nullptr;
     if (interface_type == "data_service")
-        return std::make_unique<Receiver<RTC::DataPushService, RTC::OctetSeq>>(object.in());
-    return std::make_unique<Receiver<OpenRTM::InPortCdr, OpenRTM::CdrData>>(object.in());
+        return std::make_unique<CorbaReceiver<RTC::DataPushService, RTC::OctetSeq>>(object.in());
+    return std::make_unique<CorbaReceiver<OpenRTM::InPortCdr, OpenRTM::CdrData>>(object.in());
 }
 
 std::unique_ptr<RemoteSender> RemoteSender::find(const ConnectorProfile& profile,
@@ -90,8 +90,8 @@ std::unique_ptr<RemoteSender> RemoteSender::find(const ConnectorProfile& profile
     CORBA::Object_var object = published_object(profile, "dataport." + interface_type + ".outport");
     if (CORBA::is_nil(object.in())) return nullptr;
     if (interface_type == "data_service")
-        return std::make_unique<Sender<RTC::DataPullService, RTC::OctetSeq>>(object.in());
-    return std::make_unique<Sender<OpenRTM::OutPortCdr, OpenRTM::CdrData>>(object.in());
+        return std::make_unique<CorbaSender<RTC::DataPullService, RTC::OctetSeq>>(object.in());
+    return std::make_unique<CorbaSender<OpenRTM::OutPortCdr, OpenRTM::CdrData>>(object.in());
 }
 
 std::string wire_interface(const coil::Properties& connector_properties) {
