@@ -9,7 +9,7 @@
 set(TANDEM_RTM_IDL_TOOLS ${CMAKE_CURRENT_LIST_DIR}/../idl CACHE INTERNAL "")
 find_program(OMNIIDL omniidl REQUIRED)
 
-# Runs omniidl for one file; sources are named in the variable OUT.
+# Runs omniidl for the file `idl` into `directory`; the variable named by `out` gets the generated files.
 function(tandem_run_omniidl out idl directory)
   cmake_parse_arguments(arg "" "" "INCLUDE_DIRS" ${ARGN})
   get_filename_component(base ${idl} NAME_WE)
