@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Components for the tests, written as users write theirs.
+// Components for the tests, written as users write theirs, and their registration.
 #pragma once
 #include "CalculatorSkel.h"
 #include <atomic>
@@ -13,7 +13,7 @@
 
 namespace testing {
 
-/// Sends 1, 2, 3 ...; a parameter gives the step.
+/// Sends 1, 2, 3 ... on `out`, one value per cycle; the parameter `step` is the difference.
 class Counter : public RTC::DataFlowComponentBase {
   public:
     explicit Counter(RTC::Manager* manager) : DataFlowComponentBase(manager), out_("out", value_) {}
@@ -34,7 +34,7 @@ class Counter : public RTC::DataFlowComponentBase {
     RTC::OutPort<RTC::TimedLong> out_;
 };
 
-/// Reads what comes, and keeps the sum.
+/// Reads all values of `in` in each cycle; counts them and adds them up.
 class Accumulator : public RTC::DataFlowComponentBase {
   public:
     explicit Accumulator(RTC::Manager* manager) : DataFlowComponentBase(manager), in_("in", value_) {}
@@ -55,7 +55,7 @@ class Accumulator : public RTC::DataFlowComponentBase {
     std::atomic<long> sum_{0}, received_{0};
 };
 
-/// Provides the service.
+/// The servant of CalculatorProvider.
 class Calculator : public POA_Testing::Calculator, public PortableServer::RefCountServantBase {
   public:
     char* name() override { return CORBA::string_dup("calculator"); }
@@ -85,6 +85,7 @@ class Calculator : public POA_Testing::Calculator, public PortableServer::RefCou
     std::atomic<CORBA::Long> calls_{0};
 };
 
+/// Provides the service Testing::Calculator on the port `calculator`.
 class CalculatorProvider : public RTC::DataFlowComponentBase {
   public:
     explicit CalculatorProvider(RTC::Manager* manager)
@@ -98,6 +99,7 @@ class CalculatorProvider : public RTC::DataFlowComponentBase {
     Calculator servant_;
 };
 
+/// Uses a Testing::Calculator through the port `calculator`.
 class CalculatorConsumer : public RTC::DataFlowComponentBase {
   public:
     explicit CalculatorConsumer(RTC::Manager* manager)
@@ -111,7 +113,8 @@ class CalculatorConsumer : public RTC::DataFlowComponentBase {
     RTC::CorbaConsumer<Testing::Calculator> calculator_;
 };
 
-/// Records its callbacks; fails or throws in those it is told.
+/// Records the names of its callbacks; fails or throws in those that the test names. The record is static, so
+/// that it outlives the component.
 class Recorder : public RTC::DataFlowComponentBase {
   public:
     explicit Recorder(RTC::Manager* manager) : DataFlowComponentBase(manager) {}
@@ -128,19 +131,21 @@ class Recorder : public RTC::DataFlowComponentBase {
     RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override { return record("update"); }
     RTC::ReturnCode_t onRateChanged(RTC::UniqueId) override { return record("rate"); }
 
-    /// The callbacks since the last call, and forgets them.
+    /// The callbacks since the last call of this function, separated by blanks.
     static std::string take_calls() { return std::exchange(calls(), ""); }
+    /// Callbacks that fail, separated by blanks.
     static std::string& failing_callback() {
         static auto* callback = new std::string;
         return *callback;
     }
+    /// True: they throw; false: they return RTC_ERROR.
     static bool& throws_exception() {
         static bool yes = false;
         return yes;
     }
 
   private:
-    // Never deleted: components of a static ManagerFixture note to the very end.
+    // Never deleted: components of a static ManagerFixture record callbacks while static objects are destroyed.
     static std::string& calls() {
         static auto* all = new std::string;
         return *all;
@@ -154,6 +159,7 @@ class Recorder : public RTC::DataFlowComponentBase {
     }
 };
 
+/// Registers a component type as a module's init function does.
 template <class Component>
 void register_component_type(RTC::Manager& manager, const char* name) {
     coil::Properties profile;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rtm_host as a child of a test. Every wait is bounded.
+// rtm_host as a child process of a test. Every wait has a time limit.
 #pragma once
 #include <chrono>
 #include <csignal>
@@ -16,6 +16,7 @@
 
 namespace testing {
 
+/// Starts rtm_host with these arguments, reads what it prints, kills it at the end.
 class HostProcess {
   public:
     explicit HostProcess(std::vector<std::string> arguments) {
@@ -47,17 +48,17 @@ class HostProcess {
         close(err_);
     }
 
-    /// Does `text` come on standard output within the time?
+    /// False: `text` has not come on standard output within the time, or the process has ended without it.
     bool wait_for_output(const std::string& text,
-                         std::chrono::milliseconds bound = std::chrono::seconds(30)) {
-        const auto end = std::chrono::steady_clock::now() + bound;
+                         std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
+        const auto end = std::chrono::steady_clock::now() + timeout;
         while (output.find(text) == std::string::npos)
             if (std::chrono::steady_clock::now() > end || !read_some())
                 return output.find(text) != std::string::npos;
         return true;
     }
     void send_signal(int signal) { kill(pid_, signal); }
-    /// SIGSTOP, and it has stopped when this returns: none of its threads answers any more.
+    /// Sends SIGSTOP and waits until all threads have stopped: it answers no call then. SIGCONT continues it.
     bool suspend() {
         kill(pid_, SIGSTOP);
         for (int i = 0; i < 10000; ++i) {
@@ -72,16 +73,16 @@ class HostProcess {
         const std::filesystem::directory_iterator all("/proc/" + std::to_string(pid_) + "/fd");
         return static_cast<std::size_t>(std::distance(begin(all), end(all)));
     }
-    /// MB that it has in memory now; with `peak` the most that it ever had.
+    /// Resident memory in MB, now or (`peak`) at most so far.
     long memory_mb(bool peak = false) const {
         std::ifstream status("/proc/" + std::to_string(pid_) + "/status");
         for (std::string line; std::getline(status, line);)
             if (line.compare(0, 6, peak ? "VmHWM:" : "VmRSS:") == 0) return std::stol(line.substr(6)) / 1024;
         return -1;
     }
-    /// Exit code, or minus the signal that has ended it; -1000 when it does not end.
-    int wait_for_exit(std::chrono::seconds bound = std::chrono::seconds(30)) {
-        const auto end = std::chrono::steady_clock::now() + bound;
+    /// The exit code, or minus the number of the signal that has ended it; -1000 when it still runs.
+    int wait_for_exit(std::chrono::seconds timeout = std::chrono::seconds(30)) {
+        const auto end = std::chrono::steady_clock::now() + timeout;
         int status = 0;
         while (waitpid(pid_, &status, WNOHANG) == 0) {
             if (std::chrono::steady_clock::now() > end) return -1000;
@@ -92,10 +93,10 @@ class HostProcess {
         return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
 
-    std::string output, errors;
+    std::string output, errors; ///< all that it has written on standard output and standard error
 
   private:
-    // What has come on either pipe within 50 ms; false: both are closed.
+    // Reads what comes on either pipe within 50 ms; false: both are closed.
     bool read_some() {
         pollfd fds[2] = {{out_open_ ? out_ : -1, POLLIN, 0}, {err_open_ ? err_ : -1, POLLIN, 0}};
         if (!out_open_ && !err_open_) return false;

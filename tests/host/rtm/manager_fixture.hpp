@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A manager without threads of its own: cycles run when a test says so.
+// The process's manager for a test, as a rule in lock-step mode: cycles run when the test calls step().
 #pragma once
 #include "components.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
@@ -7,9 +7,11 @@
 
 namespace testing {
 
-/// The process's manager with the test components; ended when the test case ends (one test case per process).
+/// Starts the manager with the test components registered and the log off; shuts it down at the end. A process has
+/// one manager, so each test case runs in a process of its own.
 class ManagerFixture {
   public:
+    /// `lockstep` false: contexts have their threads. `settings`: `key:value` each, as with -o.
     explicit ManagerFixture(bool lockstep = true, std::vector<std::string> settings = {},
                             std::chrono::nanoseconds tick_spin = {})
         : manager_(start(lockstep, settings, tick_spin)) {
@@ -17,12 +19,14 @@ class ManagerFixture {
     }
     ~ManagerFixture() { manager_.shutdown(); }
 
+    /// Throws RTC::ManagerError, as Manager::createOrThrow() does.
     template <class Component>
     Component& create(const std::string& args) {
         return dynamic_cast<Component&>(manager_.createOrThrow(args));
     }
     void connect(const std::string& line) { manager_.connectOrThrow(line); }
     static RTC::ReturnCode_t activate(RTC::RTObject_impl& rtc) { return rtc.activate(0); }
+    /// One cycle of the component's own contexts, in the calling thread.
     void step(RTC::RTObject_impl& rtc) { manager_.step(rtc.getInstanceName()); }
     static RTC::LifeCycleState state(RTC::RTObject_impl& rtc) {
         RTC::ExecutionContext_var context = rtc.get_context(0);

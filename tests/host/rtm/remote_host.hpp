@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another rtm_host with the test components, reached by CORBA alone.
+// An rtm_host with the test components in another process, reached by CORBA alone.
 #pragma once
 #include "host_process.hpp"
 #include <cstring>
@@ -9,6 +9,7 @@
 
 namespace testing {
 
+/// A TCP port that nobody listens on now. Another process may take it before the test does.
 inline std::string unused_port() {
     const int fd = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
@@ -21,6 +22,7 @@ inline std::string unused_port() {
     return std::to_string(ntohs(address.sin_port));
 }
 
+/// Polls until the condition is true, for about 20 s.
 template <class Condition>
 bool eventually(Condition condition) {
     for (int i = 0; i < 20000; ++i) {
@@ -30,7 +32,7 @@ bool eventually(Condition condition) {
     return false;
 }
 
-/// Reached through its manager's well-known name.
+/// Runs `components` on 127.0.0.1:`port`, at 200 Hz; killed at the end, unless it has ended before.
 struct RemoteHost {
     explicit RemoteHost(const std::string& components = "Counter,Reporter,CalculatorProvider",
                         std::string at = unused_port(), std::vector<std::string> settings = {})
@@ -50,14 +52,16 @@ struct RemoteHost {
         }
         return all;
     }
+    /// By the well-known key of its manager; the caller releases the reference.
     RTM::Manager_ptr manager(CORBA::ORB_ptr orb) const {
         CORBA::Object_var object =
             orb->string_to_object(("corbaloc:iiop:127.0.0.1:" + port + "/manager").c_str());
         return RTM::Manager::_narrow(object.in());
     }
+    /// Nil: it has no component of that name.
     RTC::RTObject_ptr component(CORBA::ORB_ptr orb, const char* name) const {
-        RTM::Manager_var there = manager(orb);
-        RTC::RTCList_var found = there->get_components_by_name(name);
+        RTM::Manager_var remote_manager = manager(orb);
+        RTC::RTCList_var found = remote_manager->get_components_by_name(name);
         return found->length() == 1 ? RTC::RTObject::_duplicate(found[0]) : RTC::RTObject::_nil();
     }
     std::string port;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A library of components for rtm_host, with some that behave badly.
+// A module of components for rtm_host: those of components.hpp, and some that misbehave.
 #include "components.hpp"
 #include <cstdio>
 #include <cstdlib>
@@ -11,21 +11,21 @@ namespace {
 
 using namespace testing;
 
-void say(const char* line) {
+void print_line(const char* line) {
     std::puts(line);
     std::fflush(stdout);
 }
 
-/// Says on standard output what it received, once it is 10.
+/// An Accumulator that prints `received N` once, as soon as N is 10 or more, and its end.
 class Reporter : public Accumulator {
   public:
     using Accumulator::Accumulator;
     RTC::ReturnCode_t onExecute(RTC::UniqueId id) override {
         Accumulator::onExecute(id);
-        if (received_ >= 10 && !told_) {
+        if (received_ >= 10 && !reported_) {
             std::printf("received %ld\n", received_.load());
             std::fflush(stdout);
-            told_ = true;
+            reported_ = true;
         }
         return RTC::RTC_OK;
     }
@@ -39,7 +39,7 @@ class Reporter : public Accumulator {
     }
 
   private:
-    bool told_ = false;
+    bool reported_ = false;
 };
 
 class Thrower : public RTC::DataFlowComponentBase {
@@ -47,7 +47,7 @@ class Thrower : public RTC::DataFlowComponentBase {
     using DataFlowComponentBase::DataFlowComponentBase;
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override { throw std::runtime_error("on purpose"); }
     RTC::ReturnCode_t onAborting(RTC::UniqueId) override {
-        say("aborting");
+        print_line("aborting");
         return RTC::RTC_OK;
     }
 };
@@ -56,14 +56,14 @@ class HangingComponent : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
-        say("hanging");
+        print_line("hanging");
         std::this_thread::sleep_for(std::chrono::hours(1));
         return RTC::RTC_OK;
     }
 };
 
-/// Has an InPort `dies` in whose notify_connect() the process ends, and one `hangs` that does not return from
-/// it; `dies_late` and `hangs_late` do so when they are disconnected.
+/// Its InPort `dies` ends the process in notify_connect(), `hangs` does not return from it; `dies_late` and
+/// `hangs_late` do so in notify_disconnect().
 class BadPeer : public RTC::DataFlowComponentBase {
   public:
     explicit BadPeer(RTC::Manager* manager)
@@ -96,9 +96,10 @@ class BadPeer : public RTC::DataFlowComponentBase {
     RTC::InPort<RTC::TimedLong> dies_, hangs_, dies_late_, hangs_late_;
 };
 
-/// Never returns from the callback that the parameter `in` names; with `how` it throws std, int or corba
-/// there, ends the process by exit or abort, reads stdin, leaves a static object that does not end, or
-/// fails and then does not return from its destructor.
+/// Misbehaves in the callback that the property `in` names, in the way that `how` names: std, int, corba: throws a
+/// std::exception, an int, a CORBA exception; exit, abort: ends the process; fail: returns RTC_ERROR, and its
+/// destructor does not return; static: creates a static object whose destructor does not return; stdin: reads from
+/// a pipe without data; otherwise does not return.
 class FaultInjector : public RTC::DataFlowComponentBase {
   public:
     using DataFlowComponentBase::DataFlowComponentBase;
@@ -140,19 +141,19 @@ class FaultInjector : public RTC::DataFlowComponentBase {
             static const struct Slow {
                 ~Slow() { std::this_thread::sleep_for(std::chrono::hours(1)); }
             } slow;
-            say("is there");
+            print_line("is there");
             return RTC::RTC_OK;
         }
-        if (how == "stdin") { // nothing ever comes
+        if (how == "stdin") { // holds the lock of the stream for ever
             int ends[2];
             if (pipe(ends) != 0) std::abort();
             dup2(ends[0], STDIN_FILENO);
-            say("reads");
+            print_line("reads");
             int number = 0;
             std::cin >> number;
         }
         if (how == "abort") std::abort();
-        say("asleep");
+        print_line("asleep");
         std::this_thread::sleep_for(std::chrono::hours(1));
         return RTC::RTC_OK;
     }

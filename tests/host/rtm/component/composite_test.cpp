@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Components that share the execution context of a composite.
+// PeriodicECSharedComposite: components that share the execution context of a composite.
 #include "tests/host/rtm/manager_fixture.hpp"
 
 using namespace testing;
@@ -31,7 +31,8 @@ RTC::LifeCycleState state_in(RTC::RTObject_impl& owner, RTC::RTObject_impl& memb
 
 } // namespace
 
-TEST_CASE("The members of a composite run in its context one after the other and show their exported ports") {
+TEST_CASE(
+    "Members of a composite run in its context one after the other and their exported ports are its own") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
@@ -45,7 +46,7 @@ TEST_CASE("The members of a composite run in its context one after the other and
     CHECK(others->length() == 1);
 
     REQUIRE(fixture.activate(whole) == RTC::RTC_OK);
-    for (int i = 0; i < 11; ++i) fixture.step(whole); // the members become active in the first
+    for (int i = 0; i < 11; ++i) fixture.step(whole); // the members become active in the first step
     CHECK(counter.value_.data == 11);
     CHECK(accumulator.received_ == 11);
     REQUIRE(whole.deactivate(0) == RTC::RTC_OK);
@@ -91,8 +92,7 @@ TEST_CASE("Members come and go through the organization of the composite") {
     CHECK(own->is_running());
 }
 
-TEST_CASE(
-    "A member that leaves the manager leaves its composite, and a composite that leaves frees its members") {
+TEST_CASE("A member that exits leaves its composite, and a composite that exits releases its members") {
     ManagerFixture fixture;
     auto& first = fixture.create<Counter>("Counter");
     auto& second = fixture.create<Counter>("Counter");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Configuration sets of a component, configuration files, and the properties and strings of coil.
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <filesystem>
@@ -31,13 +32,13 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     NVUtil::copyFromProperties(active->configuration_data, change);
     CHECK(configuration->set_configuration_set_values(active.in()));
     fixture.step(counter);
-    CHECK(counter.step_ == 1); // what cannot be read gives the default
+    CHECK(counter.step_ == 1); // a value that cannot be read gives the default
     CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
 }
 
 TEST_CASE("A parameter that the profile does not mention is listed with its default and can be set") {
-    struct Quiet : Counter {
-        explicit Quiet(RTC::Manager* manager) : Counter(manager) {}
+    struct Undeclared : Counter {
+        explicit Undeclared(RTC::Manager* manager) : Counter(manager) {}
         RTC::ReturnCode_t onInitialize() override {
             bindParameter("greeting", greeting, "hello");
             return Counter::onInitialize();
@@ -46,27 +47,28 @@ TEST_CASE("A parameter that the profile does not mention is listed with its defa
     };
     ManagerFixture fixture;
     coil::Properties profile;
-    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Quiet");
-    fixture.manager().registerFactory(profile, RTC::Create<Quiet>, RTC::Delete<Quiet>);
-    auto& quiet = fixture.create<Quiet>("Quiet");
-    SDOPackage::Configuration_var configuration = quiet.get_configuration();
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Undeclared");
+    fixture.manager().registerFactory(profile, RTC::Create<Undeclared>, RTC::Delete<Undeclared>);
+    auto& component = fixture.create<Undeclared>("Undeclared");
+    SDOPackage::Configuration_var configuration = component.get_configuration();
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set("default");
     coil::Properties listed = NVUtil::toProperties(set->configuration_data);
     CHECK(listed.getProperty("greeting") == "hello");
     CHECK(listed.getProperty("step") == "1");
-    fixture.activate(quiet);
-    fixture.step(quiet);
-    CHECK(quiet.greeting == "hello");
-    CHECK(quiet.value_.data == 1);
+    fixture.activate(component);
+    fixture.step(component);
+    CHECK(component.greeting == "hello");
+    CHECK(component.value_.data == 1);
     listed.setProperty("greeting", "bye");
     NVUtil::copyFromProperties(set->configuration_data, listed);
     CHECK(configuration->set_configuration_set_values(set.in()));
-    fixture.step(quiet);
-    CHECK(quiet.greeting == "bye");
+    fixture.step(component);
+    CHECK(component.greeting == "bye");
 }
 
 namespace {
 
+/// A temporary file with this text.
 struct ConfFile {
     std::filesystem::path path =
         std::filesystem::temp_directory_path() / ("tandem_conf_test." + std::to_string(getpid()));
@@ -86,7 +88,7 @@ TEST_CASE("A configuration file has keys, comments and continued lines") {
     CHECK(conf.getProperty("x.y") == "3");
 }
 
-TEST_CASE("A line that is no setting is named with file and line") {
+TEST_CASE("A line that is no setting is refused with file and line") {
     ConfFile file("a: 1\n\nwithout a separator\n");
     coil::Properties conf;
     CHECK_THROWS_WITH(RTC::read_conf_file(file.path, conf),
@@ -94,7 +96,7 @@ TEST_CASE("A line that is no setting is named with file and line") {
     CHECK_THROWS_WITH(RTC::read_conf_file("/no/such/file", conf), Catch::Contains("cannot be read"));
 }
 
-TEST_CASE("A component's own file and the arguments of its creation configure it, the arguments win") {
+TEST_CASE("A component's own file and the arguments of its creation configure it, and the arguments win") {
     ConfFile file("conf.default.step: 5\nexec_cxt.periodic.rate: 33\n");
     ManagerFixture fixture(true, {"test.Counter.config_file:" + file.path.string()});
     auto& one = fixture.create<Counter>("Counter");
@@ -107,7 +109,7 @@ TEST_CASE("A component's own file and the arguments of its creation configure it
                       Catch::Contains("known: ") && Catch::Contains("Counter"));
 }
 
-TEST_CASE("A component whose own file is not there has its defaults") {
+TEST_CASE("A component whose configuration file does not exist keeps its defaults") {
     ManagerFixture fixture(
         true, {"test.Counter.config_file:not_handed_on.conf", "test.Counter0.config_file:nor_this.conf"});
     CHECK(fixture.create<Counter>("Counter").step_ == 1);
@@ -185,27 +187,29 @@ TEST_CASE("The active set is what configuration.active_config says and what desc
 
 namespace {
 
+/// A listener of all three kinds that appends each call to a text.
 struct Heard : RTC::ConfigurationParamListener,
                RTC::ConfigurationSetListener,
                RTC::ConfigurationSetNameListener {
-    explicit Heard(std::string& s, const char* w) : story(s), what(w) {}
+    explicit Heard(std::string& s, const char* w) : calls(s), what(w) {}
     void operator()(const char* set, const char* param) override {
-        story += what + "(" + set + "." + param + ") ";
+        calls += what + "(" + set + "." + param + ") ";
     }
-    void operator()(const coil::Properties& set) override { story += what + "(" + set.getName() + ") "; }
-    void operator()(const char* set) override { story += what + "(" + set + ") "; }
-    std::string& story;
+    void operator()(const coil::Properties& set) override { calls += what + "(" + set.getName() + ") "; }
+    void operator()(const char* set) override { calls += what + "(" + set + ") "; }
+    std::string& calls;
     std::string what;
 };
 
 } // namespace
 
-TEST_CASE("Listeners hear of sets that are added set activated and removed and of parameters that change") {
+TEST_CASE("Listeners are called for sets that are added, set, activated and removed, and for parameters that "
+          "change") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
-    std::string story;
-    Heard changed(story, "changed"), set(story, "set"), added(story, "added"), updated(story, "updated"),
-        removed(story, "removed"), activated(story, "activated");
+    std::string calls;
+    Heard changed(calls, "changed"), set(calls, "set"), added(calls, "added"), updated(calls, "updated"),
+        removed(calls, "removed"), activated(calls, "activated");
     counter.addConfigurationParamListener(RTC::ON_UPDATE_CONFIG_PARAM, &changed, false);
     counter.addConfigurationSetListener(RTC::ON_SET_CONFIG_SET, &set, false);
     counter.addConfigurationSetListener(RTC::ON_ADD_CONFIG_SET, &added, false);
@@ -220,13 +224,13 @@ TEST_CASE("Listeners hear of sets that are added set activated and removed and o
     NVUtil::copyFromProperties(fresh.configuration_data, values);
     CHECK(configuration->add_configuration_set(fresh));
     CHECK(configuration->activate_configuration_set("fresh"));
-    CHECK(std::exchange(story, "") == "added(fresh) activated(fresh) ");
+    CHECK(std::exchange(calls, "") == "added(fresh) activated(fresh) ");
     fixture.activate(counter);
-    CHECK(std::exchange(story, "") == "changed(fresh.step) updated(fresh) ");
+    CHECK(std::exchange(calls, "") == "changed(fresh.step) updated(fresh) ");
     CHECK(configuration->set_configuration_set_values(fresh));
     fixture.step(counter);
-    CHECK(std::exchange(story, "") == "set(fresh) updated(fresh) ");
+    CHECK(std::exchange(calls, "") == "set(fresh) updated(fresh) ");
     CHECK(configuration->activate_configuration_set("default"));
     CHECK(configuration->remove_configuration_set("fresh"));
-    CHECK(story == "activated(default) removed(fresh) ");
+    CHECK(calls == "activated(default) removed(fresh) ");
 }

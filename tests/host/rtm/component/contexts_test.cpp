@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of execution contexts: who runs a cycle, when, and what is counted.
+// The kinds of execution contexts: which thread runs a cycle, when, and what is counted.
 #include "host/rt/periodic_tick.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/CORBA_RTCUtil.h>
@@ -12,7 +12,8 @@ using namespace testing;
 
 namespace {
 
-/// Counts its cycles; remembers in which threads they ran and the rates it was told.
+/// Records the number of its cycles, their threads, and the rates of onRateChanged. Cycle `slow_cycle` takes
+/// `slow_for`.
 struct Ticker : RTC::DataFlowComponentBase {
     explicit Ticker(RTC::Manager* m) : DataFlowComponentBase(m) {}
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
@@ -65,7 +66,7 @@ TEST_CASE("A periodic context counts its cycles, and those that were overrun") {
     REQUIRE(one.deactivate(0) == RTC::RTC_OK);
     context.halt();
     const auto ticks = context.ticks();
-    // One more for the activation, which has its cycle as well, and one for the deactivation.
+    // The context also counts the cycles in which the component is activated and deactivated.
     CHECK(ticks.cycles >= static_cast<std::uint64_t>(one.count()));
     CHECK(ticks.cycles <= static_cast<std::uint64_t>(one.count()) + 2);
     CHECK(ticks.overruns >= 1);
@@ -82,7 +83,7 @@ TEST_CASE("Cycles and skipped periods together are all the periods there were: n
     REQUIRE(one.activate(0) == RTC::RTC_OK);
     REQUIRE(reaches(one, 10));
     const auto period = context.getPeriod();
-    // Number of the grid's present period, twice; and what was counted in between.
+    // The number of the present period of the grid, and the number of periods that the context has counted.
     auto sample = [&] {
         const auto now = std::chrono::steady_clock::now().time_since_epoch() - tandem::rt::grid_origin;
         const auto ticks = context.ticks();
@@ -93,14 +94,14 @@ TEST_CASE("Cycles and skipped periods together are all the periods there were: n
     const auto after = sample();
     const auto periods = static_cast<std::int64_t>(after.first - before.first);
     const auto counted = static_cast<std::int64_t>(after.second - before.second);
-    // Periods that pass while a late cycle is awaited are counted with that cycle.
+    // Periods that pass while a cycle is late are counted when that cycle starts: wait for the last of them.
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const auto later = sample();
     CHECK(periods + (later.first - after.first) >= counted);
     CHECK(static_cast<std::int64_t>(later.second - before.second) >= periods - 1);
 }
 
-TEST_CASE("A change of the rate is told once, and time goes on at the new one") {
+TEST_CASE("A change of the rate is notified once, and cycles continue at the new rate") {
     ManagerFixture fixture(false);
     auto& one = ticker(fixture, "exec_cxt.periodic.rate=100");
     REQUIRE(one.activate(0) == RTC::RTC_OK);
@@ -111,11 +112,17 @@ TEST_CASE("A change of the rate is told once, and time goes on at the new one") 
     REQUIRE(reaches(one, 20));
 }
 
-TEST_CASE("What is rehearsed before a tick calls neither the component nor its listeners") {
+TEST_CASE("The warm-up before a tick calls neither the component nor its listeners") {
     struct Actor : RTC::DataFlowComponentBase {
         explicit Actor(RTC::Manager* m) : DataFlowComponentBase(m) {}
-        RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return ++executed, RTC::RTC_OK; }
-        RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override { return ++updated, RTC::RTC_OK; }
+        RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+            ++executed;
+            return RTC::RTC_OK;
+        }
+        RTC::ReturnCode_t onStateUpdate(RTC::UniqueId) override {
+            ++updated;
+            return RTC::RTC_OK;
+        }
         std::atomic<long> executed{0};
         long updated = 0, before_execute = 0, after_execute = 0, before_update = 0, after_update = 0;
     };
@@ -145,7 +152,7 @@ TEST_CASE("What is rehearsed before a tick calls neither the component nor its l
     const long cycles = static_cast<long>(context.ticks().cycles);
     CHECK(one.executed >= 100);
     CHECK(one.executed <= cycles);
-    CHECK(one.executed + 2 >= cycles); // those of the activation and the deactivation
+    CHECK(one.executed + 2 >= cycles); // the cycles of the activation and the deactivation
     CHECK(one.before_execute == one.executed);
     CHECK(one.after_execute == one.executed);
     CHECK(one.updated == one.executed);
@@ -153,7 +160,7 @@ TEST_CASE("What is rehearsed before a tick calls neither the component nor its l
     CHECK(one.after_update == one.executed);
 }
 
-TEST_CASE("A context that several start and stop at the same time does in the end what it was told last") {
+TEST_CASE("A context that several threads start and stop at the same time ends in the state requested last") {
     ManagerFixture fixture(false);
     auto& one = ticker(fixture, "exec_cxt.periodic.rate=1000");
     REQUIRE(ManagerFixture::activate(one) == RTC::RTC_OK);
@@ -167,7 +174,7 @@ TEST_CASE("A context that several start and stop at the same time does in the en
     context.stop();
     CHECK_FALSE(context.isRunning());
     const long stopped = one.count();
-    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // 20 cycles of one that runs on
+    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // 20 cycles, if it still ran
     CHECK(one.count() == stopped);
     CHECK(context.start() == RTC::RTC_OK);
     CHECK(reaches(one, stopped + 5));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What libraries add to the manager: contexts, streams of log lines, tasks, names, numbering.
+// What modules add to a manager: context types, log streams, tasks, names, numbering policies.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <chrono>
 #include <rtm/ExtTrigExecutionContext.h>
@@ -11,7 +11,7 @@ using namespace testing;
 
 namespace {
 
-std::string heard;
+std::string received; // by all log streams of this test
 bool init_succeeds = true;
 
 struct Lines : RTC::LogstreamBase, coil::LogStreamBuffer {
@@ -22,7 +22,7 @@ struct Lines : RTC::LogstreamBase, coil::LogStreamBuffer {
     RTC::StreambufType* getStreamBuffer() override { return this; }
     void write(int level, const std::string& name, const std::string& date, const std::string& mes) override {
         if (!date.empty())
-            heard += prefix + name + "/" + RTC::Logger::getLevelString(level) + "/" + mes + ";";
+            received += prefix + name + "/" + RTC::Logger::getLevelString(level) + "/" + mes + ";";
     }
     std::string prefix;
 };
@@ -42,7 +42,7 @@ struct Tens : RTM::NumberingPolicyBase {
 
 } // namespace
 
-TEST_CASE("an execution context type of a library is made when a component asks for it") {
+TEST_CASE("an execution context type of a library is created when a component asks for it") {
     RTC::ExecutionContextFactory::instance().addFactory(
         "NamedContext", coil::Creator<RTC::ExecutionContextBase, NamedContext>,
         coil::Destructor<RTC::ExecutionContextBase, NamedContext>);
@@ -61,15 +61,15 @@ TEST_CASE("a log stream of a library gets every line from activation to shutdown
         RTC::Logger("during").write(RTC::Logger::RTL_WARN, "b");
     }
     RTC::Logger("after").write(RTC::Logger::RTL_WARN, "c");
-    CHECK(heard == ">during/RTL_WARN/b;");
+    CHECK(received == ">during/RTL_WARN/b;");
 }
 
-TEST_CASE("a log stream that is not configured is not made") {
+TEST_CASE("a log stream that is not configured is not created") {
     register_lines();
     ManagerFixture fixture;
     fixture.manager().activateOrThrow();
     RTC::Logger("during").write(RTC::Logger::RTL_WARN, "b");
-    CHECK(heard.empty());
+    CHECK(received.empty());
 }
 
 TEST_CASE("a log stream whose init fails is an error that names its key") {
@@ -79,7 +79,7 @@ TEST_CASE("a log stream whose init fails is an error that names its key") {
     CHECK_THROWS_WITH(fixture.manager().activateOrThrow(), Catch::Contains("logger.logstream.lines"));
 }
 
-TEST_CASE("a stream that was removed gets no more lines and one that logs does not hear itself") {
+TEST_CASE("a removed stream gets no more lines, and a stream that logs does not get its own lines") {
     struct Echo : Lines {
         void write(int level, const std::string& name, const std::string& date,
                    const std::string& mes) override {
@@ -95,7 +95,7 @@ TEST_CASE("a stream that was removed gets no more lines and one that logs does n
     CHECK(streams.removeStream(&echo));
     CHECK_FALSE(streams.removeStream(&echo));
     RTC::Logger("x").write(RTC::Logger::RTL_ERROR, "2");
-    CHECK(heard == "x/RTL_ERROR/1;");
+    CHECK(received == "x/RTL_ERROR/1;");
 }
 
 TEST_CASE("a task runs in the manager's thread until it is removed") {
@@ -116,7 +116,7 @@ TEST_CASE("a task runs in the manager's thread until it is removed") {
     CHECK(after_removal <= 4); // one may have been due already
 }
 
-TEST_CASE("a numbering policy of one's own names the instances of a factory") {
+TEST_CASE("a factory names its instances by the numbering policy that it was given") {
     ManagerFixture fixture;
     coil::Properties profile;
     profile.setProperty("type_name", "Counter");
@@ -127,7 +127,7 @@ TEST_CASE("a numbering policy of one's own names the instances of a factory") {
     factory.destroy(component);
 }
 
-TEST_CASE("the naming manager finds components of this process and knows what it has bound") {
+TEST_CASE("the naming manager finds components of this process and lists what it has bound") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     RTC::NamingManager& naming = *fixture.manager().getNaming();

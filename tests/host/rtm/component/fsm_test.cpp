@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// State machines of components: an oven's, told by events that come through a port.
+// State machines of components (StaticFSM.h, Macho.h): an oven, with events that come through a port.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/EventPort.h>
 
@@ -7,12 +7,13 @@ using namespace testing;
 
 namespace oven {
 
-std::string& story() {
+// The entries (+State) and exits (-State) since the last take_record().
+std::string& record() {
     static auto* all = new std::string;
     return *all;
 }
-RTC::ReturnCode_t note(const std::string& what) {
-    story() += what + " ";
+RTC::ReturnCode_t add(const std::string& what) {
+    record() += what + " ";
     return RTC::RTC_OK;
 }
 
@@ -29,14 +30,14 @@ FSM_TOPSTATE(Top) {
 
   private:
     RTC::ReturnCode_t onInit() override;
-    RTC::ReturnCode_t onEntry() override { return note("+Top"); }
+    RTC::ReturnCode_t onEntry() override { return add("+Top"); }
 };
 
 FSM_SUBSTATE(Open, Top) {
     FSM_STATE(Open);
     void close() override;
-    RTC::ReturnCode_t onEntry() override { return note("+Open"); }
-    RTC::ReturnCode_t onExit() override { return note("-Open"); }
+    RTC::ReturnCode_t onEntry() override { return add("+Open"); }
+    RTC::ReturnCode_t onExit() override { return add("-Open"); }
 };
 
 FSM_SUBSTATE(Closed, Top) {
@@ -44,8 +45,8 @@ FSM_SUBSTATE(Closed, Top) {
     DEEPHISTORY();
     void open() override { setState<Open>(); }
     RTC::ReturnCode_t onInit() override;
-    RTC::ReturnCode_t onEntry() override { return note("+Closed"); }
-    RTC::ReturnCode_t onExit() override { return note("-Closed"); }
+    RTC::ReturnCode_t onEntry() override { return add("+Closed"); }
+    RTC::ReturnCode_t onExit() override { return add("-Closed"); }
 };
 
 FSM_SUBSTATE(Idle, Closed) {
@@ -53,17 +54,17 @@ FSM_SUBSTATE(Idle, Closed) {
     void minutes(RTC::TimedLong time) override;
     RTC::ReturnCode_t onEntry() override {
         TOP::box().minutes = 0;
-        return note("+Idle");
+        return add("+Idle");
     }
-    RTC::ReturnCode_t onExit() override { return note("-Idle"); }
+    RTC::ReturnCode_t onExit() override { return add("-Idle"); }
 };
 
 FSM_SUBSTATE(Programmed, Closed) {
     FSM_STATE(Programmed);
     void minutes(RTC::TimedLong time) override { TOP::box().minutes += time.data; }
     void start() override;
-    RTC::ReturnCode_t onEntry() override { return note("+Programmed"); }
-    RTC::ReturnCode_t onExit() override { return note("-Programmed"); }
+    RTC::ReturnCode_t onEntry() override { return add("+Programmed"); }
+    RTC::ReturnCode_t onExit() override { return add("-Programmed"); }
 };
 
 FSM_SUBSTATE(Heating, Programmed) {
@@ -71,8 +72,8 @@ FSM_SUBSTATE(Heating, Programmed) {
     void tick() override {
         if (--TOP::box().minutes == 0) setState<Idle>();
     }
-    RTC::ReturnCode_t onEntry() override { return note("+Heating"); }
-    RTC::ReturnCode_t onExit() override { return note("-Heating"); }
+    RTC::ReturnCode_t onEntry() override { return add("+Heating"); }
+    RTC::ReturnCode_t onExit() override { return add("-Heating"); }
 };
 
 RTC::ReturnCode_t Top::onInit() {
@@ -86,7 +87,7 @@ RTC::ReturnCode_t Closed::onInit() {
 void Open::close() { setStateHistory<Closed>(); }
 void Idle::minutes(RTC::TimedLong time) {
     setState<Programmed>();
-    dispatch(Event(&TOP::minutes, time)); // for the new state
+    dispatch(Event(&TOP::minutes, time)); // handled by the new state
 }
 void Programmed::start() { setState<Heating>(); }
 
@@ -97,7 +98,7 @@ FSM_INIT_VALUE(oven::Idle)
 
 namespace {
 
-std::string told() { return std::exchange(oven::story(), ""); }
+std::string take_record() { return std::exchange(oven::record(), ""); }
 
 RTC::TimedLong minutes(long n) {
     RTC::TimedLong time{};
@@ -128,34 +129,34 @@ struct Oven : RTC::DataFlowComponentBase {
 
 TEST_CASE("A machine enters, initializes and leaves states in the order of their hierarchy") {
     Macho::Machine<oven::Top> machine;
-    CHECK(told() == "+Top +Closed +Idle ");
+    CHECK(take_record() == "+Top +Closed +Idle ");
     CHECK(oven::Idle::isCurrent(machine));
     CHECK(oven::Closed::isCurrent(machine));
     CHECK_FALSE(oven::Closed::isCurrentDirect(machine));
     CHECK(std::string(machine.currentState().name()) == "Idle");
 
-    machine->start(); // Idle knows no start
-    CHECK(told().empty());
+    machine->start(); // Idle does not handle start
+    CHECK(take_record().empty());
     machine->minutes(minutes(2));
-    CHECK(told() == "-Idle +Programmed ");
-    CHECK(machine.box().minutes == 2); // dispatched to the state entered
+    CHECK(take_record() == "-Idle +Programmed ");
+    CHECK(machine.box().minutes == 2); // dispatched to the state that was entered
     machine->start();
-    CHECK(told() == "+Heating ");
+    CHECK(take_record() == "+Heating ");
     machine->open(); // handled by a superstate
-    CHECK(told() == "-Heating -Programmed -Closed +Open ");
-    machine->close(); // back to where it was, by history
-    CHECK(told() == "-Open +Closed +Programmed +Heating ");
+    CHECK(take_record() == "-Heating -Programmed -Closed +Open ");
+    machine->close(); // back to its last state, by history
+    CHECK(take_record() == "-Open +Closed +Programmed +Heating ");
     machine->tick();
-    CHECK(told().empty());
+    CHECK(take_record().empty());
     machine->tick();
-    CHECK(told() == "-Heating -Programmed +Idle ");
+    CHECK(take_record() == "-Heating -Programmed +Idle ");
 
     machine.dispatch(Macho::Event(&oven::Top::minutes, minutes(1)));
     CHECK(oven::Programmed::isCurrentDirect(machine));
     const auto kept = machine.currentState();
     machine->start();
     machine.setState(kept);
-    CHECK(told() == "-Idle +Programmed +Heating -Heating -Programmed +Programmed ");
+    CHECK(take_record() == "-Idle +Programmed +Heating -Heating -Programmed +Programmed ");
     machine->open();
     oven::Closed::clearHistory(machine);
     machine->close();
@@ -209,7 +210,7 @@ TEST_CASE("States have data, and values can be handed to the state that is enter
 }
 
 TEST_CASE(
-    "Events come through a port, each over the connection that names it, and run when the component does") {
+    "Events come through a port, each over the connection that names it, and run in the component's cycle") {
     ManagerFixture fixture;
     register_component_type<Oven>(fixture.manager(), "Oven");
     auto& rtc = fixture.create<Oven>("Oven");
@@ -221,40 +222,41 @@ TEST_CASE(
     fixture.connect("Recorder0.start?port=Oven0.event&fsm_event_name=start");
     fixture.connect("Recorder0.tick?port=Oven0.event&fsm_event_name=tick&interface_type=direct");
     fixture.activate(rtc);
-    told();
+    take_record();
 
     value.data = 1;
     CHECK(minute.write());
     CHECK(start.write());
-    CHECK(told().empty());
+    CHECK(take_record().empty());
     fixture.step(rtc);
-    CHECK(told() == "-Idle +Programmed +Heating ");
+    CHECK(take_record() == "-Idle +Programmed +Heating ");
     CHECK(rtc.fsm.box().minutes == 1);
     tick.write();
     fixture.step(rtc);
-    CHECK(told() == "-Heating -Programmed +Idle ");
+    CHECK(take_record() == "-Heating -Programmed +Idle ");
     for (auto* port : {&minute, &start, &tick}) buttons.removePort(*port);
 }
 
 namespace {
 
-struct StateHeard : RTC::PostFsmActionListener {
-    explicit StateHeard(std::string& s) : story(s) {}
+/// Appends the names of entered states, `!` after one that has failed.
+struct EntryListener : RTC::PostFsmActionListener {
+    explicit EntryListener(std::string& s) : entered(s) {}
     void operator()(const char* state, RTC::ReturnCode_t ret) override {
-        story += state + std::string(ret == RTC::RTC_OK ? " " : "! ");
+        entered += state + std::string(ret == RTC::RTC_OK ? " " : "! ");
     }
-    std::string& story;
+    std::string& entered;
 };
 
 } // namespace
 
-TEST_CASE("A component's listeners hear of the states its machine enters, a full queue of events keeps its "
-          "bounds") {
+TEST_CASE("A component's listeners are called for the states its machine enters, and its queue of events is "
+          "bounded") {
     ManagerFixture fixture;
     register_component_type<Oven>(fixture.manager(), "Oven");
     auto& rtc = fixture.create<Oven>("Oven");
     std::string entered;
-    rtc.addPostFsmActionListener(RTC::PostFsmActionListenerType::POST_ON_ENTRY, new StateHeard(entered));
+    rtc.addPostFsmActionListener(RTC::PostFsmActionListenerType::POST_ON_ENTRY, new EntryListener(entered));
     rtc.fsm->open();
     CHECK(entered == "Open ");
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+// The order of callbacks, the states of the OMG RTC specification, and errors in callbacks.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/ExecutionContextBase.h>
 
 using namespace testing;
 
-TEST_CASE("Callbacks come in RTM's order through a whole life") {
+TEST_CASE("Callbacks come in the order of OpenRTM-aist from creation to end") {
     {
         ManagerFixture fixture;
         auto& rtc = fixture.create<Recorder>("Recorder");
@@ -49,7 +50,8 @@ TEST_CASE("A component that fails or throws goes to the error state, stays there
 
 namespace {
 
-// Drives a component through everything there is, and says in which states it was.
+// Takes a component through activation, cycles, a change of rate, deactivation and reset. Returns the first letters
+// of its states on the way.
 std::string whole_life(ManagerFixture& fixture, Recorder& rtc) {
     std::string states;
     auto note = [&] { states += RTC::ExecutionContextBase::getStateString(fixture.state(rtc))[0]; };
@@ -68,12 +70,12 @@ std::string whole_life(ManagerFixture& fixture, Recorder& rtc) {
 
 } // namespace
 
-TEST_CASE("Trouble in any callback leads where RTM says and nowhere else") {
+TEST_CASE("An error in any callback leads to the state that the specification names") {
     struct Row {
         const char* callback;
-        const char* states; // when activated, after three cycles, when deactivated, when reset
+        const char* states; // after activation, after three cycles, after deactivation, after reset
     };
-    // A second callback follows to get to onAborting, onError and onReset.
+    // onAborting, onError and onReset only run after another callback has failed.
     const Row row =
         GENERATE(Row{"startup", "AAII"}, Row{"activated", "EEEI"}, Row{"execute", "AEEI"},
                  Row{"update", "AEEI"}, Row{"deactivated", "AAII"}, Row{"rate", "AAII"},
@@ -88,7 +90,7 @@ TEST_CASE("Trouble in any callback leads where RTM says and nowhere else") {
     Recorder::failing_callback() = "";
 }
 
-TEST_CASE("Trouble in onFinalize and onShutdown does not keep a component from leaving") {
+TEST_CASE("Errors in onFinalize and onShutdown do not keep a component from exiting") {
     const std::string callback = GENERATE("shutdown", "finalize");
     const bool throws = GENERATE(false, true);
     static ManagerFixture fixture;
@@ -110,7 +112,7 @@ TEST_CASE("A component that cannot be activated is in the error state when the c
     Recorder::failing_callback() = "";
 }
 
-TEST_CASE("A component whose onInitialize fails is not there") {
+TEST_CASE("A component whose onInitialize fails is not created") {
     ManagerFixture fixture;
     Recorder::failing_callback() = "initialize";
     CHECK_THROWS_WITH(fixture.create<Recorder>("Recorder"), Catch::Contains("onInitialize"));
@@ -142,7 +144,7 @@ TEST_CASE(
     CHECK(fixture.state(counter) == RTC::INACTIVE_STATE);
 }
 
-TEST_CASE("Contexts are found through the component, and the profile says what it is") {
+TEST_CASE("A component's contexts and its profile describe it to tools") {
     ManagerFixture fixture;
     auto& rtc = fixture.create<Counter>("Counter?instance_name=Alice&exec_cxt.periodic.rate=25");
     RTC::ComponentProfile_var profile = rtc.get_component_profile();
@@ -182,7 +184,7 @@ TEST_CASE("A component can take part in another's context") {
     CHECK(guest.get_context_handle(context.in()) == -1);
 }
 
-TEST_CASE("A component that calls exit() from its own callback is gone afterwards") {
+TEST_CASE("A component that calls exit() from its own callback is deleted afterwards") {
     ManagerFixture fixture(false, {"manager.shutdown_on_nortcs:YES"});
     struct Leaver : RTC::DataFlowComponentBase {
         explicit Leaver(RTC::Manager* m) : DataFlowComponentBase(m) {}
@@ -190,6 +192,6 @@ TEST_CASE("A component that calls exit() from its own callback is gone afterward
     };
     register_component_type<Leaver>(fixture.manager(), "Leaver");
     fixture.create<Leaver>("Leaver").activate(0);
-    fixture.manager().runManager(); // leaves because its last component has
+    fixture.manager().runManager(); // returns because the last component has exited
     CHECK(fixture.manager().getComponents().empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SDO services: what a component offers to tools, and what tools give it to use.
+// SDO services: providers, which tools call, and consumers of services of tools.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <rtm/SdoServiceConsumerBase.h>
 #include <rtm/SdoServiceProviderBase.h>
@@ -10,6 +10,7 @@ namespace {
 
 int finalized = 0;
 
+/// A provider without operations; counts its finalize().
 struct Offered : RTC::SdoServiceProviderBase {
     bool init(RTC::RTObject_impl&, const SDOPackage::ServiceProfile& profile) override {
         return reinit(profile);
@@ -23,6 +24,7 @@ struct Offered : RTC::SdoServiceProviderBase {
     SDOPackage::ServiceProfile profile_;
 };
 
+/// A consumer that records its calls.
 struct Used : RTC::SdoServiceConsumerBase {
     static std::vector<std::string>& calls() {
         static std::vector<std::string> all;
@@ -51,7 +53,7 @@ SDOPackage::ServiceProfile profile_of(const char* id, const char* type) {
 
 } // namespace
 
-TEST_CASE("A component offers the SDO services whose providers a library has brought") {
+TEST_CASE("A component offers the SDO services whose providers a library has registered") {
     RTC::SdoServiceProviderFactory::instance().addFactory(
         "IDL:test/Offered:1.0", coil::Creator<RTC::SdoServiceProviderBase, Offered>,
         coil::Destructor<RTC::SdoServiceProviderBase, Offered>);
@@ -81,7 +83,7 @@ TEST_CASE("A component adds and removes SDO services of its own") {
     CHECK_FALSE(counter.addSdoServiceConsumer(profile_of("a", "IDL:test/Unknown:1.0")));
 }
 
-TEST_CASE("A component uses the SDO services that a tool gives it until they are taken away") {
+TEST_CASE("A component uses the SDO services that a tool adds until the tool removes them") {
     RTC::SdoServiceConsumerFactory::instance().addFactory(
         "IDL:test/Used:1.0", coil::Creator<RTC::SdoServiceConsumerBase, Used>,
         coil::Destructor<RTC::SdoServiceConsumerBase, Used>);

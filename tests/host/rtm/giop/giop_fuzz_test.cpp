@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A client that sends broken GIOP to every servant of a host: the host answers its good clients all the time,
-// keeps every connection of others and grows neither in memory nor in descriptors. TANDEM_STRESS=100 makes it
-// 10^6 messages.
+// Broken GIOP messages to every servant of a host. Meanwhile the host must serve its other clients, keep their
+// connections, and grow neither in memory nor in descriptors. TANDEM_STRESS=100 makes it 10^6 messages.
 #include "giop_mutator.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
@@ -32,14 +31,15 @@ SDOPackage::NVList some_properties() {
     return list;
 }
 
-/// The components that are there to be broken, and sound calls of everything they and their manager offer.
+/// The components that are attacked, and valid calls of every operation that they and their manager offer.
 class FuzzTargets {
   public:
     FuzzTargets(const RemoteHost& host, CORBA::ORB_ptr orb)
         : orb_(CORBA::ORB::_duplicate(orb)), manager_(host.manager(orb)) {}
 
-    /// Ends and makes anew the components, and lists their calls.
-    std::vector<Call> renewed() {
+    /// Replaces the components by new ones and returns the calls. Done in each round, because messages may have
+    /// made them exit or changed their configuration.
+    std::vector<Call> renew() {
         calls_.clear();
         add_manager();
         for (const char* type : {"Counter", "Accumulator", "CalculatorProvider", "CalculatorConsumer"}) {
@@ -66,7 +66,7 @@ class FuzzTargets {
         for (const char* operation : operations) add(object, operation);
     }
 
-    // Not shutdown, load_module or create_component: it would do what they say.
+    // Without shutdown, restart, load_module, create_component and delete_component, which would be carried out.
     void add_manager() {
         add_all(manager_.in(),
                 {"get_loadable_modules", "get_loaded_modules", "get_factory_profiles", "get_components",
@@ -101,7 +101,7 @@ class FuzzTargets {
         RTC::PortServiceList_var ports = component->get_ports();
         for (CORBA::ULong i = 0; i < ports->length(); ++i) add_port(ports[i]);
         if (CORBA_RTCUtil::get_component_profile(component).getProperty("type_name") == "CalculatorConsumer")
-            add_all(component, {"exit"}); // that one does not live long
+            add_all(component, {"exit"}); // only one, since the call ends it
     }
 
     void add_context(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component) {
@@ -161,7 +161,7 @@ class FuzzTargets {
             }
     }
 
-    // A connection with this port alone: its servants for the data are published in the profile.
+    // Connects this port alone, so that it publishes the servants that receive or send data in the profile.
     void add_data(RTC::PortService_ptr port, RTC::ConnectorProfile profile) {
         if (port->notify_connect(profile) != RTC::RTC_OK) return;
         OpenRTM::CdrData bytes;
@@ -183,22 +183,22 @@ class FuzzTargets {
     std::vector<Call> calls_;
 };
 
-/// A client without manners, on one connection after the other.
+/// Sends broken calls over one connection, and opens another when the host closes it, or at random.
 class FuzzClient {
   public:
     FuzzClient(std::string port, unsigned seed) : port_(std::move(port)), mutator_(seed) {}
     ~FuzzClient() { hang_up(); }
 
     void send_one(const std::vector<Call>& calls) {
-        for (const auto& message : mutator_.next(calls)) {
+        for (const auto& message : mutator_.mutate(calls)) {
             if (fd_ < 0) fd_ = connect_loopback(port_);
             REQUIRE(fd_ >= 0);
-            const bool taken = send_all(fd_, message);
+            const bool sent = send_all(fd_, message);
             char answer[4096];
             while (recv(fd_, answer, sizeof answer, MSG_DONTWAIT) > 0) continue;
-            if (!taken) hang_up(); // the host has hung up
+            if (!sent) hang_up(); // the host has closed the connection
         }
-        if (mutator_.pick(16) == 0) hang_up();
+        if (mutator_.random_below(16) == 0) hang_up();
     }
 
   private:
@@ -213,13 +213,13 @@ class FuzzClient {
 
 } // namespace
 
-TEST_CASE("A host outlives broken GIOP messages to all its servants and serves its good clients meanwhile") {
+TEST_CASE("A host survives broken GIOP messages to all its servants and serves its other clients meanwhile") {
     const long messages = 10000L * stress();
     constexpr long each_round = 1000;
-    // For the host under the address sanitizer: omniORB leaks when a message is broken (below), and the
-    // frames that tell its leaks from ours are missing. What our code leaks, the host's growth shows.
+    // For a host built with the address sanitizer: omniORB leaks memory of broken messages (see below), and the
+    // stack traces do not tell its leaks from ours. Leaks of our code show in the host's memory, checked below.
     setenv("LSAN_OPTIONS", "detect_leaks=0", 1);
-    // References in broken messages may name any address: only those of this machine are called.
+    // References in broken messages may contain any address; the host may only call those of this machine.
     RemoteHost other("Counter", unused_port(),
                      {"manager.components.preactivation:Counter0", "logger.enable:NO",
                       "corba.args:-ORBclientTransportRule \"127.0.0.1/255.255.255.255 tcp\" "
@@ -235,27 +235,28 @@ TEST_CASE("A host outlives broken GIOP messages to all its servants and serves i
     REQUIRE(eventually([&] { return accumulator.received_ > 10; }));
 
     FuzzTargets targets(other, orb);
-    targets.renewed();
+    targets.renew();
     const std::size_t descriptors = other.host.descriptor_count();
     const long memory = other.host.memory_mb();
     for (long round = 0; round < messages / each_round; ++round) {
         INFO("round " << round << "; the host: " << other.host.errors);
-        const auto calls = targets.renewed();
+        const auto calls = targets.renew();
         REQUIRE(calls.size() > 200);
         FuzzClient client(other.port, static_cast<unsigned>(20261121 + round));
         for (long i = 0; i < each_round; ++i) client.send_one(calls);
         REQUIRE(CORBA_RTCUtil::is_in_active(counter.in()));
     }
     const long before = accumulator.received_;
-    RTC::ConnectorProfileList_var standing = accumulator.in_.get_connector_profiles();
-    CHECK(standing->length() == 1);
+    RTC::ConnectorProfileList_var connections = accumulator.in_.get_connector_profiles();
+    CHECK(connections->length() == 1);
     CHECK(eventually([&] { return accumulator.received_ > before + 10; }));
-    // 1 + 2 + ... + n: none was lost or changed. The one that is being added may be in one count only.
+    // The values are consecutive, so their sum shows that none was lost or changed. The component is deactivated
+    // first, so that no value is added while the sums are compared.
     RTC::RTObject_var here = accumulator.getObjRef();
     CORBA_RTCUtil::deactivate(here.in());
     const long n = accumulator.received_, first = accumulator.value_.data - n + 1;
     CHECK(accumulator.sum_ == n * (first + accumulator.value_.data) / 2);
-    targets.renewed();
+    targets.renew();
     // omniORB forgets 3 to 5 of 10^6 connections that end with a broken message: their sockets stay, half
     // closed, and its scan for idle connections only shuts them down.
     const auto bound = descriptors + 4 + static_cast<std::size_t>(messages / 100000);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests that are well-formed and ask for too much: for memory, for a circle, for a clock that cannot be.
+// Well-formed requests that ask for too much: lengths without data, circular connections, impossible rates, a
+// deep tree of settings, more connections than the host has descriptors.
 #include "giop_message.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
@@ -22,7 +23,7 @@ RTC::ConnectorProfile connection(std::initializer_list<RTC::PortService_ptr> por
     return profile;
 }
 
-// The ending of a message that names so many octets and has none of them.
+// Ends the arguments with a length of so many bytes that do not follow.
 Call with_length(Call call, std::size_t at, std::uint32_t length) {
     for (const bool little : {false, true}) {
         call.arguments[little].resize(at + 4);
@@ -34,7 +35,7 @@ Call with_length(Call call, std::size_t at, std::uint32_t length) {
 
 } // namespace
 
-TEST_CASE("A length that is not so takes no memory and is refused") {
+TEST_CASE("A length without its data is refused and takes no memory") {
     RemoteHost other("Accumulator");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
@@ -46,12 +47,12 @@ TEST_CASE("A length that is not so takes no memory and is refused") {
     REQUIRE(in->notify_connect(profile) == RTC::RTC_OK);
     CORBA::Object_var inlet =
         orb->string_to_object(NVUtil::toString(profile.properties, "dataport.corba_cdr.inport_ior").c_str());
-    const Call sound[] = {call(object_key(orb, inlet.in()), "put", CORBA::ULong(0)),
+    const Call valid[] = {call(object_key(orb, inlet.in()), "put", CORBA::ULong(0)),
                           call("manager", "set_configuration", CORBA::ULong(0)),
                           call(object_key(orb, in.in()), "notify_disconnect", CORBA::ULong(0)),
                           call(object_key(orb, in.in()), "notify_connect", "c", "c", CORBA::ULong(0))};
     const long before = other.host.memory_mb(true);
-    for (const auto& one : sound)
+    for (const auto& one : valid)
         for (const std::uint32_t length : {0x7fffffffu, 0x80000000u, 0xffffffffu, 0x3ffffffu})
             for (const bool little : {false, true}) {
                 CAPTURE(one.operation, length, little);
@@ -63,7 +64,7 @@ TEST_CASE("A length that is not so takes no memory and is refused") {
                 unsigned char answer[24] = {};
                 CHECK(recv(fd, answer, sizeof answer, MSG_WAITALL) == 24);
                 CHECK(answer[7] == 1);  // a reply ...
-                CHECK(answer[16] == 2); // ... of a system exception, in the order of this machine
+                CHECK(answer[16] == 2); // ... with a system exception, in the byte order of this machine
                 close(fd);
             }
     CHECK(other.host.memory_mb(true) < before + 50);
@@ -71,7 +72,7 @@ TEST_CASE("A length that is not so takes no memory and is refused") {
     CHECK(components->length() == 1);
 }
 
-TEST_CASE("What no component can do is refused and its host lives on") {
+TEST_CASE("Requests that no component can carry out are refused and the host keeps running") {
     RemoteHost other("Accumulator,Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
@@ -125,7 +126,7 @@ TEST_CASE("What no component can do is refused and its host lives on") {
     }
     INFO("MB before " << before << ", peak " << other.host.memory_mb(true));
 #ifdef __SANITIZE_THREAD__
-    constexpr long more = 300; // a key of 2 MB, and the million nodes it makes, are shadowed
+    constexpr long more = 300; // the sanitizer shadows a key of 2 MB
 #else
     constexpr long more = 100;
 #endif
@@ -135,8 +136,7 @@ TEST_CASE("What no component can do is refused and its host lives on") {
     CHECK(other.host.wait_for_exit() == 0);
 }
 
-TEST_CASE(
-    "Connections that say nothing and more than there are descriptors for do not touch those that stand") {
+TEST_CASE("Silent connections, more than the host has descriptors for, do not affect established ones") {
     RemoteHost other("Counter", unused_port(), {"manager.components.preactivation:Counter0"});
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture(false, {"exec_cxt.periodic.rate:200"});
@@ -153,9 +153,9 @@ TEST_CASE(
 
     const Bytes whole = request("manager", "get_components", {}, 2, true);
     std::vector<int> open;
-    for (std::size_t i = 0; i < 120; ++i) { // twice as many as it can take
+    for (std::size_t i = 0; i < 120; ++i) { // twice as many as it has descriptors for
         const int fd = connect_loopback(other.port);
-        if (fd < 0) continue; // the queue of those that wait is full as well
+        if (fd < 0) continue; // the listen queue is full as well
         open.push_back(fd);
         send_all(fd, Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(i % whole.size())));
     }

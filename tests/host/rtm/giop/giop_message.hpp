@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// GIOP messages made by hand, sound ones and broken ones.
+// GIOP messages written byte by byte, after the CORBA specification, because an ORB only writes valid ones.
 #pragma once
 #include <arpa/inet.h>
 #include <cstring>
@@ -15,12 +15,13 @@ namespace testing {
 
 using Bytes = std::vector<unsigned char>;
 
-/// One operation of one object with sound arguments, in both byte orders.
+/// A call of one operation of one object, with valid arguments in both byte orders.
 struct Call {
     std::string key, operation;
     Bytes arguments[2]; // big-endian, little-endian
 };
 
+/// The key by which a request names the object: read from the IIOP profile of its IOR.
 inline std::string object_key(CORBA::ORB_ptr orb, CORBA::Object_ptr object) {
     CORBA::String_var text = orb->object_to_string(object); // IOR:<hex of type id and profiles>
     Bytes ior;
@@ -45,6 +46,7 @@ inline std::string object_key(CORBA::ORB_ptr orb, CORBA::Object_ptr object) {
     return key;
 }
 
+// Arguments of a call, as omniORB marshals them.
 inline void marshal(cdrStream& to, const char* text) { to.marshalString(text); }
 inline void marshal(cdrStream& to, CORBA::Object_ptr object) { CORBA::Object::_marshalObjRef(object, to); }
 template <class T>
@@ -65,7 +67,7 @@ Call call(const std::string& key, const std::string& operation, const Arguments&
     return made;
 }
 
-/// Numbers of a message in one byte order.
+/// Writes one message in one byte order. Numbers are aligned to 4 bytes, as CDR demands.
 class MessageWriter {
   public:
     MessageWriter(bool little, unsigned minor, unsigned type)
@@ -111,7 +113,7 @@ class MessageWriter {
     Bytes bytes;
 };
 
-/// A request of GIOP 1.<minor> whose header is sound, whatever the arguments are.
+/// A request of GIOP 1.`minor` with a valid header; the arguments may be anything.
 inline Bytes request(const std::string& key, const std::string& operation, const Bytes& arguments,
                      unsigned minor, bool little) {
     MessageWriter m(little, minor, 0);
@@ -125,7 +127,8 @@ inline Bytes request(const std::string& key, const std::string& operation, const
         m.number(0); // service contexts
         if (!arguments.empty()) m.align8();
     } else {
-        // No padding before the arguments there: the principal takes what is missing to a multiple of 8.
+        // GIOP 1.0 and 1.1 do not align the arguments: the principal, whose content nobody reads, fills up to a
+        // multiple of 8.
         while (m.bytes.size() % 4 != 0) m.bytes.push_back(0);
         const std::size_t filler = (8 - (m.bytes.size() + 4) % 8) % 8;
         m.text(std::string(filler, '\0'), false);
@@ -134,7 +137,7 @@ inline Bytes request(const std::string& key, const std::string& operation, const
     return m.finish();
 }
 
-/// The same in two pieces or more: fragments of GIOP 1.2.
+/// The same message in fragments of GIOP 1.2: the first has about `first` bytes, the others about `each`.
 inline std::vector<Bytes> in_fragments(const Bytes& whole, std::size_t first, std::size_t each) {
     const bool little = whole[6] & 1;
     std::vector<Bytes> pieces;
@@ -157,7 +160,7 @@ inline std::vector<Bytes> in_fragments(const Bytes& whole, std::size_t first, st
     }
 }
 
-/// A socket to the port on the loopback interface, or -1.
+/// A TCP connection to the port on the loopback interface with time limits of 5 s; -1: refused.
 inline int connect_loopback(const std::string& port) {
     const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address{};
@@ -172,6 +175,7 @@ inline int connect_loopback(const std::string& port) {
     return -1;
 }
 
+/// False: the host has closed the connection, or has not read for 5 s.
 inline bool send_all(int fd, const Bytes& message) {
     return send(fd, message.data(), message.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(message.size());
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The check of rtc.conf against the table of keys, files that are no configuration, and the log settings.
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
@@ -9,8 +10,8 @@ using namespace testing;
 
 namespace {
 
-// What check_settings says to a file of these lines.
-std::vector<std::string> checked(const std::string& text, coil::Properties& conf) {
+// The warnings of check_settings() for a file with this text, whose settings are read into `conf`.
+std::vector<std::string> check_text(const std::string& text, coil::Properties& conf) {
     const auto file = std::filesystem::temp_directory_path() / ("tandem_keys." + std::to_string(getpid()));
     std::ofstream(file) << text;
     RTC::SettingOrigins origins;
@@ -18,14 +19,14 @@ std::vector<std::string> checked(const std::string& text, coil::Properties& conf
     std::filesystem::remove(file);
     return RTC::check_settings(conf, origins);
 }
-std::vector<std::string> checked(const std::string& text) {
+std::vector<std::string> check_text(const std::string& text) {
     coil::Properties conf;
-    return checked(text, conf);
+    return check_text(text, conf);
 }
 
 } // namespace
 
-TEST_CASE("Every known key passes without a word, those of components and unknown sections as well") {
+TEST_CASE("Every known key passes without a warning, and so do keys of components") {
     std::string text;
     for (const auto& key : RTC::conf_keys()) {
         std::string name = key.name;
@@ -34,12 +35,12 @@ TEST_CASE("Every known key passes without a word, those of components and unknow
         text += name + ": " + values[key.value] + "\n";
     }
     text += "example.ConsoleIn.config_file: a.conf\nmy.ConsoleIn0.conf.default.gain: 3\n";
-    CHECK(checked(text).empty());
+    CHECK(check_text(text).empty());
 }
 
 TEST_CASE("An unknown key is named with file, line and the nearest known key") {
     const auto lines =
-        checked("# rtc.conf\nmanager.components.precreat: A\nexec_ctx.periodic.rate: 10\nrate: 5\n");
+        check_text("# rtc.conf\nmanager.components.precreat: A\nexec_ctx.periodic.rate: 10\nrate: 5\n");
     REQUIRE(lines.size() == 3);
     using Catch::Contains;
     CHECK_THAT(lines[0], Contains(":3: ") && Contains("did you mean exec_cxt.periodic.rate?"));
@@ -47,17 +48,17 @@ TEST_CASE("An unknown key is named with file, line and the nearest known key") {
     CHECK_THAT(lines[2], Contains(":4: unknown key rate"));
 }
 
-TEST_CASE("A value a key cannot have is refused with file, line and what it can be") {
+TEST_CASE("A value that its key cannot have is refused with file, line and the expected values") {
     using Catch::Contains;
-    CHECK_THROWS_WITH(checked("\nmanager.shutdown_auto: maybe\n"),
+    CHECK_THROWS_WITH(check_text("\nmanager.shutdown_auto: maybe\n"),
                       Contains(":2: manager.shutdown_auto is maybe, expected YES or NO"));
-    CHECK_THROWS_WITH(checked("exec_cxt.periodic.rate: 0\n"), Contains("expected a rate in Hz above 0"));
-    CHECK_THROWS_WITH(checked("exec_cxt.periodic.rate: 100Hz\n"), Contains("is 100Hz"));
-    CHECK_THROWS_WITH(checked("exec_cxt.transition_timeout: soon\n"), Contains("expected seconds"));
-    CHECK_THROWS_WITH(checked("exec_cxt.cpu_affinity: 0, one\n"), Contains("processor numbers"));
-    CHECK_THROWS_WITH(checked("logger.log_level: LOUD\n"), Contains("LOUD"));
-    CHECK_THROWS_WITH(checked("manager.components.naming_policy: pretty\n"), Contains("process_unique"));
-    CHECK(checked("corba.endpoints:\nmanager.shutdown_auto:\n").empty());
+    CHECK_THROWS_WITH(check_text("exec_cxt.periodic.rate: 0\n"), Contains("expected a rate in Hz above 0"));
+    CHECK_THROWS_WITH(check_text("exec_cxt.periodic.rate: 100Hz\n"), Contains("is 100Hz"));
+    CHECK_THROWS_WITH(check_text("exec_cxt.transition_timeout: soon\n"), Contains("expected seconds"));
+    CHECK_THROWS_WITH(check_text("exec_cxt.cpu_affinity: 0, one\n"), Contains("processor numbers"));
+    CHECK_THROWS_WITH(check_text("logger.log_level: LOUD\n"), Contains("LOUD"));
+    CHECK_THROWS_WITH(check_text("manager.components.naming_policy: pretty\n"), Contains("process_unique"));
+    CHECK(check_text("corba.endpoints:\nmanager.shutdown_auto:\n").empty());
 }
 
 TEST_CASE("Each key refuses each value that it cannot have") {
@@ -69,9 +70,9 @@ TEST_CASE("Each key refuses each value that it cannot have") {
         for (const std::string value : {"-1", "nan", "1e300", "-inf", "0x", "yes no", "\x95\x5c\x82", ";",
                                         "1,,-2", "99999999999999999999", long_text.c_str()}) {
             CAPTURE(name, value);
-            const bool fits = (key.value == RTC::ConfKey::integer && value == "-1"); // a number, at least
+            const bool fits = (key.value == RTC::ConfKey::integer && value == "-1"); // an integer
             if (fits) continue;
-            CHECK_THROWS_WITH(checked(name + ": " + value + "\n"),
+            CHECK_THROWS_WITH(check_text(name + ": " + value + "\n"),
                               Catch::Contains(":1: " + name + " is ") && Catch::Contains(", expected "));
             ++refused;
         }
@@ -79,29 +80,30 @@ TEST_CASE("Each key refuses each value that it cannot have") {
     CHECK(refused > 200);
 }
 
-TEST_CASE("Files that are no configuration are refused in one line and those of other systems are read") {
+TEST_CASE("Files that are no configuration are refused with one line, and files of other systems are read") {
     using Catch::Contains;
     coil::Properties conf;
-    CHECK(
-        checked("\xef\xbb\xbfmanager.name: a\r\n# \x95\x5c\r\nmanager.shutdown_auto: NO\r\n", conf).empty());
+    CHECK(check_text("\xef\xbb\xbfmanager.name: a\r\n# \x95\x5c\r\nmanager.shutdown_auto: NO\r\n", conf)
+              .empty());
     CHECK(conf.getProperty("manager.name") == "a");
     CHECK(conf.getProperty("manager.shutdown_auto") == "NO");
-    CHECK(checked("test.A.title: \x83\x65\x83\x58\x83\x67\n").empty()); // Shift-JIS, as it is
-    CHECK(checked("manager.name: no end of line").empty());
-    CHECK_THROWS_WITH(checked(std::string("m\0a\0:\0 \0b\0\n", 9)), Contains("expected `key: value`"));
-    CHECK_THROWS_WITH(checked(std::string(900000, 'x') + "\n"), Contains(":1: expected") && Contains("..."));
-    CHECK_THROWS_WITH(checked(std::string(1100000, '#')), Contains("more than 1 MB"));
+    CHECK(check_text("test.A.title: \x83\x65\x83\x58\x83\x67\n").empty()); // Shift-JIS is kept
+    CHECK(check_text("manager.name: no end of line").empty());
+    CHECK_THROWS_WITH(check_text(std::string("m\0a\0:\0 \0b\0\n", 9)), Contains("expected `key: value`"));
+    CHECK_THROWS_WITH(check_text(std::string(900000, 'x') + "\n"),
+                      Contains(":1: expected") && Contains("..."));
+    CHECK_THROWS_WITH(check_text(std::string(1100000, '#')), Contains("more than 1 MB"));
     std::string many;
     for (int i = 0; i < 10001; ++i) many += "a.b.c" + std::to_string(i) + ": 1\n";
-    CHECK_THROWS_WITH(checked(many), Contains(":10001: more than 10000 settings"));
+    CHECK_THROWS_WITH(check_text(many), Contains(":10001: more than 10000 settings"));
     std::string deep = "a";
     for (int i = 0; i < 400000; ++i) deep += ".a";
-    CHECK(checked(deep + ": 1\n").empty());
+    CHECK(check_text(deep + ": 1\n").empty());
     CHECK_THROWS_WITH(RTC::read_conf_file("/dev/zero", conf), Contains("more than 1 MB"));
     CHECK_THROWS_WITH(RTC::read_conf_file("/", conf), Contains("not a regular file"));
 }
 
-TEST_CASE("Keys that do nothing are in the table of differences with a reason and no others") {
+TEST_CASE("The keys without effect, and no others, are in the table of DIFFERENCES.md") {
     std::ifstream in(TANDEM_RTM_FOLDER "/DIFFERENCES.md");
     const std::string text{std::istreambuf_iterator<char>(in), {}};
     const std::string table = text.substr(text.find("accepted and do nothing"));
@@ -111,9 +113,9 @@ TEST_CASE("Keys that do nothing are in the table of differences with a reason an
     }
 }
 
-TEST_CASE("Other words for yes and no do what they say") {
+TEST_CASE("Other words for yes and no are understood") {
     coil::Properties conf;
-    CHECK(checked("manager.shutdown_auto: false\nmanager.is_master: On\n", conf).empty());
+    CHECK(check_text("manager.shutdown_auto: false\nmanager.is_master: On\n", conf).empty());
     CHECK(conf.getProperty("manager.shutdown_auto") == "NO");
     CHECK(conf.getProperty("manager.is_master") == "YES");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// rtm_host as a program: rtc.conf in, signals, exit codes.
+// rtm_host as a program: rtc.conf, standard output and error, signals, exit codes.
 #include "host/rt/step_client.hpp"
 #include "tests/host/rtm/host_process.hpp"
 #include <catch2/catch.hpp>
@@ -11,6 +11,7 @@ using testing::HostProcess;
 
 namespace {
 
+/// A temporary folder with an rtc.conf.
 struct Folder {
     std::filesystem::path path =
         std::filesystem::temp_directory_path() / ("tandem_rtm." + std::to_string(getpid()));
@@ -33,7 +34,7 @@ const char* const pair_conf =
     "manager.components.preactivation: Counter0, Reporter0\n"
     "exec_cxt.periodic.rate: 200\n";
 
-// What rtm_host says to a configuration it cannot use: exactly one line, and exit code 1.
+// The message of rtm_host for a configuration that it refuses: exactly one line, with exit code 1.
 std::string refusal(const std::vector<std::string>& arguments) {
     HostProcess host(arguments);
     REQUIRE(host.wait_for_exit() == 1);
@@ -87,7 +88,7 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
     CHECK_THAT(refusal(std::vector<std::string>{"-p", "many"}), Contains("option -p") && Contains("many"));
 }
 
-TEST_CASE("A component that throws goes to the error state, its host lives on") {
+TEST_CASE("A component that throws goes to the error state and its host keeps running") {
     Folder folder;
     HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
                                         "manager.components.precreate: Thrower\n"
@@ -99,7 +100,7 @@ TEST_CASE("A component that throws goes to the error state, its host lives on") 
     CHECK(host.errors.find("Thrower0: onExecute threw: on purpose") != std::string::npos);
 }
 
-TEST_CASE("A component that hangs does not keep its host from leaving") {
+TEST_CASE("A component that hangs does not keep its host from ending") {
     Folder folder;
     HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
                                         "manager.components.precreate: Reporter, HangingComponent\n"
@@ -111,7 +112,7 @@ TEST_CASE("A component that hangs does not keep its host from leaving") {
     CHECK(host.output.find("Reporter0 finalized") != std::string::npos);
 }
 
-TEST_CASE("Whichever callback a component does not return from the others end in order and the host leaves") {
+TEST_CASE("The other components and the host end in order whichever callback of a component hangs") {
     const std::vector<std::string> callbacks{"initialize",  "startup",  "activated", "execute",
                                              "update",      "rate",     "aborting",  "error",
                                              "deactivated", "shutdown", "finalize"};
@@ -128,7 +129,7 @@ TEST_CASE("Whichever callback a component does not return from the others end in
                                        "exec_cxt.periodic.rate: 100\n")}));
     }
     for (std::size_t i = 0; i < hosts.size(); ++i) {
-        const bool at_the_end = i >= 8; // these only when the host is told to leave
+        const bool at_the_end = i >= 8; // called only when the host ends
         CAPTURE(callbacks[i]);
         CHECK(hosts[i]->wait_for_output(at_the_end ? "ready\n" : "asleep\n"));
         hosts[i]->send_signal(SIGTERM);
@@ -141,7 +142,7 @@ TEST_CASE("Whichever callback a component does not return from the others end in
     }
 }
 
-TEST_CASE("Whatever a component throws and wherever its host says it in one line and lives on") {
+TEST_CASE("An exception of any type in any callback is logged in one line and the host keeps running") {
     const std::vector<std::string> callbacks{"Startup", "Activated", "Execute",     "StateUpdate", "Aborting",
                                              "Error",   "Shutdown",  "Deactivated", "Finalize"};
     for (const std::string how : {"int", "corba", "std"}) {
@@ -162,26 +163,26 @@ TEST_CASE("Whatever a component throws and wherever its host says it in one line
         }
         for (auto& host : hosts) {
             CHECK(host->wait_for_output("ready\n"));
-            CHECK(host->wait_for_output("received ")); // the others go on
+            CHECK(host->wait_for_output("received ")); // the other components keep running
             host->send_signal(SIGTERM);
         }
-        const std::string said = how == "int"   ? "something that is not"
-                                 : how == "std" ? ": on purpose"
-                                                : "NO_MEMORY";
+        const std::string expected = how == "int"   ? "something that is not"
+                                     : how == "std" ? ": on purpose"
+                                                    : "NO_MEMORY";
         for (std::size_t i = 0; i < hosts.size(); ++i) {
             CAPTURE(how, callbacks[i], hosts[i]->output, hosts[i]->errors);
             CHECK(hosts[i]->wait_for_exit() == 0);
             const std::string line = "FaultInjector0: on" + callbacks[i] + " threw";
             const std::size_t at = hosts[i]->errors.find(line);
             REQUIRE(at != std::string::npos);
-            CHECK(hosts[i]->errors.find(said, at) != std::string::npos);
+            CHECK(hosts[i]->errors.find(expected, at) != std::string::npos);
             CHECK(hosts[i]->errors.find(line, at + 1) == std::string::npos);
             CHECK(hosts[i]->output.find("Reporter0 finalized") != std::string::npos);
         }
     }
 }
 
-TEST_CASE("A component that throws where it is to initialize does not let its host start") {
+TEST_CASE("A host does not start with a component whose onInitialize throws") {
     using Catch::Contains;
     for (const std::string how : {"int", "corba", "std"}) {
         Folder folder;
@@ -194,7 +195,7 @@ TEST_CASE("A component that throws where it is to initialize does not let its ho
     }
 }
 
-TEST_CASE("A component that cannot initialize nor be destroyed does not hold its host") {
+TEST_CASE("A component that can neither initialize nor be destroyed does not block its host") {
     using Catch::Contains;
     Folder folder;
     HostProcess host(
@@ -205,7 +206,7 @@ TEST_CASE("A component that cannot initialize nor be destroyed does not hold its
                                 Contains("FaultInjector0 cannot be started: its onInitialize has failed"));
 }
 
-TEST_CASE("A component that ends the process ends it with its own code and in time") {
+TEST_CASE("A component that ends the process does so with its own exit code and in time") {
     const std::vector<std::string> callbacks{"initialize", "startup",  "activated",   "execute",
                                              "update",     "shutdown", "deactivated", "finalize"};
     for (const auto& [how, code] : {std::pair("exit", 7), {"abort", -SIGABRT}})
@@ -224,7 +225,7 @@ TEST_CASE("A component that ends the process ends it with its own code and in ti
         }
 }
 
-TEST_CASE("Neither a read of stdin nor a static destructor holds the host for ever") {
+TEST_CASE("Neither a read of stdin nor a static destructor keeps the host from ending") {
     for (const auto& [how, said, code, line] :
          {std::tuple("stdin", "reads\n", 0, "a component does not stop"),
           {"static", "is there\n", 1, "static destructors do not return"}}) {
@@ -244,26 +245,26 @@ TEST_CASE("Neither a read of stdin nor a static destructor holds the host for ev
     }
 }
 
-TEST_CASE("In lock-step components run when they are told to and at no other time") {
+TEST_CASE("In lock-step mode components run when the driver requests it and at no other time") {
     Folder folder;
     const std::string socket = (folder.path / "steps").string();
     HostProcess host({"-f", folder.conf(pair_conf), "--lockstep", socket});
     REQUIRE(host.wait_for_output("ready\n"));
-    tandem::rt::StepClient conductor(socket, std::chrono::seconds(10));
+    tandem::rt::StepClient driver(socket, std::chrono::seconds(10));
     for (int i = 0; i < 9; ++i) {
-        conductor.step("Counter0");
-        conductor.step("Reporter0");
+        driver.step("Counter0");
+        driver.step("Reporter0");
     }
     CHECK_FALSE(host.wait_for_output("received", std::chrono::seconds(0)));
-    conductor.step("Counter0");
-    conductor.step("Reporter0");
+    driver.step("Counter0");
+    driver.step("Reporter0");
     CHECK(host.wait_for_output("received 10\n", std::chrono::seconds(10)));
-    CHECK_THROWS_WITH(conductor.step("Nobody"), Catch::Contains("there is no component Nobody"));
+    CHECK_THROWS_WITH(driver.step("Nobody"), Catch::Contains("there is no component Nobody"));
     host.send_signal(SIGTERM);
     CHECK(host.wait_for_exit() == 0);
 }
 
-TEST_CASE("A manager without components leaves by itself unless it is told to stay") {
+TEST_CASE("A manager without components ends by itself unless it is configured to stay") {
     const std::string soon = "manager.auto_shutdown_duration:0.2";
     CHECK(HostProcess({"-o", soon}).wait_for_exit() == 0);
     CHECK(HostProcess({"-i", "-f", "/no/such/rtc.conf", "-o", soon}).wait_for_exit() == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The manager as tools use it: modules, components, settings, its end and its return.
+// The manager's CORBA interface as tools use it: modules, components, settings, shutdown and restart.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
@@ -45,8 +45,8 @@ TEST_CASE("A tool sees which modules there are and loads and unloads them") {
         return listed(list.in(), "implementation_id");
     };
     CHECK(has(loadable(), "TestComponents.so"));
-    CHECK_FALSE(has(loadable(), "BadModule.so")); // no module: it has no such function
-    CHECK_FALSE(has(loadable(), "OldModule.so")); // built against the headers of another Tandem
+    CHECK_FALSE(has(loadable(), "BadModule.so")); // without an init function
+    CHECK_FALSE(has(loadable(), "OldModule.so")); // built against another ABI number
     CHECK(loaded().empty());
     for (const char* wrong : {"BadModule.so", "OldModule.so", "Missing.so", "/dev/null", "", "/"}) {
         CAPTURE(wrong);
@@ -101,7 +101,7 @@ TEST_CASE("A tool creates and configures and deletes components and changes sett
     CHECK(other.host.wait_for_exit() == 0);
 }
 
-TEST_CASE("A tool restarts the host which comes back as it was at first") {
+TEST_CASE("A tool restarts the host, which comes back in its initial state") {
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
@@ -112,7 +112,7 @@ TEST_CASE("A tool restarts the host which comes back as it was at first") {
     const std::size_t descriptors = other.host.descriptor_count();
     CHECK(manager->restart() == RTC::RTC_OK);
     REQUIRE(other.host.wait_for_output("Reporter0 finalized\nready\n"));
-    CHECK(eventually([&] { // the first call may still go to the connection that was
+    CHECK(eventually([&] { // the first call may still use the old connection
         try {
             return components(manager.in(), "Counter0") == 1;
         } catch (const CORBA::SystemException&) {
@@ -125,7 +125,7 @@ TEST_CASE("A tool restarts the host which comes back as it was at first") {
     CHECK(other.host.wait_for_exit() == 0);
 }
 
-TEST_CASE("A tool that asks for a component that cannot initialize nor be destroyed gets none") {
+TEST_CASE("A tool that asks for a component that can neither initialize nor be destroyed gets none") {
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
@@ -141,7 +141,7 @@ TEST_CASE("A tool that asks for a component that cannot initialize nor be destro
     CHECK_THAT(other.host.errors, Catch::Contains("never: its destructor does not return"));
 }
 
-TEST_CASE("Only one of many that ask at once gets a component of the name they want") {
+TEST_CASE("Only one of several simultaneous requests gets a component of the same name") {
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;

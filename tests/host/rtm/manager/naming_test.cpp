@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names in CORBA name servers that come later, go, and come back empty.
+// Names in CORBA name servers that are started later than the host, end, and come back empty.
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <catch2/catch.hpp>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// omniNames with a log of its own, which is gone with it.
+/// Runs omniNames with a log folder of its own, which is removed at the end, and with it all names.
 class NameServer {
   public:
     explicit NameServer(const std::string& port) {
@@ -39,6 +39,7 @@ class NameServer {
     pid_t pid_;
 };
 
+/// A CORBA client that looks names up.
 struct Observer {
     Observer() {
         coil::Argv argv(coil::vstring{"test", "-ORBclientCallTimeOutPeriod", "5000", "-ORBtraceLevel", "0"});
@@ -62,13 +63,12 @@ struct Observer {
 
 } // namespace
 
-TEST_CASE(
-    "Names are bound in a name server that comes later and in one that has lost them and go at the end") {
+TEST_CASE("Names are bound in a name server that starts later or has lost them, and unbound at the end") {
     const std::string port = unused_port(), server = "127.0.0.1:" + port;
     RemoteHost host("Counter", unused_port(),
                     {"corba.nameservers:" + server, "naming.update.interval:0.1",
                      "naming.formats:t.host_cxt/%n.rtc", "manager.naming_formats:t.host_cxt/%n.mgr"});
-    REQUIRE(host.host.wait_for_output("ready\n")); // it does not wait for the server
+    REQUIRE(host.host.wait_for_output("ready\n")); // without waiting for the server
     Observer observer;
     auto both = [&] {
         return observer.sees(server, "t.host_cxt/Counter0.rtc") &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peers in other processes that come late, leave, die, hang and send rubbish.
+// Peers in other processes that start late, end, die, hang, and send broken data.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
@@ -9,7 +9,7 @@ using namespace testing;
 
 namespace {
 
-const std::string quick_watch = "manager.peer_check_interval:0.05";
+const std::string short_check_interval = "manager.peer_check_interval:0.05";
 
 std::size_t connections(RTC::PortBase& port) {
     RTC::ConnectorProfileList_var list = port.get_connector_profiles();
@@ -26,8 +26,8 @@ RTC::ReturnCode_t connect(RTC::PortBase& ours, RTC::RTObject_ptr theirs, const c
     return ours.connect(profile.inout());
 }
 
-// Writes until the Reporter over there says what it received: it does so from 10 on, and a buffer holds 8.
-bool tells(HostProcess& host, Counter& counter) {
+// Writes until the Reporter in that host reports. It does so after 10 values, and a buffer only holds 8.
+bool reports(HostProcess& host, Counter& counter) {
     for (int i = 0; i < 600; ++i) {
         counter.out_.write();
         if (host.wait_for_output("received ", std::chrono::milliseconds(50))) return true;
@@ -37,10 +37,9 @@ bool tells(HostProcess& host, Counter& counter) {
 
 } // namespace
 
-TEST_CASE(
-    "A preconnect waits for a process that comes later and is made again when that has died and is back") {
+TEST_CASE("A preconnect entry is connected when its process starts later, and again when it was restarted") {
     const std::string port = unused_port();
-    ManagerFixture fixture(false, {quick_watch, "exec_cxt.periodic.rate:200"});
+    ManagerFixture fixture(false, {short_check_interval, "exec_cxt.periodic.rate:200"});
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     CORBA_RTCUtil::activate(RTC::RTObject_var(accumulator.getObjRef()).in());
     CHECK_NOTHROW(fixture.connect("rtcloc://127.0.0.1:" + port + "/Counter0.out?port=Accumulator0.in"));
@@ -57,20 +56,20 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A kept connection that somebody ends on purpose stays ended") {
+TEST_CASE("A kept connection that is disconnected on purpose stays disconnected") {
     RemoteHost other("Counter");
     REQUIRE(other.host.wait_for_output("ready\n"));
-    ManagerFixture fixture(false, {quick_watch});
+    ManagerFixture fixture(false, {short_check_interval});
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out");
     CHECK(connections(accumulator.in_) == 1);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // some rounds of the watch
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // some rounds of checks
     CHECK(accumulator.in_.disconnect_all() == RTC::RTC_OK);
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     CHECK(connections(accumulator.in_) == 0);
 }
 
-TEST_CASE("A name that cannot be is an error and one that is not there yet is not") {
+TEST_CASE("A malformed name is an error and an unavailable one is not") {
     ManagerFixture fixture;
     fixture.create<Accumulator>("Accumulator");
     CHECK_THROWS_WITH(fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:9/noport"),
@@ -129,10 +128,10 @@ TEST_CASE("A peer that dies or hangs in its notify_disconnect leaves nothing beh
         fixture.step(counter);
         if (i % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
     }
-    CHECK(tells(well.host, counter));
+    CHECK(reports(well.host, counter));
 }
 
-TEST_CASE("A component that does not return from onExecute keeps no tool from the others") {
+TEST_CASE("A component that hangs in onExecute does not block calls of tools to the others") {
     RemoteHost other("Counter,HangingComponent", unused_port(),
                      {"manager.components.preactivation:Counter0,HangingComponent0"});
     REQUIRE(other.host.wait_for_output("hanging\n"));
@@ -155,7 +154,7 @@ TEST_CASE("A component that does not return from onExecute keeps no tool from th
     CHECK(other.host.wait_for_exit() == 0);
 }
 
-TEST_CASE("Whichever way a receiver that hangs is sent to the others get what is theirs") {
+TEST_CASE("A receiver that hangs delays no other receiver, whatever its subscription and buffer policy") {
     RemoteHost stuck("Reporter"), well("Reporter");
     REQUIRE(stuck.host.wait_for_output("ready\n"));
     REQUIRE(well.host.wait_for_output("ready\n"));
@@ -180,13 +179,13 @@ TEST_CASE("Whichever way a receiver that hangs is sent to the others get what is
         counter.out_.write();
         if (i % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
     }
-    CHECK(tells(well.host, counter));
+    CHECK(reports(well.host, counter));
     CHECK(stuck.host.output.find("received ") == std::string::npos);
     stuck.host.send_signal(SIGCONT);
-    CHECK(tells(stuck.host, counter));
+    CHECK(reports(stuck.host, counter));
 }
 
-TEST_CASE("A sender that hangs keeps an InPort that pulls from it waiting once and no other component") {
+TEST_CASE("A sender that hangs delays an InPort that pulls from it once, and no other component") {
     RemoteHost stuck("Counter", unused_port(), {"manager.components.preactivation:Counter0"});
     REQUIRE(stuck.host.wait_for_output("ready\n"));
     ManagerFixture fixture(true);
@@ -202,7 +201,7 @@ TEST_CASE("A sender that hangs keeps an InPort that pulls from it waiting once a
         fixture.activate(*one);
     int refused = 0;
     for (int i = 0; i < 50; ++i) {
-        if (!puller.in_.read()) ++refused; // waits for an answer once in two seconds at most
+        if (!puller.in_.read()) ++refused; // waits for an answer at most once in two seconds
         fixture.step(counter);
         fixture.step(accumulator);
     }
@@ -213,13 +212,14 @@ TEST_CASE("A sender that hangs keeps an InPort that pulls from it waiting once a
 }
 
 TEST_CASE(
-    "An InPort that pulls from two senders reads both and the other one when the first hangs or is dead") {
+    "An InPort that pulls from two senders reads both, and the second when the first hangs or is dead") {
     RemoteHost first("Counter", unused_port(), {"manager.components.preactivation:Counter0"});
     RemoteHost second("Counter?conf.default.step=-1", unused_port(),
                       {"manager.components.preactivation:Counter0"});
     REQUIRE(first.host.wait_for_output("ready\n"));
     REQUIRE(second.host.wait_for_output("ready\n"));
-    ManagerFixture fixture(true, {"manager.peer_check_interval:3600"}); // the watch lets go of nobody
+    ManagerFixture fixture(
+        true, {"manager.peer_check_interval:3600"}); // longer than the test: no check releases a connection
     auto& puller = fixture.create<Accumulator>("Accumulator");
     auto* orb = fixture.manager().theORB();
     for (auto* host : {&first, &second}) {
@@ -231,14 +231,14 @@ TEST_CASE(
     };
     CHECK(reads(1));
     REQUIRE(first.host.suspend());
-    while (puller.in_.read() && puller.value_.data > 0) continue; // what was on its way
+    while (puller.in_.read() && puller.value_.data > 0) continue; // values that were in transit
     for (int i = 0; i < 20; ++i) REQUIRE(reads(-1));
     first.host.send_signal(SIGKILL);
     for (int i = 0; i < 20; ++i) REQUIRE(reads(-1));
     CHECK(connections(puller.in_) == 2);
 }
 
-TEST_CASE("A receiver that hangs keeps nothing from the others and is served again when it goes on") {
+TEST_CASE("A receiver that hangs delays no other receiver and is served again when it continues") {
     RemoteHost stuck("Reporter"), well("Reporter");
     REQUIRE(stuck.host.wait_for_output("ready\n"));
     REQUIRE(well.host.wait_for_output("ready\n"));
@@ -259,10 +259,10 @@ TEST_CASE("A receiver that hangs keeps nothing from the others and is served aga
         if (i % 8 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10)); // the buffer holds 8
     }
     CHECK(refused == 0);
-    CHECK(tells(well.host, counter));
+    CHECK(reports(well.host, counter));
     CHECK(stuck.host.output.find("received ") == std::string::npos);
     stuck.host.send_signal(SIGCONT);
-    CHECK(tells(stuck.host, counter));
+    CHECK(reports(stuck.host, counter));
     CHECK(counter.out_.getConnectorIds().size() == 2);
 }
 
@@ -304,7 +304,7 @@ TEST_CASE("data_service and both byte orders carry values between processes by p
     CHECK_THAT(accumulator.in_.connectError(), Catch::Contains("expected little or big"));
 }
 
-TEST_CASE("Bytes that are no message of the port's type are dropped and the next good one is read") {
+TEST_CASE("Bytes that are no message of the port's type are dropped and the next valid message is read") {
     ManagerFixture fixture;
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     auto& counter = fixture.create<Counter>("Counter");
@@ -312,13 +312,13 @@ TEST_CASE("Bytes that are no message of the port's type are dropped and the next
     RTC::ConnectorProfileList_var profiles = accumulator.in_.get_connector_profiles();
     const std::string ior = NVUtil::toString(profiles[0].properties, "dataport.corba_cdr.inport_ior");
     CORBA::Object_var object = fixture.manager().theORB()->string_to_object(ior.c_str());
-    OpenRTM::InPortCdr_var inlet = OpenRTM::InPortCdr::_narrow(object.in());
-    REQUIRE_FALSE(CORBA::is_nil(inlet.in()));
+    OpenRTM::InPortCdr_var receiver = OpenRTM::InPortCdr::_narrow(object.in());
+    REQUIRE_FALSE(CORBA::is_nil(receiver.in()));
     for (CORBA::ULong length : {0u, 1u, 3u, 11u, 13u, 100000u}) {
         OpenRTM::CdrData bytes;
         bytes.length(length);
         for (CORBA::ULong i = 0; i < length; ++i) bytes[i] = 0xff;
-        CHECK(inlet->put(bytes) == OpenRTM::PORT_OK); // it is the reader who knows the type
+        CHECK(receiver->put(bytes) == OpenRTM::PORT_OK); // the type is checked when the message is read
         CHECK(accumulator.in_.isNew());
         CHECK(accumulator.in_.read() == (length >= 12));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host that is killed and started again beside one that lives on: what their rtc.conf connects is connected
-// again, whichever of the two it is that says so, and nothing is left of the connections before.
+// A host that is killed and started again beside one that keeps running: connections of preconnect are made again,
+// whichever of the two has the entry, and nothing is left of the earlier ones.
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace testing;
 namespace {
 
 constexpr int lives = 4;
-const std::string quick_watch = "manager.peer_check_interval:0.05";
+const std::string short_check_interval = "manager.peer_check_interval:0.05";
 const std::vector<std::string> ways = {"", "&dataflow_type=pull", "&interface_type=data_service"};
 
 std::string at(const std::string& port) { return "rtcloc://127.0.0.1:" + port + "/"; }
@@ -28,7 +28,8 @@ std::size_t open_files() {
         std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()));
 }
 
-/// The other host lives several times; `works` is to be true in each of its lives, and `left` after each.
+/// Starts and kills the remote host several times. `works(host)` must be true in each life, `left()` must become 0
+/// after each: the number of connections that remain.
 template <class Works, class Left>
 void restart(const std::string& component, const std::string& port, const std::vector<std::string>& settings,
              Works works, Left left) {
@@ -48,9 +49,9 @@ void restart(const std::string& component, const std::string& port, const std::v
 
 } // namespace
 
-TEST_CASE("A sender that is killed and started again is read again by push and by pull") {
+TEST_CASE("A sender that is killed and restarted is read again by push and by pull") {
     const std::string port = unused_port();
-    ManagerFixture fixture(false, {quick_watch, "exec_cxt.periodic.rate:200"});
+    ManagerFixture fixture(false, {short_check_interval, "exec_cxt.periodic.rate:200"});
     std::vector<Accumulator*> accumulators;
     for (const auto& way : ways) {
         accumulators.push_back(&fixture.create<Accumulator>("Accumulator"));
@@ -71,23 +72,24 @@ TEST_CASE("A sender that is killed and started again is read again by push and b
         });
 }
 
-TEST_CASE("A receiver that is killed and started again gets data again whoever connects them") {
+TEST_CASE("A receiver that is killed and restarted gets data again whichever side connects them") {
     const std::string here = unused_port(), port = unused_port();
-    ManagerFixture fixture(false,
-                           {quick_watch, "exec_cxt.periodic.rate:200", "corba.endpoints:127.0.0.1:" + here});
+    ManagerFixture fixture(
+        false, {short_check_interval, "exec_cxt.periodic.rate:200", "corba.endpoints:127.0.0.1:" + here});
     auto& counter = fixture.create<Counter>("Counter");
     CORBA_RTCUtil::activate(RTC::RTObject_var(counter.getObjRef()).in());
     const auto left = [&] { return connections(counter.out_); };
     const std::string activation = "manager.components.preactivation:Reporter0";
     for (const auto& way : ways) {
         INFO("its own host connects it " << way);
-        const bool tells = way.find("pull") == std::string::npos; // it reads what isNew() announces
+        const bool reports =
+            way.find("pull") == std::string::npos; // the Reporter only reads what isNew() announces
         restart(
             "Reporter", unused_port(),
             {activation,
              "manager.components.preconnect:Reporter0.in?port=" + at(here) + "Counter0.out" + way},
             [&](RemoteHost& other) {
-                return (!tells || other.host.wait_for_output("received ")) && left() == 1;
+                return (!reports || other.host.wait_for_output("received ")) && left() == 1;
             },
             left);
     }
@@ -102,9 +104,9 @@ TEST_CASE("A receiver that is killed and started again gets data again whoever c
         left);
 }
 
-TEST_CASE("A service is called again when its process was killed and started again") {
+TEST_CASE("A service can be called again when its process was killed and restarted") {
     const std::string port = unused_port(), here = unused_port();
-    ManagerFixture fixture(false, {quick_watch, "corba.endpoints:127.0.0.1:" + here});
+    ManagerFixture fixture(false, {short_check_interval, "corba.endpoints:127.0.0.1:" + here});
     auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
     const auto answers = [&](RemoteHost&) {
         Testing::Numbers numbers;
@@ -115,7 +117,7 @@ TEST_CASE("A service is called again when its process was killed and started aga
             try {
                 return connections(consumer.port_) == 1 && consumer.calculator_->sum(numbers) == 3.5;
             } catch (const CORBA::SystemException&) {
-                return false; // of the life before, or not active yet
+                return false; // the reference of the life before, or not active yet
             }
         });
     };
@@ -129,7 +131,7 @@ TEST_CASE("A service is called again when its process was killed and started aga
     restart("CalculatorProvider", port, {activation}, answers, left);
 }
 
-TEST_CASE("However many of its peers hang a host ends in order") {
+TEST_CASE("A host ends in order however many of its peers hang") {
     const std::string port = unused_port();
     std::vector<std::unique_ptr<RemoteHost>> peers;
     std::string lines;
@@ -138,7 +140,7 @@ TEST_CASE("However many of its peers hang a host ends in order") {
         REQUIRE(peers.back()->host.wait_for_output("ready\n"));
         lines += (i > 0 ? "," : "") + ("Counter0.out?port=" + at(peers.back()->port)) + "Reporter0.in";
     }
-    RemoteHost host("Counter", port, {quick_watch, "manager.components.preconnect:" + lines});
+    RemoteHost host("Counter", port, {short_check_interval, "manager.components.preconnect:" + lines});
     REQUIRE(host.host.wait_for_output("ready\n"));
     for (auto& peer : peers) REQUIRE(peer->host.suspend());
     host.host.send_signal(SIGTERM);
