@@ -2,7 +2,7 @@
 #ifndef RTC_OUTPORTCONNECTOR_H
 #define RTC_OUTPORTCONNECTOR_H
 #include <rtm/ConnectorListener.h>
-#include <rtm/DirectLane.h>
+#include <rtm/DirectBuffer.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
 #include <typeinfo>

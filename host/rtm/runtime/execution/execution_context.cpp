@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all execution contexts share: participants, transitions, the cycle.
-#include "host/rtm/runtime/execution/participant.hpp"
+#include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <cmath>
 #include <coil/stringutil.h>

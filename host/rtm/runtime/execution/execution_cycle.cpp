@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cycle of an execution context, and how requested transitions get done.
-#include "host/rtm/runtime/execution/participant.hpp"
+#include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include <algorithm>
 #include <rtm/ExecutionContextBase.h>
 

@@ -3,7 +3,7 @@
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
-#include "host/rtm/runtime/port/data_port.hpp"
+#include "host/rtm/runtime/transport/connection_profile.hpp"
 #include <coil/stringutil.h>
 #include <rtm/PortBase.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ends of data connectors that peers in other processes call: corba_cdr and data_service.
 #pragma once
-#include "host/rtm/runtime/transport/inlet.hpp"
-#include "host/rtm/runtime/transport/outlet.hpp"
+#include "host/rtm/runtime/transport/pull_buffer.hpp"
+#include "host/rtm/runtime/transport/push_receiver.hpp"
 #include <memory>
 #include <rtm/idl/DataPortSkel.h>
 #include <rtm/idl/DataPort_OpenRTMSkel.h>

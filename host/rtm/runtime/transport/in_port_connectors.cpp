@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
-#include "host/rtm/runtime/port/data_port.hpp"
+#include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/remote_push.hpp"
 #include <rtm/InPortBase.h>
 

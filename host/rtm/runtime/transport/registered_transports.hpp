@@ -2,7 +2,7 @@
 // Interface types that component libraries have registered in the factories of InPortConsumer,
 // InPortProvider, OutPortConsumer and OutPortProvider.
 #pragma once
-#include "host/rtm/runtime/transport/remote_data.hpp"
+#include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include <rtm/ConnectorListener.h>
 #include <rtm/InPortProvider.h>
 #include <rtm/OutPortProvider.h>

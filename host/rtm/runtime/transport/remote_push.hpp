@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "host/rtm/runtime/transport/remote_data.hpp"
+#include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include <chrono>
 
 namespace RTC {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include <rtm/ConnectorListener.h>
-#include <rtm/DirectLane.h>
+#include <rtm/DirectBuffer.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
 #include <shared_mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/transport/inlet.hpp"
+#include "host/rtm/runtime/transport/push_receiver.hpp"
 #include <rtm/InPortBase.h>
 
 namespace RTC {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ours: the interface type `direct`, by which values of one process get from port to port as they are.
-#ifndef RTC_DIRECTLANE_H
-#define RTC_DIRECTLANE_H
+#ifndef RTC_DIRECTBUFFER_H
+#define RTC_DIRECTBUFFER_H
 #include <memory>
 #include <mutex>
 #include <rtm/CORBA_CdrMemoryStream.h>

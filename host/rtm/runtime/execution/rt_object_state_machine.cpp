@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/execution/participant.hpp"
+#include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/component/local_object.hpp"
 #include <rtm/RTObject.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/transport/outlet.hpp"
+#include "host/rtm/runtime/transport/pull_buffer.hpp"
 
 namespace RTC {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/transport/remote_data.hpp"
-#include "host/rtm/runtime/port/data_port.hpp"
+#include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
+#include "host/rtm/runtime/transport/connection_profile.hpp"
 
 namespace RTC {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/port/data_port.hpp"
+#include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/component/local_object.hpp"
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/Manager.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rtm/runtime/execution/contexts_wanted.hpp"
+#include "host/rtm/runtime/execution/configured_contexts.hpp"
 #include <coil/stringutil.h>
 #include <rtm/Manager.h>
 
