@@ -38,21 +38,21 @@ void _MachineBase::exitTo(_StateInstance& target) {
 // Carries out the pending transition. The actions of the new states may request another one, which start()
 // or the dispatcher then carries out.
 void _MachineBase::change() {
-    const std::unique_ptr<Pending> wanted(std::move(m_pending));
-    _StateInstance& target = wanted->state.m_find(*this);
+    const std::unique_ptr<Pending> pending(std::move(m_pending));
+    _StateInstance& target = pending->state.m_find(*this);
     _StateInstance* const previous = m_current;
     if (previous != nullptr) exitTo(target);
-    if (wanted->box != nullptr) target.m_box = wanted->box;
+    if (pending->box != nullptr) target.m_box = pending->box;
     m_pending.reset(); // a transition that an exit action has requested is ignored
     m_current = &target;
     enter(target, previous);
-    if (wanted->state.m_history && target.m_history != nullptr && target.m_history != &target) {
+    if (pending->state.m_history && target.m_history != nullptr && target.m_history != &target) {
         _StateInstance& last = *target.m_history;
         enter(last, m_current);
         m_current = &last;
         last.specification().init();
-    } else if (wanted->state.m_init) {
-        wanted->state.m_init(target);
+    } else if (pending->state.m_init) {
+        pending->state.m_init(target);
     } else {
         target.specification().init();
     }

@@ -196,9 +196,9 @@ ExecutionContextList* to_list(const std::vector<ExecutionContext_var>& contexts)
     return list._retn();
 }
 
-UniqueId index_of(const std::vector<ExecutionContext_var>& contexts, ExecutionContext_ptr wanted) {
+UniqueId index_of(const std::vector<ExecutionContext_var>& contexts, ExecutionContext_ptr context) {
     for (std::size_t i = 0; i < contexts.size(); ++i)
-        if (!CORBA::is_nil(contexts[i].in()) && contexts[i]->_is_equivalent(wanted))
+        if (!CORBA::is_nil(contexts[i].in()) && contexts[i]->_is_equivalent(context))
             return static_cast<UniqueId>(i);
     return -1;
 }

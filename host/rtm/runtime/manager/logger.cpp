@@ -47,9 +47,9 @@ std::string format_time(std::string format) {
 } // namespace
 
 bool Logger::setLevel(const char* level) {
-    const std::string wanted = coil::toUpper(coil::eraseBothEndsBlank(level));
+    const std::string upper_case = coil::toUpper(coil::eraseBothEndsBlank(level));
     for (std::size_t i = 0; i < level_names.size(); ++i) {
-        if (wanted != level_names[i]) continue;
+        if (upper_case != level_names[i]) continue;
         process_level = static_cast<int>(i);
         return true;
     }

@@ -52,11 +52,11 @@ class NameReservation {
 
 // OpenRTM-aist passes requests for another manager on to a slave that it starts. There are no slaves here.
 void require_this_manager(const Manager::Impl& impl, const coil::Properties& arguments) {
-    const std::string wanted = arguments.getProperty("manager_name");
+    const std::string requested = arguments.getProperty("manager_name");
     const std::string name = impl.setting("manager.instance_name");
-    if (!wanted.empty() && wanted != name && wanted != impl.setting("manager.name"))
-        throw ManagerError("manager_name is " + wanted + ", but this manager is " + name +
-                           " and has no slaves; send the request to manager " + wanted);
+    if (!requested.empty() && requested != name && requested != impl.setting("manager.name"))
+        throw ManagerError("manager_name is " + requested + ", but this manager is " + name +
+                           " and has no slaves; send the request to manager " + requested);
     const std::string address = arguments.getProperty("manager_address");
     if (!address.empty())
         throw ManagerError("manager_address is " + address + "; send the request to the manager there");
@@ -107,16 +107,17 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
     auto& callbacks = m_impl->listeners.rtclifecycle_;
     std::string args = comp_args;
     callbacks.forEach([&](auto& listener) { listener.preCreate(args); });
-    const ComponentArguments wanted = parse_component_arguments(args);
-    require_this_manager(*m_impl, wanted.properties);
-    const auto factory = m_impl->require_factory(*this, wanted.id);
+    const ComponentArguments requested = parse_component_arguments(args);
+    require_this_manager(*m_impl, requested.properties);
+    const auto factory = m_impl->require_factory(*this, requested.id);
     RTObject_impl& component = makeOrThrow(*factory);
     std::optional<NameReservation> reservation; // until the component is listed, or destroyed
     try {
         callbacks.forEach([&](auto& listener) { listener.postCreate(&component); });
-        const std::string name = wanted.properties.getProperty("instance_name", component.getInstanceName());
+        const std::string name =
+            requested.properties.getProperty("instance_name", component.getInstanceName());
         reservation.emplace(*m_impl, name);
-        m_impl->set_up_component(component, name, *factory, wanted.properties);
+        m_impl->set_up_component(component, name, *factory, requested.properties);
     } catch (const ManagerError&) {
         m_impl->discard_component(component, factory);
         throw;

@@ -79,18 +79,19 @@ std::vector<coil::Properties> Manager::getLoadableModules() {
 // Accepts the name that was given to load(), the path or the file name. Components that have exited but are
 // not deleted yet still use the module's code for their destructors.
 ReturnCode_t Manager::unload(const char* file_name) {
-    const std::string wanted(file_name);
+    const std::string requested(file_name);
     std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
     auto& modules = m_impl->modules;
-    const auto module = std::find_if(modules.begin(), modules.end(), [&](const auto& one) {
-        const auto& path = one.library->path();
-        return wanted == one.name || wanted == path.string() || wanted == path.filename().string();
+    const auto module = std::find_if(modules.begin(), modules.end(), [&](const auto& loaded) {
+        const auto& path = loaded.library->path();
+        return requested == loaded.name || requested == path.string() ||
+               requested == path.filename().string();
     });
     if (module == modules.end()) return BAD_PARAMETER;
     const auto path = module->library->path();
     auto uses = [&](const auto& all) {
         return std::any_of(all.begin(), all.end(),
-                           [&](const auto& one) { return is_defined_in(*one.factory, path); });
+                           [&](const auto& component) { return is_defined_in(*component.factory, path); });
     };
     if (uses(m_impl->components) || uses(m_impl->finalized)) return PRECONDITION_NOT_MET;
     std::erase_if(m_impl->factories, [&](const auto& factory) { return is_defined_in(*factory, path); });

@@ -86,7 +86,8 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
             // Never unloaded: objects and code of a component may be in use until the process ends.
             std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
             m_impl->libraries.insert(library);
-            std::erase_if(m_impl->modules, [&](auto& one) { return one.library->path() == library->path(); });
+            std::erase_if(m_impl->modules,
+                          [&](auto& module) { return module.library->path() == library->path(); });
             m_impl->modules.push_back({name, library});
         }
         call_init([&] { init(this); }, symbol + "() of module " + file.string());
@@ -133,8 +134,8 @@ std::shared_ptr<FactoryBase> Manager::Impl::find_factory(const coil::Properties&
     for (const auto& factory : factories) {
         bool matches = true;
         for (const char* key : {"implementation_id", "vendor", "category", "version", "language"}) {
-            const std::string wanted = id.getProperty(key);
-            matches = matches && (wanted.empty() || wanted == factory->profile().getProperty(key));
+            const std::string required = id.getProperty(key);
+            matches = matches && (required.empty() || required == factory->profile().getProperty(key));
         }
         if (matches) return factory;
     }

@@ -18,9 +18,9 @@ const int wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
 std::atomic<int> termination_requested{0}; // lock-free, therefore allowed in signal handlers
 
 void wake_main_loop() {
-    const std::uint64_t one = 1;
+    const std::uint64_t increment = 1;
     // The write fails only when the counter is full; then a wake-up is pending anyway.
-    [[maybe_unused]] const auto written = ::write(wake_fd, &one, sizeof one);
+    [[maybe_unused]] const auto written = ::write(wake_fd, &increment, sizeof increment);
 }
 
 void wait_for_wake_up(int timeout_ms) {

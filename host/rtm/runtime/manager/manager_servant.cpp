@@ -75,10 +75,10 @@ RTC::ComponentProfileList* ManagerServant::get_component_profiles() {
 
 // `Name0`, `category/Name0`, or `*/Name0` for any category.
 RTC::RTCList* ManagerServant::get_components_by_name(const char* name) {
-    const std::string wanted = coil::eraseHeadBlank(name);
-    const std::size_t slash = wanted.find('/');
-    const std::string category = slash == std::string::npos ? "*" : wanted.substr(0, slash);
-    const std::string instance = slash == std::string::npos ? wanted : wanted.substr(slash + 1);
+    const std::string requested = coil::eraseHeadBlank(name);
+    const std::size_t slash = requested.find('/');
+    const std::string category = slash == std::string::npos ? "*" : requested.substr(0, slash);
+    const std::string instance = slash == std::string::npos ? requested : requested.substr(slash + 1);
     return components([&](auto& component) {
                return instance == component.getInstanceName() &&
                       (category == "*" || category == component.getCategory());

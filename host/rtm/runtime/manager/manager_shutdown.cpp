@@ -39,8 +39,9 @@ bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
         RTC_ERROR(("%s: a callback does not return; the host ends without waiting for it", name.c_str()));
         return true;
     };
-    std::erase_if(components,
-                  [&](auto* one) { return exceeds_time(one, [one] { halt_and_deactivate(one); }); });
+    std::erase_if(components, [&](auto* component) {
+        return exceeds_time(component, [component] { halt_and_deactivate(component); });
+    });
     std::size_t exited = 0;
     for (auto* component : components) {
         // Shared with the call, which may outlive this function.
@@ -59,8 +60,9 @@ void Manager::cleanupComponents() {
         std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
         finalized.swap(m_impl->finalized);
     }
-    for (auto& one : finalized)
-        m_impl->destroy_component(one.object->getInstanceName(), [one] { one.factory->destroy(one.object); });
+    for (auto& component : finalized)
+        m_impl->destroy_component(component.object->getInstanceName(),
+                                  [component] { component.factory->destroy(component.object); });
 }
 
 void Manager::Impl::destroy_component(const std::string& name, std::function<void()> call) {

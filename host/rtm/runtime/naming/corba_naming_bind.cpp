@@ -113,14 +113,14 @@ void CorbaNaming::unbind(const char* string_name) { unbind(toName(string_name));
 CosNaming::NamingContext_ptr CorbaNaming::newContext() { return m_rootContext->new_context(); }
 // Creates a context and binds it; the caller releases the reference.
 CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const CosNaming::Name& name, bool force) {
-    CosNaming::NamingContext_var made;
+    CosNaming::NamingContext_var created;
     bind_with_contexts(
-        force, [&] { made = m_rootContext->bind_new_context(name); },
+        force, [&] { created = m_rootContext->bind_new_context(name); },
         [&] {
             CosNaming::NamingContext_var parent = find_or_create_parent(m_rootContext.in(), name);
-            made = parent->bind_new_context(last_part(name));
+            created = parent->bind_new_context(last_part(name));
         });
-    return made._retn();
+    return created._retn();
 }
 CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const char* string_name, bool force) {
     return bindNewContext(toName(string_name), force);
@@ -150,8 +150,8 @@ CosNaming::NamingContext_ptr CorbaNaming::bindOrResolveContext(CosNaming::Naming
 }
 CosNaming::NamingContext_ptr CorbaNaming::bindOrResolveContext(CosNaming::NamingContext_ptr context,
                                                                const CosNaming::Name& name) {
-    CosNaming::NamingContext_var made = newContext();
-    return bindOrResolveContext(context, name, made.in());
+    CosNaming::NamingContext_var created = newContext();
+    return bindOrResolveContext(context, name, created.in());
 }
 
 } // namespace RTC

@@ -65,9 +65,9 @@ bool get_state(LifeCycleState& state, RTObject_ptr rtc, UniqueId ec_id) {
 
 namespace {
 
-bool has_state(LifeCycleState wanted, RTObject_ptr rtc, UniqueId ec_id) {
+bool has_state(LifeCycleState expected, RTObject_ptr rtc, UniqueId ec_id) {
     LifeCycleState state;
-    return get_state(state, rtc, ec_id) && state == wanted;
+    return get_state(state, rtc, ec_id) && state == expected;
 }
 
 } // namespace

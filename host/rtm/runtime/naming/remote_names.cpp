@@ -93,7 +93,7 @@ RTObject_ptr require_component(CORBA::Object_ptr object, const std::string& name
 
 // Collects all entries NAME.rtc in a context and below it. Contexts may contain each other, so the depth is
 // bounded, and so is the number of entries of one context.
-void find_entries(CosNaming::NamingContext_ptr context, const std::string& wanted, int max_depth,
+void find_entries(CosNaming::NamingContext_ptr context, const std::string& id, int max_depth,
                   std::vector<CORBA::Object_var>& found) {
     constexpr CORBA::ULong max_entries = 1000;
     CosNaming::BindingList_var entries;
@@ -103,14 +103,14 @@ void find_entries(CosNaming::NamingContext_ptr context, const std::string& wante
     for (CORBA::ULong i = 0; i < entries->length(); ++i) {
         const CosNaming::NameComponent& part = entries[i].binding_name[0];
         const bool is_context = entries[i].binding_type == CosNaming::ncontext;
-        if (!is_context && (wanted != static_cast<const char*>(part.id) || std::string(part.kind) != "rtc"))
+        if (!is_context && (id != static_cast<const char*>(part.id) || std::string(part.kind) != "rtc"))
             continue;
         CORBA::Object_var object = context->resolve(entries[i].binding_name);
         if (!is_context) {
             found.push_back(object);
         } else if (max_depth > 0) {
             CosNaming::NamingContext_var next = CosNaming::NamingContext::_narrow(object.in());
-            if (!CORBA::is_nil(next.in())) find_entries(next.in(), wanted, max_depth - 1, found);
+            if (!CORBA::is_nil(next.in())) find_entries(next.in(), id, max_depth - 1, found);
         }
     }
 }
