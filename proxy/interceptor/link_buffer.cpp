@@ -76,7 +76,7 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     cdrCountingStream counter(usual.TCS_C(), usual.TCS_W());
     if (!marshal(counter)) return BufferStatus::NOT_SUPPORTED;
     const std::size_t head = channel_.timed ? time_bytes : 0;
-    if (counter.total() < head + longFrom()) return BufferStatus::NOT_SUPPORTED;
+    if (counter.total() < head + minInPlaceLength()) return BufferStatus::NOT_SUPPORTED;
     std::uint64_t stamp = wire::stamp_now();
     bool whole = true;
     const bool written =
@@ -96,13 +96,13 @@ BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) 
     return found ? BufferStatus::OK : BufferStatus::EMPTY;
 }
 
-BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& use, bool& used) {
+BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader, bool& read_in_place) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     const bool found = channel_.reader->read(false, [&](const shm::Record& record) {
-        used = record.bytes.size() >= longFrom();
-        if (!used) return copy(record, message);
+        read_in_place = record.bytes.size() >= minInPlaceLength();
+        if (!read_in_place) return copy(record, message);
         StampedInStream in(record.bytes, channel_.timed, record.stamp_ns);
-        use(in);
+        reader(in);
     });
     return found ? BufferStatus::OK : BufferStatus::EMPTY;
 }

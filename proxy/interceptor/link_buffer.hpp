@@ -32,9 +32,10 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     /// What is too long to be worth a copy is made in the chunk that it crosses in, and read there.
-    std::size_t longFrom() const override { return link::large_message; }
+    std::size_t minInPlaceLength() const override { return link::large_message; }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
-    RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& use, bool& used) override;
+    RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
+                                  bool& read_in_place) override;
     std::size_t readable() const override;
     bool empty() const override { return readable() == 0; }
     RTC::BufferStatus put(const RTC::ByteData& message) override { return write(message, {}); }

@@ -177,7 +177,7 @@ void drift(Session& session) {
     tick_for(components, session.limits().samples >= 50'000 ? 100'100 : 1'000);
     Parts& parts = components.part("From");
     const auto ticks =
-        dynamic_cast<RTC_exp::PeriodicExecutionContext&>(*parts.getOwnContexts().at(0)).ticks();
+        dynamic_cast<RTC_exp::PeriodicExecutionContext&>(*parts.getOwnContexts().at(0)).tickStatistics();
     fmt::print(stderr, "rtm: {} cycles, {} overruns, {} periods skipped\n", ticks.cycles, ticks.overruns,
                ticks.skipped);
     session.result(std::abs(parts.record.mean_drift_ns()));

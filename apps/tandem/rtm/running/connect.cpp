@@ -36,7 +36,7 @@ void check(const Port& a, const Port& b, const RTC::ConnectorProfile& profile) {
         throw std::runtime_error(
             fmt::format("{} is a {}, {} is a {}: they cannot be connected", a.name, ka, b.name, kb));
     const std::string ta = fact(a, "dataport.data_type"), tb = fact(b, "dataport.data_type");
-    if (!services && ta != tb && ta != "any" && tb != "any" && !RTC::converts(profile))
+    if (!services && ta != tb && ta != "any" && tb != "any" && !RTC::uses_custom_serializer(profile))
         throw std::runtime_error(
             fmt::format("{} carries {}, {} carries {}: connect ports of one type", a.name, ta, b.name, tb));
     if (CORBA_RTCUtil::already_connected(a.object.in(), b.object.in()))

@@ -90,10 +90,10 @@ class CdrUnmarshal final : public Unmarshal {
         try {
             m_data <<= in;
         } catch (const CORBA::SystemException&) { // the bytes are not such a message
-            sound = false;
+            valid = false;
         }
     }
-    bool sound = true;
+    bool valid = true;
 
   private:
     DataType& m_data;

@@ -177,7 +177,7 @@ class ConnectorListeners {
     }
 
     /// Is there a listener to any kind of data?
-    bool toData() const {
+    bool hasDataListener() const {
         return std::any_of(data_.begin(), data_.end(),
                            [](const auto& kind) { return kind.count.load(std::memory_order_acquire) != 0; });
     }

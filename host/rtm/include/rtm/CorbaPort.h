@@ -39,9 +39,9 @@ class CorbaPort : public PortBase {
         std::string ior;
         std::string descriptor() const { return type + "." + instance; }
     };
-    std::string key(const char* polarity, const std::string& descriptor) const;
-    std::string providerFor(const NVList& properties, const Consumer& consumer) const;
-    bool give(const std::string& ior, Consumer& consumer);
+    std::string propertyKey(const char* polarity, const std::string& descriptor) const;
+    std::string findProviderIor(const NVList& properties, const Consumer& consumer) const;
+    bool bindConsumer(const std::string& ior, Consumer& consumer);
 
     std::vector<std::unique_ptr<Provider>> m_providers;
     std::vector<Consumer> m_consumers;

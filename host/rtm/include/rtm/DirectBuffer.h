@@ -11,9 +11,9 @@
 namespace RTC {
 
 /// The buffer of an InPort for its `direct` connections. [any-thread]
-class DirectLaneBase {
+class DirectBufferBase {
   public:
-    virtual ~DirectLaneBase() = default;
+    virtual ~DirectBufferBase() = default;
     virtual const std::type_info& type() const = 0;
     virtual void init(const coil::Properties& buffer) = 0;
     virtual std::size_t readable() const = 0;
@@ -23,7 +23,7 @@ class DirectLaneBase {
 };
 
 template <class DataType>
-class DirectLane : public DirectLaneBase {
+class DirectBuffer : public DirectBufferBase {
   public:
     const std::type_info& type() const override { return typeid(DataType); }
     void init(const coil::Properties& buffer) override { m_values.init(buffer); }
@@ -43,22 +43,22 @@ class DirectLane : public DirectLaneBase {
     RingBuffer<DataType> m_values;
 };
 
-/// Puts one value into a lane. NOT_SUPPORTED: the lane is for another type.
-class DirectPut {
+/// Puts one value into a buffer. NOT_SUPPORTED: the buffer is for another type.
+class DirectWriter {
   public:
-    virtual BufferStatus operator()(DirectLaneBase& lane) const = 0;
+    virtual BufferStatus operator()(DirectBufferBase& buffer) const = 0;
 
   protected:
-    ~DirectPut() = default;
+    ~DirectWriter() = default;
 };
 
 template <class DataType>
-class DirectPutOf final : public DirectPut {
+class TypedDirectWriter final : public DirectWriter {
   public:
-    explicit DirectPutOf(const DataType& value) : m_value(value) {}
-    BufferStatus operator()(DirectLaneBase& lane) const override {
-        if (lane.type() != typeid(DataType)) return BufferStatus::NOT_SUPPORTED;
-        return static_cast<DirectLane<DataType>&>(lane).write(m_value);
+    explicit TypedDirectWriter(const DataType& value) : m_value(value) {}
+    BufferStatus operator()(DirectBufferBase& buffer) const override {
+        if (buffer.type() != typeid(DataType)) return BufferStatus::NOT_SUPPORTED;
+        return static_cast<DirectBuffer<DataType>&>(buffer).write(m_value);
     }
 
   private:

@@ -68,9 +68,9 @@ class ExecutionContextBase {
     void invokeWorker();
     /// Ours: ends the context's thread; cycles are over, and a transition is carried out by who asks for it.
     /// RTC_ERROR: a callback does not return.
-    ReturnCode_t halt() { return onStopping(); }
+    ReturnCode_t stopThread() { return onStopping(); }
     /// Ours: is the caller a callback of this context?
-    bool insideCycle() const;
+    bool isInsideCycle() const;
     /// Ours: lets go of the owner and of the reference; after that the context can be deleted.
     void retire();
 
@@ -80,16 +80,16 @@ class ExecutionContextBase {
     virtual ReturnCode_t onSetRate(double) { return RTC_OK; }
     /// Has the context a thread that will carry a requested transition out? Otherwise the caller's does.
     virtual bool hasThread() const { return false; }
-    virtual void onRequest() {}
+    virtual void onTransitionRequested() {}
     /// Adds to the properties of the profile what the context has counted.
-    virtual void describe(coil::Properties& /*properties*/) {}
+    virtual void addStatistics(coil::Properties& /*properties*/) {}
     virtual PortableServer::ServantBase* servant() = 0;
 
     void setObjRef(ExecutionContextService_ptr ref) { m_objref = ExecutionContextService::_duplicate(ref); }
     /// Is there anything to do: a component that is not simply inactive?
-    bool busy();
+    bool hasWork();
     /// [cycle's thread] Has what the next cycle needs in the caches.
-    void rehearse();
+    void warmUp();
 
     mutable Logger rtclog;
     coil::Properties m_properties;
@@ -104,14 +104,15 @@ class ExecutionContextBase {
     Participants participants() const;
     void addParticipant(Participant participant);
     /// Does who asks for a transition wait for it, and for how long?
-    struct Wait {
+    struct TransitionWait {
         bool sync = true;
         std::chrono::nanoseconds timeout = std::chrono::milliseconds(500);
     };
-    ReturnCode_t transit(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to,
-                         const Wait& wait);
-    ReturnCode_t await(const Participant& participant, LifeCycleState to, std::chrono::nanoseconds timeout);
-    void cycle(bool rehearsal);
+    ReturnCode_t requestTransition(LightweightRTObject_ptr comp, LifeCycleState from, LifeCycleState to,
+                                   const TransitionWait& wait);
+    ReturnCode_t waitForTransition(const Participant& participant, LifeCycleState to,
+                                   std::chrono::nanoseconds timeout);
+    void cycle(bool warm_up);
     bool setRunning(bool running); ///< false: it was so before
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
@@ -120,14 +121,14 @@ class ExecutionContextBase {
     std::recursive_timed_mutex m_transition; // taken before m_mutex
     bool m_running = false;
     double m_rate = DEFAULT_EXECUTION_RATE;
-    Wait m_activation, m_deactivation, m_reset;
+    TransitionWait m_activation, m_deactivation, m_reset;
     RTObject_var m_owner;
     ExecutionContextService_var m_objref;
 
     std::timed_mutex m_cycle; // held during a cycle
-    std::atomic<std::thread::id> m_cycling{std::thread::id()};
-    std::mutex m_changedMutex;
-    std::condition_variable m_changed;
+    std::atomic<std::thread::id> m_cycleThread{std::thread::id()};
+    std::mutex m_cycleDoneMutex;
+    std::condition_variable m_cycleDone;
 };
 
 /// Contexts that libraries bring along, by name; registerECFactory() is 1.x's way to do the same.

@@ -32,11 +32,11 @@ class InPlaceBuffer {
   public:
     virtual ~InPlaceBuffer() = default;
     /// What a message is long from, in bytes.
-    virtual std::size_t longFrom() const = 0;
+    virtual std::size_t minInPlaceLength() const = 0;
     /// NOT_SUPPORTED: the message is not long, or it cannot be marshalled. Nothing has happened; write() it.
     virtual BufferStatus writeInPlace(const Marshal& marshal) = 0;
-    /// Like read(), but a long message is shown to `use`, and `used` set, instead of being copied to `bytes`.
-    virtual BufferStatus readInPlace(ByteData& bytes, Unmarshal& use, bool& used) = 0;
+    /// Like read(), but a long message is shown to `reader`, and `read_in_place` set, instead of being copied to `bytes`.
+    virtual BufferStatus readInPlace(ByteData& bytes, Unmarshal& reader, bool& read_in_place) = 0;
 };
 
 } // namespace RTC

@@ -31,13 +31,13 @@ class InPort : public InPortBase {
     bool isNew() override { return InPortBase::isNew(); }
     virtual bool isNew(std::string name) {
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
-        auto* connector = readableLocked(name, false);
+        auto* connector = findReadableLocked(name, false);
         return connector != nullptr;
     }
-    virtual bool isNew(coil::vstring& names) { return namesWhere(names, true); }
+    virtual bool isNew(coil::vstring& names) { return selectConnectorNames(names, true); }
     bool isEmpty() override { return InPortBase::isEmpty(); }
     virtual bool isEmpty(std::string name) { return !isNew(name); }
-    virtual bool isEmpty(coil::vstring& names) { return namesWhere(names, false); }
+    virtual bool isEmpty(coil::vstring& names) { return selectConnectorNames(names, false); }
 
     /// The oldest value into the variable; with an empty buffer what its policy says (readback: the last
     /// value again, true). False: not connected, nothing ever came, or a message that is not of this type.
@@ -45,7 +45,7 @@ class InPort : public InPortBase {
         if (m_OnRead != nullptr) (*m_OnRead)();
         {
             std::lock_guard<std::mutex> lock(m_connectorsMutex);
-            auto* connector = readableLocked(name, true);
+            auto* connector = findReadableLocked(name, true);
             if (connector == nullptr) return false;
             m_status[0] = connector->read(m_value);
         }
@@ -64,11 +64,11 @@ class InPort : public InPortBase {
     void setOnRead(OnRead<DataType>* on_read) { m_OnRead = on_read; }
     void setOnReadConvert(OnReadConvert<DataType>* on_rconvert) { m_OnReadConvert = on_rconvert; }
 
-    std::shared_ptr<DirectLaneBase> directLane() override {
-        if (m_lane == nullptr) m_lane = std::make_shared<DirectLane<DataType>>();
-        return m_lane;
+    std::shared_ptr<DirectBufferBase> directBuffer() override {
+        if (m_directBuffer == nullptr) m_directBuffer = std::make_shared<DirectBuffer<DataType>>();
+        return m_directBuffer;
     }
-    void stampReceived(ByteData& bytes) override {
+    void stampOnReceive(ByteData& bytes) override {
         CORBA_CdrSerializer<DataType> stream;
         DataType data = DataType();
         stream.isLittleEndian(bytes.getEndian());
@@ -82,11 +82,11 @@ class InPort : public InPortBase {
     }
 
   private:
-    bool namesWhere(coil::vstring& names, bool has_data) {
+    bool selectConnectorNames(coil::vstring& names, bool has_data) {
         names.clear();
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
         for (auto* connector : m_connectors)
-            if ((connector->waiting() > 0) == has_data) names.push_back(connector->name());
+            if ((connector->readableCount() > 0) == has_data) names.push_back(connector->name());
         return !names.empty();
     }
 
@@ -95,7 +95,8 @@ class InPort : public InPortBase {
     OnRead<DataType>* m_OnRead = nullptr;
     OnReadConvert<DataType>* m_OnReadConvert = nullptr;
     DataPortStatusList m_status;
-    std::shared_ptr<DirectLaneBase> m_lane; // one for all connections, as the buffer of the others is
+    std::shared_ptr<DirectBufferBase>
+        m_directBuffer; // one for all connections, as the buffer of the others is
 };
 
 } // namespace RTC

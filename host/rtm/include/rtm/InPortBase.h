@@ -9,7 +9,7 @@
 #include <rtm/PortBase.h>
 
 namespace RTC {
-class DataInlet;
+class PushReceiver;
 class InPortPushConnector;
 
 /// A data port that receives. Connectors share one ring buffer, unless a connector asks for a buffer type of
@@ -23,8 +23,8 @@ class InPortBase : public PortBase {
     /// With the port's properties of rtc.conf, when the port is added to its component.
     virtual void init(coil::Properties& prop);
     virtual bool read(std::string name = "") = 0;
-    virtual bool isNew() { return readable() != nullptr; }
-    virtual bool isEmpty() { return readable() == nullptr; }
+    virtual bool isNew() { return findReadable() != nullptr; }
+    virtual bool isEmpty() { return findReadable() == nullptr; }
 
     coil::Properties& properties() { return m_properties; }
     const std::vector<InPortConnector*>& connectors() { return m_connectors; }
@@ -47,20 +47,20 @@ class InPortBase : public PortBase {
     bool isLittleEndian() { return m_littleEndian; }
 
     /// Ours: the local end of a connector, for an OutPort of this process; NULL when there is none.
-    std::shared_ptr<DataInlet> inlet(const char* connector_id);
+    std::shared_ptr<PushReceiver> pushReceiver(const char* connector_id);
     /// Ours: puts the time into a message that has arrived (timestamp_policy on_received).
-    virtual void stampReceived(ByteData& bytes);
+    virtual void stampOnReceive(ByteData& bytes);
     /// Ours: the buffer of `direct` connections; NULL for a port that takes bytes only.
-    virtual std::shared_ptr<DirectLaneBase> directLane() { return nullptr; }
+    virtual std::shared_ptr<DirectBufferBase> directBuffer() { return nullptr; }
 
   protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
     /// The connector to read next: one with data, NULL when none has any. Locks m_connectorsMutex.
-    InPortConnector* readable();
+    InPortConnector* findReadable();
     /// The same for a holder of m_connectorsMutex; `name` empty: any.
-    InPortConnector* readableLocked(const std::string& name, bool or_first);
+    InPortConnector* findReadableLocked(const std::string& name, bool fallback_to_first);
 
     bool m_singlebuffer = true;
     CdrBufferBase* m_thebuffer = nullptr;
@@ -70,8 +70,8 @@ class InPortBase : public PortBase {
 
   private:
     ReturnCode_t addPushConnector(ConnectorProfile& connector_profile, const coil::Properties& prop);
-    ReturnCode_t addProvided(ConnectorProfile& connector_profile, const coil::Properties& prop,
-                             const std::string& type, InPortPushConnector* made);
+    ReturnCode_t addPushProvider(ConnectorProfile& connector_profile, const coil::Properties& prop,
+                                 const std::string& type, InPortPushConnector* connector);
     ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(InPortConnector* connector);
 };

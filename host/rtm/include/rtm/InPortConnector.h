@@ -32,15 +32,16 @@ class InPortConnector : public ConnectorBase {
         auto* stream = serializer<DataType>();
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         DataPortStatus status = DataPortStatus::PORT_OK;
-        if (m_lane != nullptr && m_lane->type() == typeid(DataType)) {
-            status = readLane(static_cast<DirectLane<DataType>&>(*m_lane), *stream, data);
+        if (m_directBuffer != nullptr && m_directBuffer->type() == typeid(DataType)) {
+            status = readDirect(static_cast<DirectBuffer<DataType>&>(*m_directBuffer), *stream, data);
             if (status != DataPortStatus::PORT_OK) return status;
-        } else if (m_inPlace != nullptr && m_plainCdr) {
-            CdrUnmarshal<DataType> use(data);
-            bool used = false;
-            status = read(stream, use, used);
+        } else if (m_inPlace != nullptr && m_isStandardCdr) {
+            CdrUnmarshal<DataType> reader(data);
+            bool read_in_place = false;
+            status = read(stream, reader, read_in_place);
             if (status != DataPortStatus::PORT_OK) return status;
-            if (used ? !use.sound : !stream->deserialize(data)) return DataPortStatus::BUFFER_ERROR;
+            if (read_in_place ? !reader.valid : !stream->deserialize(data))
+                return DataPortStatus::BUFFER_ERROR;
         } else {
             status = read(static_cast<ByteDataStreamBase*>(stream));
             if (status != DataPortStatus::PORT_OK) return status;
@@ -53,7 +54,9 @@ class InPortConnector : public ConnectorBase {
     /// A message from the other end; ON_RECEIVED listeners first, then the buffer. [any-thread]
     virtual BufferStatus write(ByteData& bytes);
     /// Ours: how many messages wait.
-    std::size_t waiting() { return m_lane ? m_lane->readable() : getBuffer()->readable(); }
+    std::size_t readableCount() {
+        return m_directBuffer ? m_directBuffer->readable() : getBuffer()->readable();
+    }
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
 
@@ -64,19 +67,20 @@ class InPortConnector : public ConnectorBase {
         if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
             SerializerFactory::instance().deleteObject(m_cdr);
             m_cdr = createSerializer<DataType>(m_marshaling_type);
-            m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
+            m_typedSerializer = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
             m_type = &typeid(DataType);
-            m_plainCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
-            if (m_typed == nullptr)
+            m_isStandardCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
+            if (m_typedSerializer == nullptr)
                 RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(),
                            m_marshaling_type.c_str()));
         }
-        return static_cast<ByteDataStream<DataType>*>(m_typed);
+        return static_cast<ByteDataStream<DataType>*>(m_typedSerializer);
     }
     DataPortStatus report(BufferStatus status, ByteData& bytes);
     template <class DataType>
-    DataPortStatus readLane(DirectLane<DataType>& lane, ByteDataStream<DataType>& stream, DataType& data) {
-        const BufferStatus status = lane.read(data);
+    DataPortStatus readDirect(DirectBuffer<DataType>& buffer, ByteDataStream<DataType>& stream,
+                              DataType& data) {
+        const BufferStatus status = buffer.read(data);
         if (status != BufferStatus::OK || !m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
             return report(status, m_bytes);
         // Listeners see bytes, and may change them.
@@ -84,13 +88,13 @@ class InPortConnector : public ConnectorBase {
         if (!stream.serialize(data)) return DataPortStatus::BUFFER_ERROR;
         m_bytes = stream;
         m_bytes.isLittleEndian(true);
-        const DataPortStatus told = report(status, m_bytes);
+        const DataPortStatus status_reported = report(status, m_bytes);
         stream.isLittleEndian(true);
         stream.writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
-        return stream.deserialize(data) ? told : DataPortStatus::BUFFER_ERROR;
+        return stream.deserialize(data) ? status_reported : DataPortStatus::BUFFER_ERROR;
     }
-    /// Ours: the oldest message, if it is long, to `use` where it lies, otherwise into `stream`.
-    DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& use, bool& used);
+    /// Ours: the oldest message, if it is long, to `reader` where it lies, otherwise into `stream`.
+    DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place);
 
     Logger rtclog{"InPortConnector"};
     ConnectorInfo m_profile;
@@ -101,13 +105,13 @@ class InPortConnector : public ConnectorBase {
     TimestampPolicy m_timestamp;
     ByteDataStreamBase* m_cdr = nullptr;
 
-    InPlaceBuffer* m_inPlace = nullptr;     // the buffer, if it is one
-    std::shared_ptr<DirectLaneBase> m_lane; // of a direct connection
+    InPlaceBuffer* m_inPlace = nullptr;               // the buffer, if it is one
+    std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection
 
   private:
-    bool m_plainCdr = false; // the serializer does what any stream does
+    bool m_isStandardCdr = false; // the serializer does what any stream does
     ByteData m_bytes;
-    void* m_typed = nullptr;
+    void* m_typedSerializer = nullptr;
     const std::type_info* m_type = nullptr;
 };
 

@@ -45,7 +45,7 @@ class OutPort : public OutPortBase {
   private:
     bool send(DataType& value) {
         std::vector<std::string> lost;
-        bool all_took_it = true;
+        bool all_accepted = true;
         {
             std::lock_guard<std::mutex> lock(m_connectorsMutex);
             if (m_connectors.empty()) return false;
@@ -53,14 +53,15 @@ class OutPort : public OutPortBase {
             OutPortConnector* first = m_connectors.front();
             for (std::size_t i = 0; i < m_connectors.size(); ++i) {
                 OutPortConnector* connector = m_connectors[i];
-                const bool shared = i > 0 && connector->sendsLike(*first);
-                m_status[i] = shared ? connector->write(first->lastBytes()) : connector->write(value);
-                if (m_status[i] != DataPortStatus::PORT_OK) all_took_it = false;
+                const bool same_bytes = i > 0 && connector->canShareBytesOf(*first);
+                m_status[i] =
+                    same_bytes ? connector->write(first->serializedBytes()) : connector->write(value);
+                if (m_status[i] != DataPortStatus::PORT_OK) all_accepted = false;
                 if (m_status[i] == DataPortStatus::CONNECTION_LOST) lost.push_back(connector->id());
             }
         }
-        if (!lost.empty()) dropLost(lost);
-        return all_took_it;
+        if (!lost.empty()) dropLostConnections(lost);
+        return all_accepted;
     }
 
     std::string m_name;

@@ -8,7 +8,7 @@
 #include <rtm/PortBase.h>
 
 namespace RTC {
-class DataOutlet;
+class PullBuffer;
 
 /// A data port that sends. Derive from it for a port whose type is known at run time only.
 class OutPortBase : public PortBase {
@@ -42,14 +42,14 @@ class OutPortBase : public PortBase {
     bool isLittleEndian() { return m_littleEndian; }
 
     /// Ours: the local end of a pull connector, for an InPort of this process; NULL when there is none.
-    std::shared_ptr<DataOutlet> outlet(const char* connector_id);
+    std::shared_ptr<PullBuffer> pullBuffer(const char* connector_id);
 
   protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
     /// Disconnects what a write has found dead. Not with m_connectorsMutex held.
-    void dropLost(const std::vector<std::string>& connector_ids);
+    void dropLostConnections(const std::vector<std::string>& connector_ids);
 
     std::vector<OutPortConnector*> m_connectors;
     bool m_littleEndian = true;

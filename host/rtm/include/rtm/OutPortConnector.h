@@ -36,10 +36,10 @@ class OutPortConnector : public ConnectorBase {
         m_sentInPlace = false;
         if (m_direct && !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
-            m_sentInPlace = writeDirect(DirectPutOf<DataType>(data), status);
+            m_sentInPlace = writeDirect(TypedDirectWriter<DataType>(data), status);
             if (m_sentInPlace) return status;
         }
-        if (m_bytes.getDataLength() >= m_longFrom && m_plainCdr && m_littleEndian && !stamps) {
+        if (m_bytes.getDataLength() >= m_minInPlaceLength && m_isStandardCdr && m_littleEndian && !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
             m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
             if (m_sentInPlace) return status;
@@ -62,9 +62,9 @@ class OutPortConnector : public ConnectorBase {
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
     /// Ours: could this connector send the bytes another one has serialized?
-    bool sendsLike(const OutPortConnector& other) const;
-    /// Ours: what the last write(stream) sent; nothing else has, if that is what sendsLike() was asked for.
-    ByteData& lastBytes() { return m_bytes; }
+    bool canShareBytesOf(const OutPortConnector& other) const;
+    /// Ours: what the last write(stream) sent; nothing else has, if that is what canShareBytesOf() was asked for.
+    ByteData& serializedBytes() { return m_bytes; }
 
   protected:
     // Looked up once: the type of a connector never changes.
@@ -73,14 +73,14 @@ class OutPortConnector : public ConnectorBase {
         if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
             SerializerFactory::instance().deleteObject(m_cdr);
             m_cdr = createSerializer<DataType>(m_marshaling_type);
-            m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
+            m_typedSerializer = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
             m_type = &typeid(DataType);
-            m_plainCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
-            if (m_typed == nullptr)
+            m_isStandardCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
+            if (m_typedSerializer == nullptr)
                 RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(),
                            m_marshaling_type.c_str()));
         }
-        return static_cast<ByteDataStream<DataType>*>(m_typed);
+        return static_cast<ByteDataStream<DataType>*>(m_typedSerializer);
     }
 
     /// Ours: a message that is probably long, as the last one was. False: it is not, or there is no place where
@@ -88,7 +88,7 @@ class OutPortConnector : public ConnectorBase {
     virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
 
     /// Ours: a value for an InPort of this process, unserialized. False as above.
-    virtual bool writeDirect(const DirectPut& put, DataPortStatus& status);
+    virtual bool writeDirect(const DirectWriter& put, DataPortStatus& status);
 
     Logger rtclog{"OutPortConnector"};
     ConnectorInfo m_profile;
@@ -98,14 +98,15 @@ class OutPortConnector : public ConnectorBase {
     TimestampPolicy m_timestamp;
     ByteDataStreamBase* m_cdr = nullptr;
 
-    unsigned long m_longFrom = static_cast<unsigned long>(-1); // of the InPlaceBuffer, if there is one
-    bool m_direct = false;                                     // the receiver has a lane
+    unsigned long m_minInPlaceLength =
+        static_cast<unsigned long>(-1); // of the InPlaceBuffer, if there is one
+    bool m_direct = false;              // the receiver has a DirectBuffer
 
   private:
-    bool m_plainCdr = false; // the serializer does what any stream does
+    bool m_isStandardCdr = false; // the serializer does what any stream does
     bool m_sentInPlace = false;
     ByteData m_bytes;
-    void* m_typed = nullptr;
+    void* m_typedSerializer = nullptr;
     const std::type_info* m_type = nullptr;
 };
 

@@ -18,31 +18,31 @@ class PeriodicExecutionContext : public RTC::ExecutionContextServant<POA_RTC::Ex
     ~PeriodicExecutionContext() override;
 
     /// Ours: what has been counted since the context was started.
-    struct Ticks {
+    struct TickStatistics {
         std::uint64_t cycles = 0;
-        std::uint64_t overruns = 0;         ///< cycles whose time had passed when the one before ended
-        std::uint64_t skipped = 0;          ///< periods without a cycle because of that
-        std::chrono::nanoseconds latest{0}; ///< the latest that a cycle has begun after its time
+        std::uint64_t overruns = 0; ///< cycles whose time had passed when the one before finished
+        std::uint64_t skipped = 0;  ///< periods without a cycle because of that
+        std::chrono::nanoseconds max_lateness{0}; ///< the latest that a cycle has begun after its time
     };
-    Ticks ticks() const;
+    TickStatistics tickStatistics() const;
 
   protected:
     RTC::ReturnCode_t onStarted() override;
     RTC::ReturnCode_t onStopping() override;
     RTC::ReturnCode_t onSetRate(double rate) override;
     bool hasThread() const override;
-    void onRequest() override;
-    void describe(coil::Properties& properties) override;
+    void onTransitionRequested() override;
+    void addStatistics(coil::Properties& properties) override;
 
   private:
     struct Worker;
     std::shared_ptr<Worker> worker() const;
     void run(Worker& worker);
-    void makeTick(Worker& worker);
+    void createTick(Worker& worker);
 
     mutable std::mutex m_workerMutex;
     std::shared_ptr<Worker> m_worker;
-    Ticks m_ended;
+    TickStatistics m_finishedStatistics;
 };
 
 } // namespace RTC_exp

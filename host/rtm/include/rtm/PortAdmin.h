@@ -28,11 +28,11 @@ class PortAdmin {
 
   private:
     std::vector<PortBase*> ports() const;
-    std::vector<PortService_var> others() const;
+    std::vector<PortService_var> delegatedPorts() const;
 
     mutable std::mutex mutex_;
     std::vector<PortBase*> ports_;
-    std::vector<PortService_var> others_;
+    std::vector<PortService_var> delegated_ports_;
 };
 
 } // namespace RTC

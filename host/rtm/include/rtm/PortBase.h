@@ -69,13 +69,13 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
 
     /// Further listeners, the component's; NULL: none.
     void setPortConnectListenerHolder(PortConnectListeners* listeners) {
-        m_sharedConnectListeners = listeners;
+        m_componentConnectListeners = listeners;
     }
 
     /// Ours: why the last connect() or notify_connect() was refused; one line, empty when it was not.
     std::string connectError() const;
     /// Ours: ends a connection whose other side was lost, without asking that side.
-    void forget(const char* connector_id);
+    void dropLostConnection(const char* connector_id);
     /// Ours: no more calls from outside; called by the component before it dies.
     void retire();
 
@@ -89,7 +89,7 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     /// How many connectors at most; negative: any number.
     virtual void setConnectionLimit(int limit_value) { m_connectionLimit = limit_value; }
     virtual ReturnCode_t _publishInterfaces();
-    ReturnCode_t refuse(ReturnCode_t code, const std::string& why);
+    ReturnCode_t refuse(ReturnCode_t code, const std::string& reason);
 
     static bool isEmptyId(const ConnectorProfile& connector_profile);
     static std::string getUUID();
@@ -127,13 +127,13 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     ConnectionCallback* m_onConnectionLost = nullptr;
 
   private:
-    ReturnCode_t establish(ConnectorProfile& connector_profile);
-    ReturnCode_t passOn(ConnectorProfile& connector_profile);
-    bool release(const char* connector_id);
-    void tell(PortConnectListenerType type, ConnectorProfile& profile);
-    void tell(PortConnectRetListenerType type, ConnectorProfile& profile, ReturnCode_t result);
-    bool alreadyConnectedTo(const ConnectorProfile& connector_profile);
-    CORBA::ULong placesOf(const ConnectorProfile& connector_profile) const;
+    ReturnCode_t establishConnection(ConnectorProfile& connector_profile);
+    ReturnCode_t notifyNextPort(ConnectorProfile& connector_profile);
+    bool releaseConnection(const char* connector_id);
+    void notifyListeners(PortConnectListenerType type, ConnectorProfile& profile);
+    void notifyListeners(PortConnectRetListenerType type, ConnectorProfile& profile, ReturnCode_t result);
+    bool isAlreadyConnected(const ConnectorProfile& connector_profile);
+    CORBA::ULong occurrencesIn(const ConnectorProfile& connector_profile) const;
 
     PortableServer::POA_var m_poa;
     PortableServer::ObjectId_var m_oid;
@@ -141,7 +141,7 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     mutable std::mutex m_errorMutex;
     std::string m_connectError;
     PortConnectListeners m_connectListeners;
-    PortConnectListeners* m_sharedConnectListeners = nullptr;
+    PortConnectListeners* m_componentConnectListeners = nullptr;
 };
 
 } // namespace RTC

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
 // A component as a CORBA object: construction, initialize() to exit(), and its execution contexts.
 // OpenRTM-aist: class RTObject_impl; interface RTC::RTObject of the OMG RTC specification.
 #include "host/rtm/runtime/component/local_object.hpp"

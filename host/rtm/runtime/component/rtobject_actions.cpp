@@ -26,7 +26,7 @@ ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
 // machine, so that a component cannot end its host. OpenRTM-aist catches the exception without a message.
 template <class Callback>
 ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
-                                    PostComponentActionListenerType post, Callback callback, bool rehearsal) {
+                                    PostComponentActionListenerType post, Callback callback, bool warm_up) {
     ReturnCode_t result = RTC_ERROR;
     std::string error;
     auto attempt = [&](auto call) {
@@ -42,7 +42,7 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
     };
     attempt([&] {
         m_actionListeners.preaction_[m_actionListeners.at(pre)].forEach([&](auto& listener) {
-            if (!rehearsal) listener(ec_id);
+            if (!warm_up) listener(ec_id);
         });
         result = callback();
         if (result != RTC_OK) error = "returned " + std::to_string(static_cast<int>(result));
@@ -58,7 +58,7 @@ ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreCompone
     error.clear();
     attempt([&] {
         m_actionListeners.postaction_[m_actionListeners.at(post)].forEach([&](auto& listener) {
-            if (!rehearsal) listener(ec_id, result);
+            if (!warm_up) listener(ec_id, result);
         });
     });
     if (error.empty()) return result;
@@ -135,10 +135,10 @@ ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
 
 ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) { return execute(ec_id, false); }
 
-// A rehearsal (tandem::rt::TickOptions) goes the same way, but calls nothing of the component.
-ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool rehearsal) {
+// A warm_up (tandem::rt::TickOptions) goes the same way, but calls nothing of the component.
+ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool warm_up) {
     const auto callback = [&] {
-        if (rehearsal) {
+        if (warm_up) {
             tandem::rt::bring_into_caches(*this);
             return RTC_OK;
         }
@@ -147,7 +147,7 @@ ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool rehearsal) {
         if (m_writeAll) writeAll();
         return result;
     };
-    return guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, callback, rehearsal);
+    return guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, callback, warm_up);
 }
 
 // The place where a running component's configuration changes, after onExecute and onStateUpdate.

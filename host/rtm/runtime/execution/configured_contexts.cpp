@@ -11,7 +11,7 @@ void add_node(coil::Properties& to, const coil::Properties& from, const std::str
 }
 
 // What is said of all contexts.
-coil::Properties common(const coil::Properties& component) {
+coil::Properties common_options(const coil::Properties& component) {
     coil::Properties options;
     for (const char* key :
          {"sync_transition", "sync_activation", "sync_deactivation", "sync_reset", "transition_timeout",
@@ -24,15 +24,15 @@ coil::Properties common(const coil::Properties& component) {
 
 } // namespace
 
-std::vector<coil::Properties> contexts_wanted(const coil::Properties& component) {
-    std::vector<coil::Properties> wanted;
+std::vector<coil::Properties> configured_contexts(const coil::Properties& component) {
+    std::vector<coil::Properties> contexts;
     const auto listed = coil::split(component.getProperty("execution_contexts"), ",", true);
     for (const auto& entry : listed) {
         if (coil::normalize(entry) == "none") return {};
         const std::size_t open = entry.find('(');
         if (open != std::string::npos && entry.back() != ')')
             throw ManagerError("execution_contexts: expected type or type(name), found " + entry);
-        coil::Properties options = common(component);
+        coil::Properties options = common_options(component);
         add_node(options, component, "exec_cxt.periodic");
         const std::string type = coil::eraseBothEndsBlank(entry.substr(0, open));
         add_node(options, component, "ec." + type);
@@ -43,10 +43,10 @@ std::vector<coil::Properties> contexts_wanted(const coil::Properties& component)
             options.setProperty("name", name);
         }
         options.setProperty("type", type);
-        wanted.push_back(options);
+        contexts.push_back(options);
     }
-    if (!listed.empty()) return wanted;
-    coil::Properties options = common(component);
+    if (!listed.empty()) return contexts;
+    coil::Properties options = common_options(component);
     add_node(options, component, "exec_cxt.periodic");
     const std::string type = options.getProperty("type", "PeriodicExecutionContext");
     add_node(options, component, "ec." + type);

@@ -24,13 +24,13 @@ void ExecutionContextBase::init(coil::Properties& props) {
     if (coil::stringTo(rate, m_properties.getProperty("rate").c_str()) && isRate(rate)) m_rate = rate;
     if (coil::stringTo(phase_ms, m_properties.getProperty("phase").c_str()) && std::abs(phase_ms) < 9e12)
         m_phase = std::chrono::nanoseconds(static_cast<std::int64_t>(phase_ms * 1e6));
-    auto set_wait = [this](const std::string& kind, Wait& wait) {
+    auto set_wait = [this](const std::string& kind, TransitionWait& wait) {
         wait.sync = coil::toBool(m_properties.getProperty("sync_" + kind), "YES", "NO", wait.sync);
         std::chrono::nanoseconds timeout{0};
         coil::stringTo(timeout, m_properties.getProperty(kind + "_timeout").c_str());
         if (timeout.count() > 0) wait.timeout = timeout;
     };
-    Wait all;
+    TransitionWait all;
     set_wait("transition", all);
     m_activation = m_deactivation = m_reset = all;
     set_wait("activation", m_activation);
@@ -64,7 +64,7 @@ bool ExecutionContextBase::isRunning() const {
 // cycle stop() only asks, since another that stops waits for that cycle; a start would have to wait for its
 // own end.
 ReturnCode_t ExecutionContextBase::start() {
-    if (insideCycle()) return PRECONDITION_NOT_MET;
+    if (isInsideCycle()) return PRECONDITION_NOT_MET;
     std::unique_lock<std::recursive_timed_mutex> transition(m_transition, 2 * host_options().stop_timeout);
     if (!transition || isRunning()) return PRECONDITION_NOT_MET;
     if (onStopping() != RTC_OK) return PRECONDITION_NOT_MET; // what a stop within a cycle has left
@@ -75,7 +75,7 @@ ReturnCode_t ExecutionContextBase::start() {
 
 ReturnCode_t ExecutionContextBase::stop() {
     std::unique_lock<std::recursive_timed_mutex> transition(m_transition, std::defer_lock);
-    if (!insideCycle() && !transition.try_lock_for(2 * host_options().stop_timeout)) return RTC_ERROR;
+    if (!isInsideCycle() && !transition.try_lock_for(2 * host_options().stop_timeout)) return RTC_ERROR;
     if (!setRunning(false)) return PRECONDITION_NOT_MET;
     const ReturnCode_t result = onStopping();
     if (result == RTC_OK) forEach(&RTC_impl::RTObjectStateMachine::shutdown);
@@ -119,7 +119,7 @@ ExecutionContextBase::Participants ExecutionContextBase::participants() const {
 ExecutionContextBase::Participant ExecutionContextBase::find(LightweightRTObject_ptr comp) {
     if (CORBA::is_nil(comp)) return nullptr;
     for (auto& participant : *participants())
-        if (participant->is(comp)) return participant;
+        if (participant->refersTo(comp)) return participant;
     return nullptr;
 }
 
@@ -137,13 +137,13 @@ ReturnCode_t ExecutionContextBase::addComponent(LightweightRTObject_ptr comp) {
 }
 
 ReturnCode_t ExecutionContextBase::removeComponent(LightweightRTObject_ptr comp) {
-    Participant leaving = find(comp);
-    if (!leaving) return BAD_PARAMETER;
-    if (leaving->state() != INACTIVE_STATE) return PRECONDITION_NOT_MET;
+    Participant removed = find(comp);
+    if (!removed) return BAD_PARAMETER;
+    if (removed->state() != INACTIVE_STATE) return PRECONDITION_NOT_MET;
     {
         std::lock_guard<std::mutex> lock(m_mutex);
         auto all = *m_participants;
-        std::erase(all, leaving);
+        std::erase(all, removed);
         m_participants = std::make_shared<const std::vector<Participant>>(std::move(all));
     }
     try {
@@ -170,12 +170,12 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
     profile->rate = getRate();
     profile->owner = RTObject::_duplicate(m_owner.in());
     for (auto& participant : *participants()) {
-        RTObject_var one = RTObject::_narrow(participant->reference());
-        if (!CORBA::is_nil(one.in()) && !one->_is_equivalent(m_owner.in()))
-            CORBA_SeqUtil::push_back(profile->participants, one);
+        RTObject_var component = RTObject::_narrow(participant->reference());
+        if (!CORBA::is_nil(component.in()) && !component->_is_equivalent(m_owner.in()))
+            CORBA_SeqUtil::push_back(profile->participants, component);
     }
     coil::Properties properties(m_properties);
-    describe(properties);
+    addStatistics(properties);
     NVUtil::copyFromProperties(profile->properties, properties);
     return profile._retn();
 }

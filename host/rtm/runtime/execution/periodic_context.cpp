@@ -16,14 +16,14 @@ struct PeriodicExecutionContext::Worker {
     std::mutex mutex;
     std::condition_variable wake;
     std::shared_ptr<PeriodicTick> tick; // replaced when the rate changes, and after a rest
-    Ticks before;                       // counted by its predecessors
-    bool ending = false;
-    bool ended = false;
-    bool requested = false;
-    bool hangs = false; // a stop has waited in vain
+    TickStatistics previous;            // counted by its predecessors
+    bool stop_requested = false;
+    bool finished = false;
+    bool transition_requested = false;
+    bool callback_hangs = false; // a stop has waited in vain
     std::thread thread;
 
-    Ticks ticks() const; // with the mutex held
+    TickStatistics tickStatistics() const; // with the mutex held
 };
 
 PeriodicExecutionContext::PeriodicExecutionContext() : ExecutionContextServant("periodic_ec") {}
@@ -36,41 +36,41 @@ std::shared_ptr<PeriodicExecutionContext::Worker> PeriodicExecutionContext::work
 
 bool PeriodicExecutionContext::hasThread() const { return worker() != nullptr; }
 
-PeriodicExecutionContext::Ticks PeriodicExecutionContext::Worker::ticks() const {
+PeriodicExecutionContext::TickStatistics PeriodicExecutionContext::Worker::tickStatistics() const {
     const auto now = tick->stats();
-    return {before.cycles + now.ticks, before.overruns + now.overruns, before.skipped + now.skipped,
-            std::max(before.latest, std::chrono::nanoseconds(now.lateness_ns_max))};
+    return {previous.cycles + now.ticks, previous.overruns + now.overruns, previous.skipped + now.skipped,
+            std::max(previous.max_lateness, std::chrono::nanoseconds(now.lateness_ns_max))};
 }
 
 // The caller holds the worker's mutex, or is the only one to know it.
-void PeriodicExecutionContext::makeTick(Worker& worker) {
-    if (worker.tick) worker.before = worker.ticks();
+void PeriodicExecutionContext::createTick(Worker& worker) {
+    if (worker.tick) worker.previous = worker.tickStatistics();
     const auto spin = RTC::host_options().tick_spin;
     worker.tick = std::make_shared<PeriodicTick>(
-        tandem::rt::TickOptions{getPeriod(), m_phase, true, spin, [this] { rehearse(); }});
+        tandem::rt::TickOptions{getPeriod(), m_phase, true, spin, [this] { warmUp(); }});
 }
 
-PeriodicExecutionContext::Ticks PeriodicExecutionContext::ticks() const {
+PeriodicExecutionContext::TickStatistics PeriodicExecutionContext::tickStatistics() const {
     const auto running = worker();
     if (running == nullptr) {
         std::lock_guard<std::mutex> lock(m_workerMutex);
-        return m_ended;
+        return m_finishedStatistics;
     }
     std::lock_guard<std::mutex> lock(running->mutex);
-    return running->ticks();
+    return running->tickStatistics();
 }
 
-void PeriodicExecutionContext::describe(coil::Properties& properties) {
-    const Ticks counted = ticks();
+void PeriodicExecutionContext::addStatistics(coil::Properties& properties) {
+    const TickStatistics counted = tickStatistics();
     properties.setProperty("tick.cycles", std::to_string(counted.cycles));
     properties.setProperty("tick.overruns", std::to_string(counted.overruns));
     properties.setProperty("tick.skipped", std::to_string(counted.skipped));
-    properties.setProperty("tick.latest_us", std::to_string(counted.latest.count() / 1000));
+    properties.setProperty("tick.latest_us", std::to_string(counted.max_lateness.count() / 1000));
 }
 
 RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     auto started = std::make_shared<Worker>();
-    makeTick(*started);
+    createTick(*started);
     // Known before its first cycle goes far: a stop within that must find it.
     std::lock_guard<std::mutex> lock(m_workerMutex);
     started->thread = std::thread([this, started] { run(*started); });
@@ -89,27 +89,27 @@ void PeriodicExecutionContext::run(Worker& worker) {
             RTC_WARN(("%s", notice->c_str()));
 
     std::unique_lock<std::mutex> lock(worker.mutex);
-    while (!worker.ending) {
-        worker.requested = false;
+    while (!worker.stop_requested) {
+        worker.transition_requested = false;
         const auto tick = worker.tick;
         lock.unlock();
-        const bool work = busy();
-        if (work) {
+        const bool has_work = hasWork();
+        if (has_work) {
             tick->wait();
             if (!tick->interrupted()) invokeWorker();
         }
         lock.lock();
-        if (work) continue;
-        worker.wake.wait(lock, [&] { return worker.ending || worker.requested; });
-        makeTick(worker); // periods slept through were not missed
+        if (has_work) continue;
+        worker.wake.wait(lock, [&] { return worker.stop_requested || worker.transition_requested; });
+        createTick(worker); // periods slept through were not missed
     }
-    const Ticks counted = worker.ticks();
+    const TickStatistics counted = worker.tickStatistics();
     if (counted.overruns > 0)
         RTC_WARN(("%llu of %llu cycles overran their period of %g ms; %llu periods had no cycle",
                   static_cast<unsigned long long>(counted.overruns),
                   static_cast<unsigned long long>(counted.cycles), 1e-6 * double(getPeriod().count()),
                   static_cast<unsigned long long>(counted.skipped)));
-    worker.ended = true;
+    worker.finished = true;
     worker.wake.notify_all();
 }
 
@@ -118,19 +118,20 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
     if (stopping == nullptr) return RTC::RTC_OK;
     {
         std::unique_lock<std::mutex> lock(stopping->mutex);
-        stopping->ending = true;
+        stopping->stop_requested = true;
         stopping->tick->interrupt();
         stopping->wake.notify_all();
-        if (insideCycle()) return RTC::RTC_OK; // the thread ends after this cycle
-        if (stopping->hangs && !stopping->ended) return RTC::RTC_ERROR;
-        stopping->hangs =
-            !stopping->wake.wait_for(lock, RTC::host_options().stop_timeout, [&] { return stopping->ended; });
-        if (stopping->hangs) return RTC::RTC_ERROR; // in a callback; its component must be left behind
+        if (isInsideCycle()) return RTC::RTC_OK; // the thread ends after this cycle
+        if (stopping->callback_hangs && !stopping->finished) return RTC::RTC_ERROR;
+        stopping->callback_hangs = !stopping->wake.wait_for(lock, RTC::host_options().stop_timeout,
+                                                            [&] { return stopping->finished; });
+        if (stopping->callback_hangs)
+            return RTC::RTC_ERROR; // in a callback; its component must be left behind
     }
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == stopping) {
         stopping->thread.join();
-        m_ended = stopping->ticks();
+        m_finishedStatistics = stopping->tickStatistics();
         m_worker.reset();
     }
     return RTC::RTC_OK;
@@ -140,17 +141,17 @@ RTC::ReturnCode_t PeriodicExecutionContext::onSetRate(double) {
     auto running = worker();
     if (running == nullptr) return RTC::RTC_OK;
     std::lock_guard<std::mutex> lock(running->mutex);
-    auto former = running->tick;
-    makeTick(*running);
-    former->interrupt();
+    auto old_tick = running->tick;
+    createTick(*running);
+    old_tick->interrupt();
     return RTC::RTC_OK;
 }
 
-void PeriodicExecutionContext::onRequest() {
+void PeriodicExecutionContext::onTransitionRequested() {
     auto running = worker();
     if (running == nullptr) return;
     std::lock_guard<std::mutex> lock(running->mutex);
-    running->requested = true;
+    running->transition_requested = true;
     running->wake.notify_all();
 }
 

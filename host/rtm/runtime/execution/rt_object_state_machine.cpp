@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/component/local_object.hpp"
 #include <rtm/RTObject.h>
@@ -23,7 +22,7 @@ LifeCycleState RTObjectStateMachine::state() const {
     return current_;
 }
 
-bool RTObjectStateMachine::pending() const {
+bool RTObjectStateMachine::hasPendingTransition() const {
     std::lock_guard<std::mutex> lock(mutex_);
     return current_ != next_;
 }
@@ -40,11 +39,11 @@ bool RTObjectStateMachine::onItsWay(LifeCycleState from, LifeCycleState to) cons
     return current_ == from && next_ == to;
 }
 
-bool RTObjectStateMachine::is(RTC::LightweightRTObject_ptr component) const {
+bool RTObjectStateMachine::refersTo(RTC::LightweightRTObject_ptr component) const {
     return reference_->_is_equivalent(component);
 }
 
-void RTObjectStateMachine::failed() {
+void RTObjectStateMachine::requestErrorState() {
     std::lock_guard<std::mutex> lock(mutex_);
     next_ = ERROR_STATE;
 }
@@ -58,7 +57,8 @@ void RTObjectStateMachine::preDo(bool rehearsal) {
     }
     if (from == to || rehearsal) return;
     if (from == ACTIVE_STATE) call(Action::deactivated);
-    if (from == ERROR_STATE && call(Action::reset) != RTC_OK) return failed(); // stays in the error state
+    if (from == ERROR_STATE && call(Action::reset) != RTC_OK)
+        return requestErrorState(); // stays in the error state
     const bool ok = to == ACTIVE_STATE ? call(Action::activated) == RTC_OK : true;
     if (to == ERROR_STATE) call(Action::aborting);
     std::lock_guard<std::mutex> lock(mutex_);
@@ -67,14 +67,16 @@ void RTObjectStateMachine::preDo(bool rehearsal) {
 }
 
 void RTObjectStateMachine::execute(bool rehearsal) {
-    if (pending()) return;
+    if (hasPendingTransition()) return;
     const LifeCycleState now = state();
     if (now == ERROR_STATE && !rehearsal) call(Action::error);
-    if (now == ACTIVE_STATE && call(rehearsal ? Action::rehearse : Action::execute) != RTC_OK) failed();
+    if (now == ACTIVE_STATE && call(rehearsal ? Action::rehearse : Action::execute) != RTC_OK)
+        requestErrorState();
 }
 
 void RTObjectStateMachine::postDo() {
-    if (!pending() && state() == ACTIVE_STATE && call(Action::update) != RTC_OK) failed();
+    if (!hasPendingTransition() && state() == ACTIVE_STATE && call(Action::update) != RTC_OK)
+        requestErrorState();
 }
 
 RTC::ReturnCode_t RTObjectStateMachine::startup() { return call(Action::startup); }

@@ -18,12 +18,12 @@ class RTObjectStateMachine {
     ~RTObjectStateMachine();
 
     RTC::LifeCycleState state() const;
-    bool pending() const;
+    bool hasPendingTransition() const;
     /// Asks for a transition; false when the component is in another state than `from` or already on its way.
     bool goTo(RTC::LifeCycleState from, RTC::LifeCycleState to);
     bool onItsWay(RTC::LifeCycleState from, RTC::LifeCycleState to) const;
 
-    bool is(RTC::LightweightRTObject_ptr component) const;
+    bool refersTo(RTC::LightweightRTObject_ptr component) const;
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 
     // A rehearsal goes the same way, so that code and data are in the caches, but calls nothing of the component
@@ -57,7 +57,7 @@ class RTObjectStateMachine {
     RTC::ReturnCode_t call(Action action);
     RTC::ReturnCode_t callRemote(Action action);
     RTC::ReturnCode_t callLocal(Action action);
-    void failed();
+    void requestErrorState();
 
     RTC::UniqueId id_;
     RTC::LightweightRTObject_var reference_;

@@ -13,16 +13,16 @@ OpenHRPExecutionContext::OpenHRPExecutionContext() : ExecutionContextServant("sy
 }
 
 void OpenHRPExecutionContext::tick() {
-    if (isRunning() && !insideCycle()) invokeWorker();
+    if (isRunning() && !isInsideCycle()) invokeWorker();
 }
 
 /// Shared with the thread, which may hang in a component when the context is gone.
 struct ExtTrigExecutionContext::Worker {
     std::mutex mutex;
     std::condition_variable wake;
-    unsigned long wanted = 0;
-    bool ending = false;
-    bool ended = false;
+    unsigned long pending_ticks = 0;
+    bool stop_requested = false;
+    bool finished = false;
     std::thread thread;
 };
 
@@ -35,7 +35,7 @@ void ExtTrigExecutionContext::tick() {
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == nullptr) return;
     std::lock_guard<std::mutex> worker_lock(m_worker->mutex);
-    ++m_worker->wanted;
+    ++m_worker->pending_ticks;
     m_worker->wake.notify_all();
 }
 
@@ -49,15 +49,15 @@ ReturnCode_t ExtTrigExecutionContext::onStarted() {
 
 void ExtTrigExecutionContext::run(Worker& worker) {
     std::unique_lock<std::mutex> lock(worker.mutex);
-    while (!worker.ending) {
-        worker.wake.wait(lock, [&] { return worker.ending || worker.wanted > 0; });
-        if (worker.ending) break;
-        --worker.wanted;
+    while (!worker.stop_requested) {
+        worker.wake.wait(lock, [&] { return worker.stop_requested || worker.pending_ticks > 0; });
+        if (worker.stop_requested) break;
+        --worker.pending_ticks;
         lock.unlock();
         invokeWorker();
         lock.lock();
     }
-    worker.ended = true;
+    worker.finished = true;
     worker.wake.notify_all();
 }
 
@@ -70,10 +70,10 @@ ReturnCode_t ExtTrigExecutionContext::onStopping() {
     if (stopping == nullptr) return RTC_OK;
     {
         std::unique_lock<std::mutex> lock(stopping->mutex);
-        stopping->ending = true;
+        stopping->stop_requested = true;
         stopping->wake.notify_all();
-        if (insideCycle()) return RTC_OK; // the thread ends after this cycle
-        if (!stopping->wake.wait_for(lock, host_options().stop_timeout, [&] { return stopping->ended; }))
+        if (isInsideCycle()) return RTC_OK; // the thread ends after this cycle
+        if (!stopping->wake.wait_for(lock, host_options().stop_timeout, [&] { return stopping->finished; }))
             return RTC_ERROR; // in a callback; its component must be left behind
     }
     std::lock_guard<std::mutex> lock(m_workerMutex);

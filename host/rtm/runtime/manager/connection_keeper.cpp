@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
 // Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when somebody
 // asks for a port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
@@ -22,7 +21,7 @@ bool has_connection(PortService_ptr port, const std::string& id) {
     return profile->ports.length() > 0;
 }
 
-// The object, or its process, does not exist any more. A process that does not answer in time may be stopped
+// The object, or its process, does not exist any more. A process that does not reply in time may be stopped
 // in a debugger or be busy: it counts as alive.
 bool is_dead(PortService_ptr port) {
     omniORB::setClientCallTimeout(port, call_timeout_ms);
@@ -161,7 +160,7 @@ void ConnectionKeeper::check_connection(PortService_ptr port, const ConnectorPro
     const std::string id(connection.connector_id);
     failed_checks[id] = failed_checks_[id] + 1;
     if (failed_checks[id] < checks_until_dead) return;
-    if (auto local = local_object<PortBase>(port)) local->forget(id.c_str());
+    if (auto local = local_object<PortBase>(port)) local->dropLostConnection(id.c_str());
 }
 
 bool ConnectionKeeper::has_dead_peer(const ConnectorProfile& connection) const {

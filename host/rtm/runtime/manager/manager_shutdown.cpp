@@ -22,7 +22,7 @@ bool returns_in_time(std::function<void()> call) {
 void halt_and_deactivate(RTObject_impl* component) {
     RTObject_var self = component->getObjRef();
     for (auto* context : component->getOwnContexts())
-        if (context->halt() == RTC_OK && context->getComponentState(self.in()) == ACTIVE_STATE)
+        if (context->stopThread() == RTC_OK && context->getComponentState(self.in()) == ACTIVE_STATE)
             context->deactivateComponent(self.in());
 }
 

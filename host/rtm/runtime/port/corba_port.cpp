@@ -8,7 +8,7 @@ namespace RTC {
 namespace {
 
 // A service may take its time: an arm moves, a user is asked. Longer than what the framework's calls get.
-CORBA::ULong call_bound_ms() {
+CORBA::ULong service_call_timeout_ms() {
     double seconds = 600;
     const auto& config = Manager::instance().getConfig();
     if (!coil::stringTo(seconds, config.getProperty("manager.service_call_timeout").c_str()) ||
@@ -104,7 +104,7 @@ void CorbaPort::deactivateInterfaces() {
 }
 
 // <component>.port.<port>.<polarity>.<type>.<instance>
-std::string CorbaPort::key(const char* polarity, const std::string& descriptor) const {
+std::string CorbaPort::propertyKey(const char* polarity, const std::string& descriptor) const {
     const std::string name(m_profile.name);
     return m_ownerInstanceName + ".port." + name.substr(name.rfind('.') + 1) + "." + polarity + "." +
            descriptor;
@@ -116,7 +116,7 @@ ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
     for (auto& provider : m_providers) {
         CORBA_SeqUtil::push_back(
             profile.properties,
-            NVUtil::newNV(key("provided", provider->descriptor()).c_str(), provider->ior().c_str()));
+            NVUtil::newNV(propertyKey("provided", provider->descriptor()).c_str(), provider->ior().c_str()));
         CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(("port." + provider->descriptor()).c_str(),
                                                                    provider->ior().c_str()));
     }
@@ -124,8 +124,9 @@ ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
 }
 
 // An explicit mapping first, else the provider of the same type and instance name; empty when there is none.
-std::string CorbaPort::providerFor(const NVList& properties, const Consumer& consumer) const {
-    const std::string mapped = NVUtil::toString(properties, key("required", consumer.descriptor()).c_str());
+std::string CorbaPort::findProviderIor(const NVList& properties, const Consumer& consumer) const {
+    const std::string mapped =
+        NVUtil::toString(properties, propertyKey("required", consumer.descriptor()).c_str());
     if (mapped == "nil" || mapped == "null") return mapped;
     const std::string ior = mapped.empty() ? "" : NVUtil::toString(properties, mapped.c_str());
     return ior.empty() ? NVUtil::toString(properties, ("port." + consumer.descriptor()).c_str()) : ior;
@@ -134,21 +135,21 @@ std::string CorbaPort::providerFor(const NVList& properties, const Consumer& con
 ReturnCode_t CorbaPort::subscribeInterfaces(const ConnectorProfile& profile) {
     const bool strict = NVUtil::isStringValue(profile.properties, "port.connection.strictness", "strict");
     for (auto& consumer : m_consumers) {
-        const std::string ior = providerFor(profile.properties, consumer);
-        if (!ior.empty() && give(ior, consumer)) continue;
-        const std::string why = std::string(getName()) + ": no provider for " + consumer.type +
-                                ", instance name " + consumer.instance + ", on the other side";
-        if (strict) return refuse(RTC_ERROR, why);
-        if (ior.empty()) RTC_DEBUG(("%s", why.c_str()));
+        const std::string ior = findProviderIor(profile.properties, consumer);
+        if (!ior.empty() && bindConsumer(ior, consumer)) continue;
+        const std::string reason = std::string(getName()) + ": no provider for " + consumer.type +
+                                   ", instance name " + consumer.instance + ", on the other side";
+        if (strict) return refuse(RTC_ERROR, reason);
+        if (ior.empty()) RTC_DEBUG(("%s", reason.c_str()));
     }
     return RTC_OK;
 }
 
-bool CorbaPort::give(const std::string& ior, Consumer& consumer) {
+bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
     if (ior == "nil" || ior == "null") return true;
     try {
         CORBA::Object_var object = Manager::instance().theORB()->string_to_object(ior.c_str());
-        omniORB::setClientCallTimeout(object.in(), call_bound_ms()); // narrowing keeps it
+        omniORB::setClientCallTimeout(object.in(), service_call_timeout_ms()); // narrowing keeps it
         if (!consumer.consumer->setObject(object.in())) {
             RTC_ERROR(("%s: what %s was given is not a %s", getName(), consumer.instance.c_str(),
                        consumer.type.c_str()));
@@ -165,7 +166,7 @@ bool CorbaPort::give(const std::string& ior, Consumer& consumer) {
 
 void CorbaPort::unsubscribeInterfaces(const ConnectorProfile& profile) {
     for (auto& consumer : m_consumers) {
-        if (consumer.ior.empty() || providerFor(profile.properties, consumer) != consumer.ior) continue;
+        if (consumer.ior.empty() || findProviderIor(profile.properties, consumer) != consumer.ior) continue;
         consumer.consumer->releaseObject();
         consumer.ior.clear();
     }

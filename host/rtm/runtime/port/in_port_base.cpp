@@ -37,8 +37,8 @@ ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
     const coil::Properties prop = connector_properties(m_properties, profile, "inport");
-    const std::string why = unsupported(prop);
-    if (!why.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + why);
+    const std::string reason = unsupported_reason(prop);
+    if (!reason.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + reason);
     const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
     return flow == "pull" ? RTC_OK : addPushConnector(profile, prop);
 }
@@ -47,32 +47,33 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     ConnectorInfo info = connector_info(profile, prop);
     const std::string type = coil::eraseBothEndsBlank(prop.getProperty("buffer_type", "ring_buffer"));
     CdrBufferBase* buffer = m_thebuffer;
-    const bool own = type != "ring_buffer" || !m_singlebuffer;
-    if (own) {
+    const bool owns_buffer = type != "ring_buffer" || !m_singlebuffer;
+    if (owns_buffer) {
         buffer = CdrBufferFactory::instance().createObject(type);
         if (buffer == nullptr)
             return refuse(BAD_PARAMETER, std::string(getName()) + ": there is no buffer type " + type +
                                              "; add it to RTC::CdrBufferFactory before connecting");
     }
-    if (own || info.properties.findNode("buffer") != nullptr) buffer->init(info.properties.getNode("buffer"));
-    const bool direct =
-        !own && coil::normalize(prop.getProperty("interface_type")) == "direct" && !converts(profile);
-    const auto lane = direct ? directLane() : nullptr;
-    if (lane != nullptr)
-        if (const auto* node = info.properties.findNode("buffer")) lane->init(*node);
-    auto* connector = new InPortPushConnector(*this, info, buffer, own, lane);
-    const std::string registered = registered_push(prop);
-    if (!registered.empty()) return addProvided(profile, prop, registered, connector);
-    publish_object(profile, "dataport." + wire_interface(prop) + ".inport", connector->servant().reference(),
-                   connector->servant().ior());
+    if (owns_buffer || info.properties.findNode("buffer") != nullptr)
+        buffer->init(info.properties.getNode("buffer"));
+    const bool direct = !owns_buffer && coil::normalize(prop.getProperty("interface_type")) == "direct" &&
+                        !uses_custom_serializer(profile);
+    const auto direct_buffer = direct ? directBuffer() : nullptr;
+    if (direct_buffer != nullptr)
+        if (const auto* node = info.properties.findNode("buffer")) direct_buffer->init(*node);
+    auto* connector = new InPortPushConnector(*this, info, buffer, owns_buffer, direct_buffer);
+    const std::string registered = registered_push_type(prop);
+    if (!registered.empty()) return addPushProvider(profile, prop, registered, connector);
+    publish_object(profile, "dataport." + corba_interface_type(prop) + ".inport",
+                   connector->servant().reference(), connector->servant().ior());
     addConnector(connector);
     return RTC_OK;
 }
 
-ReturnCode_t InPortBase::addProvided(ConnectorProfile& profile, const coil::Properties& prop,
-                                     const std::string& type, InPortPushConnector* made) {
+ReturnCode_t InPortBase::addPushProvider(ConnectorProfile& profile, const coil::Properties& prop,
+                                         const std::string& type, InPortPushConnector* made) {
     std::unique_ptr<InPortPushConnector> connector(made);
-    auto provider = registered_in_provider(type, prop);
+    auto provider = create_registered_in_provider(type, prop);
     if (provider == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + type +
                                      " has no InPortProvider here; load the library that brings it");
@@ -83,7 +84,7 @@ ReturnCode_t InPortBase::addProvided(ConnectorProfile& profile, const coil::Prop
     if (!provider->publishInterface(profile.properties))
         return refuse(RTC_ERROR, std::string(getName()) + ": the InPortProvider of interface type " + type +
                                      " publishes nothing");
-    connector->provideBy(std::move(provider));
+    connector->setProvider(std::move(provider));
     addConnector(connector.release());
     return RTC_OK;
 }
@@ -96,9 +97,9 @@ ReturnCode_t InPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
 
 ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
-    const std::string registered = registered_pull(prop);
+    const std::string registered = registered_pull_type(prop);
     if (!registered.empty()) {
-        auto sender = registered_sender(registered, profile, info, m_listeners, *m_thebuffer, prop);
+        auto sender = create_registered_sender(registered, profile, info, m_listeners, *m_thebuffer, prop);
         if (sender == nullptr)
             return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
                                          " has no OutPortConsumer here, or it does not find the other side");
@@ -107,15 +108,15 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
     }
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto port = local_object<OutPortBase>(profile.ports[i]);
-        auto outlet = port ? port->outlet(profile.connector_id) : nullptr;
-        if (outlet == nullptr) continue;
-        addConnector(new InPortPullConnector(*this, info, outlet));
+        auto buffer = port ? port->pullBuffer(profile.connector_id) : nullptr;
+        if (buffer == nullptr) continue;
+        addConnector(new InPortPullConnector(*this, info, buffer));
         return RTC_OK;
     }
-    auto remote = RemoteSender::find(profile, wire_interface(prop));
+    auto remote = RemoteSender::find(profile, corba_interface_type(prop));
     if (remote == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
-                                     wire_interface(prop) + " reference to pull from");
+                                     corba_interface_type(prop) + " reference to pull from");
     addConnector(new InPortPullConnector(*this, info, std::move(remote)));
     return RTC_OK;
 }
@@ -130,54 +131,54 @@ void InPortBase::addConnector(InPortConnector* connector) {
 }
 
 void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
-    std::unique_ptr<InPortConnector> leaving;
+    std::unique_ptr<InPortConnector> removed;
     {
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
         for (auto it = m_connectors.begin(); it != m_connectors.end(); ++it) {
             if (std::string((*it)->id()) != static_cast<const char*>(profile.connector_id)) continue;
-            leaving.reset(*it);
+            removed.reset(*it);
             m_connectors.erase(it);
             break;
         }
     }
-    if (!leaving) return;
+    if (!removed) return;
     // Outside the lock: a listener on its way may be reading this port.
-    leaving->disconnect();
-    ConnectorInfo info = leaving->profile();
+    removed->disconnect();
+    ConnectorInfo info = removed->profile();
     m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
 }
 
-std::shared_ptr<DataInlet> InPortBase::inlet(const char* connector_id) {
+std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id) {
     auto* connector = dynamic_cast<InPortPushConnector*>(getConnectorById(connector_id));
-    return connector ? connector->inlet() : nullptr;
+    return connector ? connector->pushReceiver() : nullptr;
 }
 
-InPortConnector* InPortBase::readable() {
+InPortConnector* InPortBase::findReadable() {
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
-    return readableLocked("", false);
+    return findReadableLocked("", false);
 }
 
-InPortConnector* InPortBase::readableLocked(const std::string& name, bool or_first) {
+InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {
     InPortConnector* first = nullptr;
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;
         if (first == nullptr) first = connector;
         // The only one is what the caller gets, new data or not, and reading it shows which.
-        if (or_first && m_connectors.size() == 1) return first;
-        if (connector->waiting() > 0) return connector;
+        if (fallback_to_first && m_connectors.size() == 1) return first;
+        if (connector->readableCount() > 0) return connector;
     }
-    if (!or_first) return nullptr;
+    if (!fallback_to_first) return nullptr;
     // A sender in another process does not say whether it has something: each is asked, since the first may
     // be empty, hang or be dead.
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;
         auto* pull = dynamic_cast<InPortPullConnector*>(connector);
-        if (pull != nullptr && pull->fetchAhead(connector == first)) return connector;
+        if (pull != nullptr && pull->prefetch(connector == first)) return connector;
     }
     return first;
 }
 
-void InPortBase::stampReceived(ByteData&) {}
+void InPortBase::stampOnReceive(ByteData&) {}
 void InPortBase::activateInterfaces() {}
 void InPortBase::deactivateInterfaces() {}
 

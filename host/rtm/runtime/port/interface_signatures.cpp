@@ -12,54 +12,53 @@ struct Registry {
     std::map<std::string, std::string> types;
 };
 Registry& registry() {
-    static auto* the_registry =
-        new Registry; // static initialisers of plugins come before and after everything
-    return *the_registry;
+    static auto* instance = new Registry; // static initialisers of plugins come before and after everything
+    return *instance;
 }
 
 // IDL:omg.org/M/I:1.0 -> omg.org/M/I
-std::string body(const std::string& id) {
+std::string repository_path(const std::string& id) {
     const std::size_t begin = id.compare(0, 4, "IDL:") == 0 ? 4 : 0;
     const std::size_t end = begin == 0 ? id.size() : id.rfind(':');
     return id.substr(begin, end - begin);
 }
 
-std::string with_slashes(std::string name) {
+std::string scopes_to_slashes(std::string name) {
     for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "/");
     return !name.empty() && name[0] == '/' ? name.substr(1) : name;
 }
 
-bool ends_with_name(const std::string& path, const std::string& name) {
+bool ends_with_path(const std::string& path, const std::string& name) {
     if (path == name) return true;
     return path.size() > name.size() && path[path.size() - name.size() - 1] == '/' &&
            path.compare(path.size() - name.size(), name.size(), name) == 0;
 }
 
-auto find_interface(Registry& r, const std::string& name) {
-    auto exact = r.interfaces.find(name);
-    if (exact != r.interfaces.end()) return exact;
-    const std::string wanted = with_slashes(body(name));
-    auto it = r.interfaces.begin();
-    while (it != r.interfaces.end() && !ends_with_name(body(it->first), wanted)) ++it;
+auto find_interface(Registry& signatures, const std::string& name) {
+    auto exact = signatures.interfaces.find(name);
+    if (exact != signatures.interfaces.end()) return exact;
+    const std::string wanted = scopes_to_slashes(repository_path(name));
+    auto it = signatures.interfaces.begin();
+    while (it != signatures.interfaces.end() && !ends_with_path(repository_path(it->first), wanted)) ++it;
     return it;
 }
 
-std::string without_outer(const std::string& signature) {
+std::string strip_outer_parentheses(const std::string& signature) {
     // The signature of one struct begins and ends with its own pair.
     return signature.size() >= 2 && signature.front() == '(' ? signature.substr(1, signature.size() - 2)
                                                              : signature;
 }
 
-std::string of_code(CORBA::TypeCode_ptr code, int depth);
+std::string signature_of(CORBA::TypeCode_ptr code, int depth);
 
-std::string of_struct(CORBA::TypeCode_ptr code, int depth) {
+std::string signature_of_struct(CORBA::TypeCode_ptr code, int depth) {
     std::string parts;
     for (CORBA::ULong i = 0; i < code->member_count(); ++i)
-        parts += of_code(CORBA::TypeCode_var(code->member_type(i)).in(), depth + 1);
+        parts += signature_of(CORBA::TypeCode_var(code->member_type(i)).in(), depth + 1);
     return "(" + parts + ")";
 }
 
-std::string of_code(CORBA::TypeCode_ptr code, int depth) {
+std::string signature_of(CORBA::TypeCode_ptr code, int depth) {
     if (depth > 64) return "?"; // recursive type
     switch (code->kind()) {
     case CORBA::tk_void:
@@ -93,14 +92,14 @@ std::string of_code(CORBA::TypeCode_ptr code, int depth) {
     case CORBA::tk_wstring:
         return "w";
     case CORBA::tk_alias:
-        return of_code(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
+        return signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
     case CORBA::tk_sequence:
-        return "a" + of_code(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
+        return "a" + signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
     case CORBA::tk_array:
         return "[" + std::to_string(code->length()) + "]" +
-               of_code(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
+               signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
     case CORBA::tk_struct:
-        return of_struct(code, depth);
+        return signature_of_struct(code, depth);
     default:
         return "?";
     }
@@ -111,40 +110,40 @@ std::string of_code(CORBA::TypeCode_ptr code, int depth) {
 InterfaceSignatures::Registration::Registration(
     const std::vector<std::pair<const char*, Operations>>& interfaces,
     const std::vector<std::pair<const char*, const char*>>& types) {
-    Registry& r = registry();
-    std::lock_guard<std::mutex> lock(r.mutex);
-    for (auto& one : interfaces) r.interfaces.emplace(one.first, one.second);
-    for (auto& one : types) r.types.emplace(one.first, without_outer(one.second));
+    Registry& signatures = registry();
+    std::lock_guard<std::mutex> lock(signatures.mutex);
+    for (auto& entry : interfaces) signatures.interfaces.emplace(entry.first, entry.second);
+    for (auto& entry : types) signatures.types.emplace(entry.first, strip_outer_parentheses(entry.second));
 }
 
 const InterfaceSignatures::Operations* InterfaceSignatures::find(const std::string& interface_name) {
-    Registry& r = registry();
-    std::lock_guard<std::mutex> lock(r.mutex);
-    auto found = find_interface(r, interface_name);
-    return found == r.interfaces.end() ? nullptr : &found->second;
+    Registry& signatures = registry();
+    std::lock_guard<std::mutex> lock(signatures.mutex);
+    auto found = find_interface(signatures, interface_name);
+    return found == signatures.interfaces.end() ? nullptr : &found->second;
 }
 
 std::string InterfaceSignatures::repositoryId(const std::string& interface_name) {
-    Registry& r = registry();
-    std::lock_guard<std::mutex> lock(r.mutex);
-    auto found = find_interface(r, interface_name);
-    return found == r.interfaces.end() ? "" : found->first;
+    Registry& signatures = registry();
+    std::lock_guard<std::mutex> lock(signatures.mutex);
+    auto found = find_interface(signatures, interface_name);
+    return found == signatures.interfaces.end() ? "" : found->first;
 }
 
 std::string InterfaceSignatures::type(const std::string& repository_id) {
-    Registry& r = registry();
-    std::lock_guard<std::mutex> lock(r.mutex);
-    auto found = r.types.find(repository_id);
-    return found == r.types.end() ? "" : found->second;
+    Registry& signatures = registry();
+    std::lock_guard<std::mutex> lock(signatures.mutex);
+    auto found = signatures.types.find(repository_id);
+    return found == signatures.types.end() ? "" : found->second;
 }
 
 void InterfaceSignatures::addType(const char* repository_id, CORBA::TypeCode_ptr code) {
-    const std::string text = without_outer(signature(code));
-    Registry& r = registry();
-    std::lock_guard<std::mutex> lock(r.mutex);
-    r.types.emplace(repository_id, text);
+    const std::string text = strip_outer_parentheses(signature(code));
+    Registry& signatures = registry();
+    std::lock_guard<std::mutex> lock(signatures.mutex);
+    signatures.types.emplace(repository_id, text);
 }
 
-std::string InterfaceSignatures::signature(CORBA::TypeCode_ptr code) { return of_code(code, 0); }
+std::string InterfaceSignatures::signature(CORBA::TypeCode_ptr code) { return signature_of(code, 0); }
 
 } // namespace RTC

@@ -9,10 +9,10 @@
 namespace RTC {
 namespace {
 
-void tell_alone(const std::vector<OutPortConnector*>& connectors) {
+void update_sole_connector(const std::vector<OutPortConnector*>& connectors) {
     for (auto* connector : connectors)
         if (auto* push = dynamic_cast<OutPortPushConnector*>(connector))
-            push->setAlone(connectors.size() == 1);
+            push->setSoleConnector(connectors.size() == 1);
 }
 
 } // namespace
@@ -43,8 +43,8 @@ ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
     const coil::Properties prop = connector_properties(m_properties, profile, "outport");
-    const std::string why = unsupported(prop);
-    if (!why.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + why);
+    const std::string reason = unsupported_reason(prop);
+    if (!reason.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + reason);
     const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
     return flow == "pull" ? addPullConnector(profile, prop) : RTC_OK;
 }
@@ -52,12 +52,12 @@ ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
 ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
     auto connector = std::make_unique<OutPortPullConnector>(*this, info);
-    const std::string registered = registered_pull(prop);
+    const std::string registered = registered_pull_type(prop);
     if (registered.empty()) {
-        publish_object(profile, "dataport." + wire_interface(prop) + ".outport",
+        publish_object(profile, "dataport." + corba_interface_type(prop) + ".outport",
                        connector->servant().reference(), connector->servant().ior());
     } else {
-        auto provider = registered_out_provider(registered, prop);
+        auto provider = create_registered_out_provider(registered, prop);
         if (provider == nullptr)
             return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
                                          " has no OutPortProvider here; load the library that brings it");
@@ -67,7 +67,7 @@ ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil
         if (!provider->publishInterface(profile.properties))
             return refuse(RTC_ERROR, std::string(getName()) + ": the OutPortProvider of interface type " +
                                          registered + " publishes nothing");
-        connector->provideBy(std::move(provider));
+        connector->setProvider(std::move(provider));
     }
     addConnector(connector.release());
     return RTC_OK;
@@ -81,9 +81,9 @@ ReturnCode_t OutPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
 
 ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
-    const std::string registered = registered_push(prop);
+    const std::string registered = registered_push_type(prop);
     if (!registered.empty()) {
-        auto receiver = registered_receiver(registered, profile, prop);
+        auto receiver = create_registered_receiver(registered, profile, prop);
         if (receiver == nullptr)
             return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + registered +
                                          " has no InPortConsumer here, or it does not find the other side");
@@ -93,16 +93,16 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
     bool local = false;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto port = local_object<InPortBase>(profile.ports[i]);
-        auto inlet = port ? port->inlet(profile.connector_id) : nullptr;
-        if (inlet == nullptr) continue;
-        addConnector(new OutPortPushConnector(*this, info, inlet));
+        auto receiver = port ? port->pushReceiver(profile.connector_id) : nullptr;
+        if (receiver == nullptr) continue;
+        addConnector(new OutPortPushConnector(*this, info, receiver));
         local = true;
     }
     if (local || profile.ports.length() < 2) return RTC_OK;
-    auto remote = RemoteReceiver::find(profile, wire_interface(prop));
+    auto remote = RemoteReceiver::find(profile, corba_interface_type(prop));
     if (remote == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
-                                     wire_interface(prop) + " reference to push to");
+                                     corba_interface_type(prop) + " reference to push to");
     addConnector(new OutPortPushConnector(*this, info, std::move(remote)));
     return RTC_OK;
 }
@@ -112,37 +112,37 @@ void OutPortBase::addConnector(OutPortConnector* connector) {
     {
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
         m_connectors.push_back(connector);
-        tell_alone(m_connectors);
+        update_sole_connector(m_connectors);
     }
     m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
 }
 
 void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
-    std::vector<std::unique_ptr<OutPortConnector>> leaving;
+    std::vector<std::unique_ptr<OutPortConnector>> removed;
     {
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
         for (std::size_t i = m_connectors.size(); i-- > 0;) {
             if (std::string(m_connectors[i]->id()) != static_cast<const char*>(profile.connector_id))
                 continue;
-            leaving.emplace_back(m_connectors[i]);
+            removed.emplace_back(m_connectors[i]);
             m_connectors.erase(m_connectors.begin() + static_cast<std::ptrdiff_t>(i));
         }
-        tell_alone(m_connectors);
+        update_sole_connector(m_connectors);
     }
-    for (auto& connector : leaving) {
+    for (auto& connector : removed) {
         connector->disconnect();
         ConnectorInfo info = connector->profile();
         m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
     }
 }
 
-std::shared_ptr<DataOutlet> OutPortBase::outlet(const char* connector_id) {
+std::shared_ptr<PullBuffer> OutPortBase::pullBuffer(const char* connector_id) {
     auto* connector = dynamic_cast<OutPortPullConnector*>(getConnectorById(connector_id));
-    return connector ? connector->outlet() : nullptr;
+    return connector ? connector->pullBuffer() : nullptr;
 }
 
-void OutPortBase::dropLost(const std::vector<std::string>& connector_ids) {
-    for (const auto& id : connector_ids) forget(id.c_str());
+void OutPortBase::dropLostConnections(const std::vector<std::string>& connector_ids) {
+    for (const auto& id : connector_ids) dropLostConnection(id.c_str());
 }
 
 void OutPortBase::activateInterfaces() {}

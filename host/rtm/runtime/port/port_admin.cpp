@@ -9,24 +9,24 @@ std::vector<PortBase*> PortAdmin::ports() const {
     return ports_;
 }
 
-std::vector<PortService_var> PortAdmin::others() const {
+std::vector<PortService_var> PortAdmin::delegatedPorts() const {
     std::lock_guard<std::mutex> lock(mutex_);
-    return others_;
+    return delegated_ports_;
 }
 
 PortServiceList* PortAdmin::getPortServiceList() const {
     PortServiceList_var list = new PortServiceList;
     for (auto* port : ports()) CORBA_SeqUtil::push_back(list.inout(), PortService_var(port->getPortRef()));
-    for (auto& other : others()) CORBA_SeqUtil::push_back(list.inout(), other);
+    for (auto& delegated : delegatedPorts()) CORBA_SeqUtil::push_back(list.inout(), delegated);
     return list._retn();
 }
 
 PortProfileList PortAdmin::getPortProfileList() const {
     PortProfileList list;
     for (auto* port : ports()) CORBA_SeqUtil::push_back(list, PortProfile_var(port->get_port_profile()).in());
-    for (auto& other : others()) {
+    for (auto& delegated : delegatedPorts()) {
         try {
-            CORBA_SeqUtil::push_back(list, PortProfile_var(other->get_port_profile()).in());
+            CORBA_SeqUtil::push_back(list, PortProfile_var(delegated->get_port_profile()).in());
         } catch (const CORBA::SystemException&) {
             continue; // its component is gone
         }
@@ -67,15 +67,16 @@ bool PortAdmin::removePort(PortBase& port) {
 
 bool PortAdmin::addPort(PortService_ptr port) {
     std::lock_guard<std::mutex> lock(mutex_);
-    for (auto& other : others_)
-        if (other->_is_equivalent(port)) return false;
-    others_.emplace_back(PortService::_duplicate(port));
+    for (auto& delegated : delegated_ports_)
+        if (delegated->_is_equivalent(port)) return false;
+    delegated_ports_.emplace_back(PortService::_duplicate(port));
     return true;
 }
 
 bool PortAdmin::removePort(PortService_ptr port) {
     std::lock_guard<std::mutex> lock(mutex_);
-    return std::erase_if(others_, [&](auto& other) { return other->_is_equivalent(port); }) > 0;
+    return std::erase_if(delegated_ports_, [&](auto& delegated) { return delegated->_is_equivalent(port); }) >
+           0;
 }
 
 void PortAdmin::activatePorts() {

@@ -10,37 +10,38 @@
 namespace RTC {
 namespace {
 
-struct PortFacts {
+struct PortDescription {
     std::string name, kind, data_type;
 };
 
-PortFacts facts_of(PortService_ptr port) {
+PortDescription describe_port(PortService_ptr port) {
     PortProfile_var profile = port->get_port_profile();
     return {static_cast<const char*>(profile->name), NVUtil::toString(profile->properties, "port.port_type"),
             NVUtil::toString(profile->properties, "dataport.data_type")};
 }
 
 // Why two ports can never be joined; empty when they may.
-std::string misfit(const PortFacts& a, const PortFacts& b, const ConnectorProfile& profile) {
+std::string incompatibility(const PortDescription& a, const PortDescription& b,
+                            const ConnectorProfile& profile) {
     const bool services = a.kind == "CorbaPort" && b.kind == "CorbaPort";
     const bool data = (a.kind == "DataInPort" && b.kind == "DataOutPort") ||
                       (a.kind == "DataOutPort" && b.kind == "DataInPort");
     if (!services && !data && !a.kind.empty() && !b.kind.empty())
         return a.name + " is a " + a.kind + ", " + b.name + " is a " + b.kind + ": they cannot be connected";
     if (data && a.data_type != b.data_type && coil::toLower(a.data_type) != "any" &&
-        coil::toLower(b.data_type) != "any" && !converts(profile))
+        coil::toLower(b.data_type) != "any" && !uses_custom_serializer(profile))
         return a.name + " carries " + a.data_type + ", " + b.name + " carries " + b.data_type +
                ": connect ports of one type";
     return "";
 }
 
-std::string misfit(const ConnectorProfile& profile) {
+std::string incompatibility(const ConnectorProfile& profile) {
     const PortServiceList& ports = profile.ports;
     if (ports.length() < 2) return "";
-    const PortFacts first = facts_of(ports[0]);
+    const PortDescription first = describe_port(ports[0]);
     for (CORBA::ULong i = 1; i < ports.length(); ++i) {
-        std::string why = misfit(first, facts_of(ports[i]), profile);
-        if (!why.empty()) return why;
+        std::string reason = incompatibility(first, describe_port(ports[i]), profile);
+        if (!reason.empty()) return reason;
     }
     return "";
 }
@@ -52,7 +53,7 @@ bool has_remote_port(const ConnectorProfile& profile) {
 }
 
 // Who is told of the end of a connection may be the reason for it.
-void bound_calls(PortService_ptr port) {
+void set_disconnect_timeout(PortService_ptr port) {
     const auto bound = Manager::instance().impl().connection_keeper->disconnect_timeout();
     omniORB::setClientCallTimeout(port, static_cast<CORBA::ULong>(bound.count()));
 }
@@ -67,8 +68,8 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         return refuse(PRECONDITION_NOT_MET, std::string("there is a connection with id ") +
                                                 static_cast<const char*>(profile.connector_id));
     try {
-        const std::string why = misfit(profile);
-        if (!why.empty()) return refuse(BAD_PARAMETER, why);
+        const std::string reason = incompatibility(profile);
+        if (!reason.empty()) return refuse(BAD_PARAMETER, reason);
         auto first = local_object<PortBase>(profile.ports[0]);
         const ReturnCode_t result =
             first ? first->notify_connect(profile) : profile.ports[0]->notify_connect(profile);
@@ -79,69 +80,68 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         disconnect(id.c_str()); // whatever part of it was established
         return refuse(result, reason.empty() ? "the other side has refused the connection" : reason);
     } catch (const CORBA::SystemException& e) {
-        release(profile.connector_id);
+        releaseConnection(profile.connector_id);
         return refuse(RTC_ERROR, "a port of the connection cannot be reached: " + describe_exception(e));
     }
 }
 
 ReturnCode_t PortBase::notify_connect(ConnectorProfile& profile) {
-    const ReturnCode_t result = establish(profile);
+    const ReturnCode_t result = establishConnection(profile);
     if (result == RTC_OK && m_onConnected != nullptr) (*m_onConnected)(profile);
-    tell(PortConnectRetListenerType::ON_CONNECTED, profile, result);
+    notifyListeners(PortConnectRetListenerType::ON_CONNECTED, profile, result);
     return result;
 }
 
-void PortBase::tell(PortConnectListenerType type, ConnectorProfile& profile) {
+void PortBase::notifyListeners(PortConnectListenerType type, ConnectorProfile& profile) {
     auto call = [&](auto& listener) { listener(getName(), profile); };
     m_connectListeners.at(type).forEach(call);
-    if (m_sharedConnectListeners != nullptr) m_sharedConnectListeners->at(type).forEach(call);
+    if (m_componentConnectListeners != nullptr) m_componentConnectListeners->at(type).forEach(call);
 }
-void PortBase::tell(PortConnectRetListenerType type, ConnectorProfile& profile, ReturnCode_t result) {
+void PortBase::notifyListeners(PortConnectRetListenerType type, ConnectorProfile& profile,
+                               ReturnCode_t result) {
     auto call = [&](auto& listener) { listener(getName(), profile, result); };
     m_connectListeners.at(type).forEach(call);
-    if (m_sharedConnectListeners != nullptr) m_sharedConnectListeners->at(type).forEach(call);
+    if (m_componentConnectListeners != nullptr) m_componentConnectListeners->at(type).forEach(call);
 }
 
-ReturnCode_t PortBase::establish(ConnectorProfile& profile) {
+ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
     // Twice would be a circle: each passes the call on to the next one.
-    const auto places = placesOf(profile);
-    if (places != 1)
-        return refuse(BAD_PARAMETER, std::string(getName()) + " is " + std::to_string(places) +
+    const auto occurrences = occurrencesIn(profile);
+    if (occurrences != 1)
+        return refuse(BAD_PARAMETER, std::string(getName()) + " is " + std::to_string(occurrences) +
                                          " times in the list of ports to connect, expected once");
     const coil::Properties properties = NVUtil::toProperties(profile.properties);
     const bool duplicates =
         coil::toBool(properties.getProperty("dataport.allow_dup_connection",
                                             m_properties.getProperty("allow_dup_connection")),
                      "YES", "NO", false);
-    if (!duplicates && alreadyConnectedTo(profile))
+    if (!duplicates && isAlreadyConnected(profile))
         return refuse(PRECONDITION_NOT_MET, std::string(getName()) + " is already connected to that port");
     refuse(RTC_OK, "");
 
     using Step = PortConnectRetListenerType;
-    tell(PortConnectListenerType::ON_NOTIFY_CONNECT, profile);
+    notifyListeners(PortConnectListenerType::ON_NOTIFY_CONNECT, profile);
     const ReturnCode_t published = publishInterfaces(profile);
-    tell(Step::ON_PUBLISH_INTERFACES, profile, published);
+    notifyListeners(Step::ON_PUBLISH_INTERFACES, profile, published);
     if (m_onPublishInterfaces != nullptr) (*m_onPublishInterfaces)(profile);
-    const ReturnCode_t passed_on = published == RTC_OK ? passOn(profile) : published;
-    tell(Step::ON_CONNECT_NEXTPORT, profile, passed_on);
+    const ReturnCode_t notified = published == RTC_OK ? notifyNextPort(profile) : published;
+    notifyListeners(Step::ON_CONNECT_NEXTPORT, profile, notified);
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
-    const ReturnCode_t subscribed = passed_on == RTC_OK ? subscribeInterfaces(profile) : passed_on;
-    tell(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
+    const ReturnCode_t subscribed = notified == RTC_OK ? subscribeInterfaces(profile) : notified;
+    notifyListeners(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
     // Kept even when it has failed later: the disconnection that follows finds by it what to undo.
     if (published == RTC_OK) updateConnectorProfile(profile);
-    if (subscribed == RTC_OK && has_remote_port(profile))
-        Manager::instance().impl().connection_keeper->start();
+    if (subscribed == RTC_OK && has_remote_port(profile)) Manager::instance().impl().connection_keeper->start();
     return subscribed;
 }
 
 // A peer that dies or hangs in its notify_connect() leaves us with half a connection, which connect() takes
 // back.
-ReturnCode_t PortBase::passOn(ConnectorProfile& profile) {
+ReturnCode_t PortBase::notifyNextPort(ConnectorProfile& profile) {
     try {
         return connectNext(profile);
     } catch (const CORBA::SystemException& e) {
-        return refuse(RTC_ERROR,
-                      std::string(getName()) + ": the next port of the connection: " + describe_exception(e));
+        return refuse(RTC_ERROR, std::string(getName()) + ": the next port of the connection: " + describe_exception(e));
     }
 }
 
@@ -154,7 +154,7 @@ ReturnCode_t PortBase::_publishInterfaces() {
                                  std::to_string(m_connectionLimit) + " connections");
 }
 
-bool PortBase::alreadyConnectedTo(const ConnectorProfile& profile) {
+bool PortBase::isAlreadyConnected(const ConnectorProfile& profile) {
     ConnectorProfileList_var present = get_connector_profiles();
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         if (m_objref->_is_equivalent(profile.ports[i])) continue;
@@ -165,11 +165,11 @@ bool PortBase::alreadyConnectedTo(const ConnectorProfile& profile) {
     return false;
 }
 
-CORBA::ULong PortBase::placesOf(const ConnectorProfile& profile) const {
-    CORBA::ULong places = 0;
+CORBA::ULong PortBase::occurrencesIn(const ConnectorProfile& profile) const {
+    CORBA::ULong occurrences = 0;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
-        if (m_objref->_is_equivalent(profile.ports[i])) ++places;
-    return places;
+        if (m_objref->_is_equivalent(profile.ports[i])) ++occurrences;
+    return occurrences;
 }
 
 ReturnCode_t PortBase::connectNext(ConnectorProfile& profile) {
@@ -191,7 +191,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         try {
             auto local = local_object<PortBase>(profile.ports[i]);
-            if (local == nullptr) bound_calls(profile.ports[i]);
+            if (local == nullptr) set_disconnect_timeout(profile.ports[i]);
             result = local ? local->notify_disconnect(connector_id)
                            : profile.ports[i]->notify_disconnect(connector_id);
             break;
@@ -199,7 +199,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
             RTC_WARN(("disconnecting %s: a peer: %s", getName(), describe_exception(e).c_str()));
         }
     }
-    if (release(connector_id)) result = RTC_OK; // the peers have not passed it on to us
+    if (releaseConnection(connector_id)) result = RTC_OK; // the peers have not passed it on to us
     return result;
 }
 
@@ -207,31 +207,31 @@ ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
-    tell(PortConnectListenerType::ON_NOTIFY_DISCONNECT, profile);
+    notifyListeners(PortConnectListenerType::ON_NOTIFY_DISCONNECT, profile);
     const ReturnCode_t result = disconnectNext(profile);
-    tell(PortConnectRetListenerType::ON_DISCONNECT_NEXT, profile, result);
-    release(connector_id);
+    notifyListeners(PortConnectRetListenerType::ON_DISCONNECT_NEXT, profile, result);
+    releaseConnection(connector_id);
     return result;
 }
 
-bool PortBase::release(const char* connector_id) {
+bool PortBase::releaseConnection(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return false;
     if (m_onUnsubscribeInterfaces != nullptr) (*m_onUnsubscribeInterfaces)(profile);
-    tell(PortConnectListenerType::ON_UNSUBSCRIBE_INTERFACES, profile);
+    notifyListeners(PortConnectListenerType::ON_UNSUBSCRIBE_INTERFACES, profile);
     unsubscribeInterfaces(profile);
-    tell(PortConnectRetListenerType::ON_DISCONNECTED, profile, RTC_OK);
+    notifyListeners(PortConnectRetListenerType::ON_DISCONNECTED, profile, RTC_OK);
     if (m_onDisconnected != nullptr) (*m_onDisconnected)(profile);
     return eraseConnectorProfile(connector_id);
 }
 
-void PortBase::forget(const char* connector_id) {
+void PortBase::dropLostConnection(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return;
     RTC_WARN(("%s: the other side of connection %s is gone", getName(), connector_id));
     if (m_onConnectionLost != nullptr) (*m_onConnectionLost)(profile);
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
-        if (auto local = local_object<PortBase>(profile.ports[i])) local->release(connector_id);
+        if (auto local = local_object<PortBase>(profile.ports[i])) local->releaseConnection(connector_id);
     Manager::instance().impl().connection_keeper->report_lost(profile);
 }
 
@@ -242,7 +242,7 @@ ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
     for (CORBA::ULong next = static_cast<CORBA::ULong>(me) + 1; next < profile.ports.length(); ++next) {
         try {
             auto local = local_object<PortBase>(profile.ports[next]);
-            if (local == nullptr) bound_calls(profile.ports[next]);
+            if (local == nullptr) set_disconnect_timeout(profile.ports[next]);
             return local ? local->notify_disconnect(profile.connector_id)
                          : profile.ports[next]->notify_disconnect(profile.connector_id);
         } catch (const CORBA::SystemException& e) {

@@ -6,82 +6,85 @@ namespace RTC {
 
 namespace {
 
-OpenRTM::PortStatus take(DataInlet& inlet, bool little_endian, const _CORBA_Unbounded_Sequence_Octet& data) {
+OpenRTM::PortStatus receive_message(PushReceiver& receiver, bool little_endian,
+                                    const _CORBA_Unbounded_Sequence_Octet& data) {
     ByteData bytes;
     bytes.isLittleEndian(little_endian);
     bytes.writeData(data.get_buffer(), data.length());
-    return to_wire(inlet.receive(bytes));
+    return to_port_status(receiver.receive(bytes));
 }
 
 template <class Data>
-OpenRTM::PortStatus give(DataOutlet& outlet, Data*& data) {
+OpenRTM::PortStatus fetch_message(PullBuffer& buffer, Data*& data) {
     ByteData bytes;
-    const DataPortStatus status = outlet.fetch(bytes);
+    const DataPortStatus status = buffer.fetch(bytes);
     const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
     data = new Data;
     data->length(length);
     bytes.readData(data->get_buffer(), length);
-    return to_wire(status);
+    return to_port_status(status);
 }
 
 class InPortCdrServant : public POA_OpenRTM::InPortCdr {
   public:
-    InPortCdrServant(std::shared_ptr<DataInlet> inlet, bool little_endian)
-        : inlet_(std::move(inlet)), little_endian_(little_endian) {}
+    InPortCdrServant(std::shared_ptr<PushReceiver> receiver, bool little_endian)
+        : receiver_(std::move(receiver)), little_endian_(little_endian) {}
     OpenRTM::PortStatus put(const OpenRTM::CdrData& data) override {
-        return take(*inlet_, little_endian_, data);
+        return receive_message(*receiver_, little_endian_, data);
     }
 
   private:
-    std::shared_ptr<DataInlet> inlet_;
+    std::shared_ptr<PushReceiver> receiver_;
     bool little_endian_;
 };
 
 class DataPushServant : public POA_RTC::DataPushService {
   public:
-    DataPushServant(std::shared_ptr<DataInlet> inlet, bool little_endian)
-        : inlet_(std::move(inlet)), little_endian_(little_endian) {}
+    DataPushServant(std::shared_ptr<PushReceiver> receiver, bool little_endian)
+        : receiver_(std::move(receiver)), little_endian_(little_endian) {}
     RTC::PortStatus push(const RTC::OctetSeq& data) override {
-        return static_cast<RTC::PortStatus>(take(*inlet_, little_endian_, data));
+        return static_cast<RTC::PortStatus>(receive_message(*receiver_, little_endian_, data));
     }
 
   private:
-    std::shared_ptr<DataInlet> inlet_;
+    std::shared_ptr<PushReceiver> receiver_;
     bool little_endian_;
 };
 
 class OutPortCdrServant : public POA_OpenRTM::OutPortCdr {
   public:
-    explicit OutPortCdrServant(std::shared_ptr<DataOutlet> outlet) : outlet_(std::move(outlet)) {}
-    OpenRTM::PortStatus get(OpenRTM::CdrData_out data) override { return give(*outlet_, data.ptr()); }
+    explicit OutPortCdrServant(std::shared_ptr<PullBuffer> buffer) : buffer_(std::move(buffer)) {}
+    OpenRTM::PortStatus get(OpenRTM::CdrData_out data) override {
+        return fetch_message(*buffer_, data.ptr());
+    }
 
   private:
-    std::shared_ptr<DataOutlet> outlet_;
+    std::shared_ptr<PullBuffer> buffer_;
 };
 
 class DataPullServant : public POA_RTC::DataPullService {
   public:
-    explicit DataPullServant(std::shared_ptr<DataOutlet> outlet) : outlet_(std::move(outlet)) {}
+    explicit DataPullServant(std::shared_ptr<PullBuffer> buffer) : buffer_(std::move(buffer)) {}
     RTC::PortStatus pull(RTC::OctetSeq_out data) override {
-        return static_cast<RTC::PortStatus>(give(*outlet_, data.ptr()));
+        return static_cast<RTC::PortStatus>(fetch_message(*buffer_, data.ptr()));
     }
 
   private:
-    std::shared_ptr<DataOutlet> outlet_;
+    std::shared_ptr<PullBuffer> buffer_;
 };
 
 } // namespace
 
-PortableServer::ServantBase* make_servant(const std::string& interface_type, std::shared_ptr<DataInlet> inlet,
-                                          bool little_endian) {
-    if (interface_type == "data_service") return new DataPushServant(std::move(inlet), little_endian);
-    return new InPortCdrServant(std::move(inlet), little_endian);
+PortableServer::ServantBase* create_servant(const std::string& interface_type,
+                                            std::shared_ptr<PushReceiver> receiver, bool little_endian) {
+    if (interface_type == "data_service") return new DataPushServant(std::move(receiver), little_endian);
+    return new InPortCdrServant(std::move(receiver), little_endian);
 }
 
-PortableServer::ServantBase* make_servant(const std::string& interface_type,
-                                          std::shared_ptr<DataOutlet> outlet) {
-    if (interface_type == "data_service") return new DataPullServant(std::move(outlet));
-    return new OutPortCdrServant(std::move(outlet));
+PortableServer::ServantBase* create_servant(const std::string& interface_type,
+                                            std::shared_ptr<PullBuffer> buffer) {
+    if (interface_type == "data_service") return new DataPullServant(std::move(buffer));
+    return new OutPortCdrServant(std::move(buffer));
 }
 
 ServantHolder::ServantHolder(PortableServer::ServantBase* servant) : poa_(Manager::instance().getPOA()) {
@@ -103,7 +106,7 @@ std::string ServantHolder::ior() const {
     return text.in();
 }
 
-OpenRTM::PortStatus to_wire(DataPortStatus status) {
+OpenRTM::PortStatus to_port_status(DataPortStatus status) {
     switch (status) {
     case DataPortStatus::PORT_OK:
         return OpenRTM::PORT_OK;
@@ -121,7 +124,7 @@ OpenRTM::PortStatus to_wire(DataPortStatus status) {
     }
 }
 
-DataPortStatus from_wire(OpenRTM::PortStatus status) {
+DataPortStatus from_port_status(OpenRTM::PortStatus status) {
     switch (status) {
     case OpenRTM::PORT_OK:
         return DataPortStatus::PORT_OK;

@@ -9,12 +9,12 @@
 
 namespace RTC {
 
-/// What lets peers in other processes put messages into an inlet, or fetch them from an outlet.
+/// What lets peers in other processes put messages into an receiver, or fetch them from an buffer.
 /// `interface_type`: corba_cdr or data_service.
-PortableServer::ServantBase* make_servant(const std::string& interface_type, std::shared_ptr<DataInlet> inlet,
-                                          bool little_endian);
-PortableServer::ServantBase* make_servant(const std::string& interface_type,
-                                          std::shared_ptr<DataOutlet> outlet);
+PortableServer::ServantBase* create_servant(const std::string& interface_type,
+                                            std::shared_ptr<PushReceiver> receiver, bool little_endian);
+PortableServer::ServantBase* create_servant(const std::string& interface_type,
+                                            std::shared_ptr<PullBuffer> buffer);
 
 /// Activates a servant in the root POA for as long as it lives; the servant is deleted with its last call.
 class ServantHolder {
@@ -32,7 +32,7 @@ class ServantHolder {
     CORBA::Object_var reference_;
 };
 
-OpenRTM::PortStatus to_wire(DataPortStatus status);
-DataPortStatus from_wire(OpenRTM::PortStatus status);
+OpenRTM::PortStatus to_port_status(DataPortStatus status);
+DataPortStatus from_port_status(OpenRTM::PortStatus status);
 
 } // namespace RTC

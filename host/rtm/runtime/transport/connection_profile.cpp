@@ -59,7 +59,7 @@ std::string byte_order(const coil::Properties& connector_properties) {
 
 } // namespace
 
-bool little_endian(const coil::Properties& connector_properties) {
+bool is_little_endian(const coil::Properties& connector_properties) {
     return byte_order(connector_properties) != "big";
 }
 

@@ -19,7 +19,7 @@ bool converts(const ConnectorProfile& profile);
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);
 
 /// The first byte order that `serializer.cdr.endian` names (little, big; a list); little when it names none.
-bool little_endian(const coil::Properties& connector_properties);
+bool is_little_endian(const coil::Properties& connector_properties);
 /// Why a connection with these properties cannot be made; empty when it can.
 std::string unsupported(const coil::Properties& connector_properties);
 

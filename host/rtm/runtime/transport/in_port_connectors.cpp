@@ -11,7 +11,7 @@ InPortConnector::InPortConnector(ConnectorInfo& info, ConnectorListenersBase* li
     : m_profile(info), m_listeners(listeners), m_buffer(buffer),
       m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
       m_timestamp(timestampPolicy(info.properties)) {
-    m_littleEndian = little_endian(info.properties);
+    m_littleEndian = is_little_endian(info.properties);
 }
 
 InPortConnector::~InPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
@@ -26,10 +26,10 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream) {
 
 DataPortStatus InPortConnector::read(ByteData& bytes) { return report(m_buffer->read(bytes), bytes); }
 
-DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& use, bool& used) {
+DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place) {
     if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
-    const DataPortStatus status = report(m_inPlace->readInPlace(m_bytes, use, used), m_bytes);
-    if (status != DataPortStatus::PORT_OK || used) return status;
+    const DataPortStatus status = report(m_inPlace->readInPlace(m_bytes, reader, read_in_place), m_bytes);
+    if (status != DataPortStatus::PORT_OK || read_in_place) return status;
     stream->isLittleEndian(m_bytes.getEndian());
     stream->writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
     return status;
@@ -56,82 +56,84 @@ DataPortStatus InPortConnector::report(BufferStatus status, ByteData& bytes) {
 BufferStatus InPortConnector::write(ByteData& bytes) { return m_buffer->write(bytes); }
 
 InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer,
-                                         bool own, std::shared_ptr<DirectLaneBase> lane)
-    : InPortConnector(info, port.getListeners(), buffer), own_(own),
-      inlet_(std::make_shared<DataInlet>(port, info, *buffer, lane)),
-      servant_(make_servant(wire_interface(info.properties), inlet_, m_littleEndian)) {
-    m_inPlace = inlet_->inPlace();
-    m_lane = std::move(lane);
+                                         bool owns_buffer, std::shared_ptr<DirectBufferBase> direct_buffer)
+    : InPortConnector(info, port.getListeners(), buffer), owns_buffer_(owns_buffer),
+      receiver_(std::make_shared<PushReceiver>(port, info, *buffer, direct_buffer)),
+      servant_(create_servant(corba_interface_type(info.properties), receiver_, m_littleEndian)) {
+    m_inPlace = receiver_->inPlace();
+    m_directBuffer = std::move(direct_buffer);
 }
 
 InPortPushConnector::~InPortPushConnector() {
     provider_.reset(); // nothing comes after that
     disconnect();
-    if (own_) CdrBufferFactory::instance().deleteObject(m_buffer);
+    if (owns_buffer_) CdrBufferFactory::instance().deleteObject(m_buffer);
 }
 
 DataPortStatus InPortPushConnector::disconnect() {
-    inlet_->close();
+    receiver_->close();
     return DataPortStatus::PORT_OK;
 }
 
 BufferStatus InPortPushConnector::write(ByteData& bytes) {
     if (provider_ != nullptr) return InPortConnector::write(bytes);
-    return inlet_->receive(bytes) == DataPortStatus::PORT_OK ? BufferStatus::OK : BufferStatus::BUFFER_ERROR;
+    return receiver_->receive(bytes) == DataPortStatus::PORT_OK ? BufferStatus::OK
+                                                                : BufferStatus::BUFFER_ERROR;
 }
 
 InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
-                                         std::shared_ptr<DataOutlet> local)
+                                         std::shared_ptr<PullBuffer> local)
     : InPortConnector(info, port.getListeners(), &local->buffer()), local_(std::move(local)) {}
 
 InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
                                          std::unique_ptr<RemoteSender> remote)
-    : InPortConnector(info, port.getListeners(), &unused_), remote_(std::move(remote)),
-      patience_(RemotePush::bounds(info.properties).alone) {
-    remote_->setTimeout(patience_);
+    : InPortConnector(info, port.getListeners(), &unused_buffer_), remote_(std::move(remote)),
+      answer_timeout_(RemotePush::limits_from(info.properties).sole_answer_timeout) {
+    remote_->setTimeout(answer_timeout_);
 }
 
 DataPortStatus InPortPullConnector::read(ByteData& bytes) {
-    const bool asked = ahead_.has_value();
-    const DataPortStatus status = asked ? *ahead_ : local_ ? local_->fetch(bytes) : fetch(bytes);
+    const bool asked = prefetched_status_.has_value();
+    const DataPortStatus status = asked ? *prefetched_status_ : local_ ? local_->fetch(bytes) : fetch(bytes);
     if (asked) {
-        bytes = aheadBytes_;
-        ahead_.reset();
+        bytes = prefetched_bytes_;
+        prefetched_status_.reset();
     }
     if (status == DataPortStatus::PORT_OK)
         m_listeners->notify(ConnectorDataListenerType::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
     return status;
 }
 
-bool InPortPullConnector::fetchAhead(bool final) {
+bool InPortPullConnector::prefetch(bool final) {
     if (local_) return false;
-    if (ahead_ != DataPortStatus::PORT_OK) ahead_ = fetch(aheadBytes_);
-    if (ahead_ == DataPortStatus::PORT_OK) return true;
-    if (!final) ahead_.reset();
+    if (prefetched_status_ != DataPortStatus::PORT_OK) prefetched_status_ = fetch(prefetched_bytes_);
+    if (prefetched_status_ == DataPortStatus::PORT_OK) return true;
+    if (!final) prefetched_status_.reset();
     return false;
 }
 
 // The reader, often a component's cycle, waits for a sender that hangs once for long, then rarely and shortly
 // until that answers again: to a question that takes no message from it.
-std::optional<DataPortStatus> InPortPullConnector::ask(ByteData& bytes) {
+std::optional<DataPortStatus> InPortPullConnector::requestMessage(ByteData& bytes) {
     using namespace std::chrono_literals;
-    if (doubt_ == 0ms || remote_->answers()) {
-        if (doubt_ != 0ms) remote_->setTimeout(patience_);
+    if (probe_timeout_ == 0ms || remote_->isResponding()) {
+        if (probe_timeout_ != 0ms) remote_->setTimeout(answer_timeout_);
         if (const auto answer = remote_->get(bytes)) {
-            doubt_ = 0ms;
+            probe_timeout_ = 0ms;
             return answer;
         }
     }
-    doubt_ = doubt_ == 0ms ? 10ms : std::min<std::chrono::milliseconds>(2 * doubt_, 200ms);
-    remote_->setTimeout(doubt_);
-    retry_ = std::chrono::steady_clock::now() + 10 * doubt_;
+    probe_timeout_ =
+        probe_timeout_ == 0ms ? 10ms : std::min<std::chrono::milliseconds>(2 * probe_timeout_, 200ms);
+    remote_->setTimeout(probe_timeout_);
+    next_request_time_ = std::chrono::steady_clock::now() + 10 * probe_timeout_;
     return std::nullopt;
 }
 
 DataPortStatus InPortPullConnector::fetch(ByteData& bytes) {
-    if (std::chrono::steady_clock::now() < retry_) return DataPortStatus::RECV_TIMEOUT;
+    if (std::chrono::steady_clock::now() < next_request_time_) return DataPortStatus::RECV_TIMEOUT;
     bytes.isLittleEndian(m_littleEndian);
-    const DataPortStatus status = ask(bytes).value_or(DataPortStatus::RECV_TIMEOUT);
+    const DataPortStatus status = requestMessage(bytes).value_or(DataPortStatus::RECV_TIMEOUT);
     switch (status) {
     case DataPortStatus::PORT_OK:
         return status;

@@ -6,7 +6,7 @@
 namespace RTC {
 
 OutPortConnector::OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners)
-    : m_profile(info), m_littleEndian(little_endian(info.properties)), m_listeners(listeners),
+    : m_profile(info), m_littleEndian(is_little_endian(info.properties)), m_listeners(listeners),
       m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
       m_timestamp(timestampPolicy(info.properties)) {}
 
@@ -25,9 +25,9 @@ BufferStatus OutPortConnector::read(ByteData& bytes) {
 
 bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return false; }
 
-bool OutPortConnector::writeDirect(const DirectPut&, DataPortStatus&) { return false; }
+bool OutPortConnector::writeDirect(const DirectWriter&, DataPortStatus&) { return false; }
 
-bool OutPortConnector::sendsLike(const OutPortConnector& other) const {
+bool OutPortConnector::canShareBytesOf(const OutPortConnector& other) const {
     auto stamps = [](TimestampPolicy p) {
         return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
     };
@@ -36,21 +36,24 @@ bool OutPortConnector::sendsLike(const OutPortConnector& other) const {
 }
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
-                                           std::shared_ptr<DataInlet> local)
-    : OutPortConnector(info, port.getListeners()), local_(std::move(local)) {
-    m_direct = local_->lane() != nullptr;
+                                           std::shared_ptr<PushReceiver> local)
+    : OutPortConnector(info, port.getListeners()), local_receiver_(std::move(local)) {
+    m_direct = local_receiver_->directBuffer() != nullptr;
     if (!m_direct) // who wants values as they are wants them at once
         publisher_ =
-            Publisher::make(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); });
-    if (local_->inPlace() != nullptr && !publisher_) m_longFrom = local_->inPlace()->longFrom();
+            Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); });
+    if (local_receiver_->inPlace() != nullptr && !publisher_)
+        m_minInPlaceLength = local_receiver_->inPlace()->minInPlaceLength();
 }
 
 OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& info,
                                            std::unique_ptr<RemoteReceiver> remote)
-    : OutPortConnector(info, port.getListeners()), receiver_(std::move(remote)),
-      publisher_(Publisher::make(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
+    : OutPortConnector(info, port.getListeners()), remote_receiver_(std::move(remote)),
+      publisher_(
+          Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); })) {
     if (!publisher_)
-        remote_ = std::make_unique<RemotePush>(std::move(receiver_), RemotePush::bounds(info.properties));
+        remote_push_ = std::make_unique<RemotePush>(std::move(remote_receiver_),
+                                                    RemotePush::limits_from(info.properties));
 }
 
 OutPortPushConnector::~OutPortPushConnector() { disconnect(); }
@@ -83,9 +86,10 @@ DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
 DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
-    const DataPortStatus status = local_    ? local_->receive(bytes)
-                                  : remote_ ? remote_->write(bytes, alone_)
-                                            : receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
+    const DataPortStatus status = local_receiver_ ? local_receiver_->receive(bytes)
+                                  : remote_push_
+                                      ? remote_push_->write(bytes, is_sole_connector_)
+                                      : remote_receiver_->put(bytes).value_or(DataPortStatus::SEND_TIMEOUT);
     switch (status) {
     case DataPortStatus::PORT_OK:
         m_listeners->notify(Type::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
@@ -105,17 +109,17 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
 }
 
 bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& status) {
-    return !m_listeners->toData() && local_->receiveInPlace(marshal, status);
+    return !m_listeners->hasDataListener() && local_receiver_->receiveInPlace(marshal, status);
 }
 
-bool OutPortPushConnector::writeDirect(const DirectPut& put, DataPortStatus& status) {
-    return !m_listeners->toData() && local_->receiveDirect(put, status);
+bool OutPortPushConnector::writeDirect(const DirectWriter& writer, DataPortStatus& status) {
+    return !m_listeners->hasDataListener() && local_receiver_->receiveDirect(writer, status);
 }
 
 OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)
     : OutPortConnector(info, port.getListeners()),
-      outlet_(std::make_shared<DataOutlet>(*port.getListeners(), info)),
-      servant_(make_servant(wire_interface(info.properties), outlet_)) {}
+      pull_buffer_(std::make_shared<PullBuffer>(*port.getListeners(), info)),
+      servant_(create_servant(corba_interface_type(info.properties), pull_buffer_)) {}
 
 OutPortPullConnector::~OutPortPullConnector() {
     provider_.reset(); // nobody reads after that
@@ -123,10 +127,10 @@ OutPortPullConnector::~OutPortPullConnector() {
 }
 
 DataPortStatus OutPortPullConnector::disconnect() {
-    outlet_->close();
+    pull_buffer_->close();
     return DataPortStatus::PORT_OK;
 }
 
-DataPortStatus OutPortPullConnector::write(ByteData& bytes) { return outlet_->put(bytes); }
+DataPortStatus OutPortPullConnector::write(ByteData& bytes) { return pull_buffer_->put(bytes); }
 
 } // namespace RTC

@@ -3,7 +3,7 @@
 
 namespace RTC {
 
-std::unique_ptr<Publisher> Publisher::make(const coil::Properties& properties, Deliver deliver) {
+std::unique_ptr<Publisher> Publisher::create(const coil::Properties& properties, Deliver deliver) {
     const std::string type = coil::normalize(properties.getProperty("subscription_type", "flush"));
     if (type != "new" && type != "periodic") return nullptr;
     return std::make_unique<Publisher>(properties, type == "periodic", std::move(deliver));
@@ -19,7 +19,8 @@ Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver 
               : policy == "all"  ? Policy::all
                                  : Policy::newest;
     coil::stringTo(
-        skip_, properties.getProperty("publisher.skip_count", properties.getProperty("skip_count")).c_str());
+        skip_count_,
+        properties.getProperty("publisher.skip_count", properties.getProperty("skip_count")).c_str());
     double rate = 10; // Hz, when periodic is asked for without a rate
     coil::stringTo(
         rate, properties.getProperty("publisher.push_rate", properties.getProperty("push_rate")).c_str());
@@ -30,14 +31,14 @@ Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver 
 Publisher::~Publisher() {
     {
         std::lock_guard<std::mutex> lock(mutex_);
-        ending_ = true;
+        stopping_ = true;
     }
     wake_.notify_all();
     thread_.join();
 }
 
 DataPortStatus Publisher::write(const ByteData& bytes) {
-    if (lost_) return DataPortStatus::CONNECTION_LOST;
+    if (connection_lost_) return DataPortStatus::CONNECTION_LOST;
     const BufferStatus status = buffer_.write(bytes);
     if (status == BufferStatus::FULL) return DataPortStatus::BUFFER_FULL;
     if (status == BufferStatus::TIMEOUT) return DataPortStatus::BUFFER_TIMEOUT;
@@ -52,14 +53,14 @@ DataPortStatus Publisher::write(const ByteData& bytes) {
 void Publisher::run() {
     auto next = std::chrono::steady_clock::now() + period_;
     std::unique_lock<std::mutex> lock(mutex_);
-    while (!ending_) {
+    while (!stopping_) {
         if (period_.count() > 0) {
-            wake_.wait_until(lock, next, [this] { return ending_; });
+            wake_.wait_until(lock, next, [this] { return stopping_; });
             next += period_;
         } else {
-            wake_.wait(lock, [this] { return ending_ || written_; });
+            wake_.wait(lock, [this] { return stopping_ || written_; });
         }
-        if (ending_) return;
+        if (stopping_) return;
         written_ = false;
         lock.unlock();
         push();
@@ -69,11 +70,11 @@ void Publisher::run() {
 
 void Publisher::push() {
     ByteData bytes;
-    for (std::size_t waiting = buffer_.readable(); waiting > 0; waiting = buffer_.readable()) {
+    for (std::size_t readable = buffer_.readable(); readable > 0; readable = buffer_.readable()) {
         if (buffer_.read(bytes) != BufferStatus::OK) return;
-        if (policy_ == Policy::newest && waiting > 1) continue;
-        if (policy_ == Policy::skip && skipped_++ % (skip_ + 1) != skip_) continue;
-        if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) lost_ = true;
+        if (policy_ == Policy::newest && readable > 1) continue;
+        if (policy_ == Policy::skip && skipped_++ % (skip_count_ + 1) != skip_count_) continue;
+        if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) connection_lost_ = true;
         if (policy_ == Policy::fifo && period_.count() > 0) return;
     }
 }

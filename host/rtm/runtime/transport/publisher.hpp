@@ -15,7 +15,7 @@ class Publisher {
   public:
     using Deliver = std::function<DataPortStatus(ByteData&)>;
     /// NULL for the subscription type flush, which needs none.
-    static std::unique_ptr<Publisher> make(const coil::Properties& properties, Deliver deliver);
+    static std::unique_ptr<Publisher> create(const coil::Properties& properties, Deliver deliver);
     Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
     ~Publisher();
 
@@ -30,14 +30,14 @@ class Publisher {
     Deliver deliver_;
     CdrRingBuffer buffer_;
     Policy policy_ = Policy::newest;
-    unsigned skip_ = 0;
+    unsigned skip_count_ = 0;
     unsigned skipped_ = 0;
     std::chrono::nanoseconds period_{0}; // 0: at each write
     std::mutex mutex_;
     std::condition_variable wake_;
     bool written_ = false;
-    bool ending_ = false;
-    std::atomic<bool> lost_{false};
+    bool stopping_ = false;
+    std::atomic<bool> connection_lost_{false};
     std::thread thread_;
 };
 

@@ -3,13 +3,13 @@
 
 namespace RTC {
 
-DataOutlet::DataOutlet(ConnectorListeners& listeners, const ConnectorInfo& info)
+PullBuffer::PullBuffer(ConnectorListeners& listeners, const ConnectorInfo& info)
     : listeners_(listeners), info_(info),
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")) {
     buffer_.init(info_.properties.getNode("buffer"));
 }
 
-DataPortStatus DataOutlet::put(ByteData& bytes) {
+DataPortStatus PullBuffer::put(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
     if (!open_) return DataPortStatus::CONNECTION_LOST;
@@ -28,7 +28,7 @@ DataPortStatus DataOutlet::put(ByteData& bytes) {
     }
 }
 
-DataPortStatus DataOutlet::fetch(ByteData& bytes) {
+DataPortStatus PullBuffer::fetch(ByteData& bytes) {
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
     if (!open_) return DataPortStatus::CONNECTION_LOST;
     switch (buffer_.read(bytes)) {
@@ -50,7 +50,7 @@ DataPortStatus DataOutlet::fetch(ByteData& bytes) {
     }
 }
 
-void DataOutlet::close() {
+void PullBuffer::close() {
     std::unique_lock<std::shared_mutex> lock(open_mutex_);
     open_ = false;
 }

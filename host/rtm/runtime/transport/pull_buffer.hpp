@@ -8,9 +8,9 @@ namespace RTC {
 
 /// Where messages of one pull connector wait to be fetched, by a reader of this process or by the ORB. It
 /// outlives the connector. [any-thread]
-class DataOutlet {
+class PullBuffer {
   public:
-    DataOutlet(ConnectorListeners& listeners, const ConnectorInfo& info);
+    PullBuffer(ConnectorListeners& listeners, const ConnectorInfo& info);
 
     DataPortStatus put(ByteData& bytes);
     DataPortStatus fetch(ByteData& bytes);

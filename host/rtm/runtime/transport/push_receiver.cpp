@@ -4,25 +4,26 @@
 
 namespace RTC {
 
-DataInlet::DataInlet(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
-                     std::shared_ptr<DirectLaneBase> lane)
-    : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer), lane_(std::move(lane)),
-      in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
+PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
+                           std::shared_ptr<DirectBufferBase> direct_buffer)
+    : port_(port), listeners_(*port.getListeners()), info_(info), buffer_(buffer),
+      direct_buffer_(std::move(direct_buffer)), in_place_(dynamic_cast<InPlaceBuffer*>(&buffer)),
       marshaling_type_(info.properties.getProperty("marshaling_type", "cdr")),
       timestamp_(timestampPolicy(info.properties)) {}
 
-DataPortStatus DataInlet::receive(ByteData& bytes) {
+DataPortStatus PushReceiver::receive(ByteData& bytes) {
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
     if (!open_) return DataPortStatus::CONNECTION_LOST;
-    if (timestamp_ == TimestampPolicy::on_received) port_.stampReceived(bytes);
+    if (timestamp_ == TimestampPolicy::on_received) port_.stampOnReceive(bytes);
     listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);
     return store(bytes);
 }
 
-bool DataInlet::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
+bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
     // Whoever wants to see or stamp the bytes needs them as ByteData.
-    if (!open_ || in_place_ == nullptr || timestamp_ == TimestampPolicy::on_received || listeners_.toData())
+    if (!open_ || in_place_ == nullptr || timestamp_ == TimestampPolicy::on_received ||
+        listeners_.hasDataListener())
         return false;
     const BufferStatus written = in_place_->writeInPlace(marshal);
     status = written == BufferStatus::OK     ? DataPortStatus::PORT_OK
@@ -31,12 +32,13 @@ bool DataInlet::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
     return written != BufferStatus::NOT_SUPPORTED;
 }
 
-bool DataInlet::receiveDirect(const DirectPut& put, DataPortStatus& status) {
+bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& status) {
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
     // Whoever wants to see or stamp the bytes needs them.
-    if (!open_ || lane_ == nullptr || timestamp_ == TimestampPolicy::on_received || listeners_.toData())
+    if (!open_ || direct_buffer_ == nullptr || timestamp_ == TimestampPolicy::on_received ||
+        listeners_.hasDataListener())
         return false;
-    const BufferStatus written = put(*lane_);
+    const BufferStatus written = writer(*direct_buffer_);
     status = written == BufferStatus::OK        ? DataPortStatus::PORT_OK
              : written == BufferStatus::FULL    ? DataPortStatus::BUFFER_FULL
              : written == BufferStatus::TIMEOUT ? DataPortStatus::BUFFER_TIMEOUT
@@ -44,11 +46,11 @@ bool DataInlet::receiveDirect(const DirectPut& put, DataPortStatus& status) {
     return written != BufferStatus::NOT_SUPPORTED;
 }
 
-DataPortStatus DataInlet::store(ByteData& bytes) {
+DataPortStatus PushReceiver::store(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full())
         listeners_.notify(Type::ON_BUFFER_OVERWRITE, info_, bytes, marshaling_type_);
-    switch (lane_ ? lane_->writeBytes(bytes) : buffer_.write(bytes)) {
+    switch (direct_buffer_ ? direct_buffer_->writeBytes(bytes) : buffer_.write(bytes)) {
     case BufferStatus::OK:
         listeners_.notify(Type::ON_BUFFER_WRITE, info_, bytes, marshaling_type_);
         return DataPortStatus::PORT_OK;
@@ -66,7 +68,7 @@ DataPortStatus DataInlet::store(ByteData& bytes) {
     }
 }
 
-void DataInlet::close() {
+void PushReceiver::close() {
     std::unique_lock<std::shared_mutex> lock(open_mutex_);
     open_ = false;
 }

@@ -7,7 +7,7 @@ namespace RTC {
 namespace {
 
 // What an exception of a call means: no answer, nobody there, or an answer that is no good.
-std::optional<DataPortStatus> after(const CORBA::SystemException& e) {
+std::optional<DataPortStatus> status_of(const CORBA::SystemException& e) {
     const CORBA::Exception* thrown = &e;
     if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return std::nullopt;
     if (CORBA::TRANSIENT::_downcast(thrown) != nullptr || CORBA::COMM_FAILURE::_downcast(thrown) != nullptr ||
@@ -17,8 +17,8 @@ std::optional<DataPortStatus> after(const CORBA::SystemException& e) {
     return DataPortStatus::PORT_ERROR;
 }
 
-void bound_calls(CORBA::Object_ptr object, std::chrono::milliseconds bound) {
-    omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(bound.count()));
+void set_call_timeout(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {
+    omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
 }
 
 auto call_put(OpenRTM::InPortCdr_ptr object, const OpenRTM::CdrData& data) { return object->put(data); }
@@ -33,13 +33,13 @@ class CorbaReceiver : public RemoteReceiver {
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         try {
-            return from_wire(static_cast<OpenRTM::PortStatus>(
+            return from_port_status(static_cast<OpenRTM::PortStatus>(
                 call_put(object_.in(), Data(length, length, bytes.getBuffer(), false))));
         } catch (const CORBA::SystemException& e) {
-            return after(e);
+            return status_of(e);
         }
     }
-    void setTimeout(std::chrono::milliseconds bound) override { bound_calls(object_.in(), bound); }
+    void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
     typename Interface::_var_type object_;
@@ -53,22 +53,22 @@ class CorbaSender : public RemoteSender {
         try {
             typename Data::_var_type data;
             const DataPortStatus status =
-                from_wire(static_cast<OpenRTM::PortStatus>(call_get(object_.in(), data.out())));
+                from_port_status(static_cast<OpenRTM::PortStatus>(call_get(object_.in(), data.out())));
             bytes.writeData(data->get_buffer(), data->length());
             return status;
         } catch (const CORBA::SystemException& e) {
-            return after(e);
+            return status_of(e);
         }
     }
-    bool answers() override {
+    bool isResponding() override {
         try {
             object_->_non_existent();
         } catch (const CORBA::SystemException& e) {
-            return after(e).has_value();
+            return status_of(e).has_value();
         }
         return true;
     }
-    void setTimeout(std::chrono::milliseconds bound) override { bound_calls(object_.in(), bound); }
+    void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
     typename Interface::_var_type object_;
@@ -78,7 +78,7 @@ class CorbaSender : public RemoteSender {
 
 std::unique_ptr<RemoteReceiver> RemoteReceiver::find(const ConnectorProfile& profile,
                                                      const std::string& interface_type) {
-    CORBA::Object_var object = published_object(profile, "dataport." + interface_type + ".inport");
+    CORBA::Object_var object = find_published_object(profile, "dataport." + interface_type + ".inport");
     if (CORBA::is_nil(object.in())) return nullptr;
     if (interface_type == "data_service")
         return std::make_unique<CorbaReceiver<RTC::DataPushService, RTC::OctetSeq>>(object.in());
@@ -87,14 +87,14 @@ std::unique_ptr<RemoteReceiver> RemoteReceiver::find(const ConnectorProfile& pro
 
 std::unique_ptr<RemoteSender> RemoteSender::find(const ConnectorProfile& profile,
                                                  const std::string& interface_type) {
-    CORBA::Object_var object = published_object(profile, "dataport." + interface_type + ".outport");
+    CORBA::Object_var object = find_published_object(profile, "dataport." + interface_type + ".outport");
     if (CORBA::is_nil(object.in())) return nullptr;
     if (interface_type == "data_service")
         return std::make_unique<CorbaSender<RTC::DataPullService, RTC::OctetSeq>>(object.in());
     return std::make_unique<CorbaSender<OpenRTM::OutPortCdr, OpenRTM::CdrData>>(object.in());
 }
 
-std::string wire_interface(const coil::Properties& connector_properties) {
+std::string corba_interface_type(const coil::Properties& connector_properties) {
     const std::string type = coil::normalize(connector_properties.getProperty("interface_type"));
     return type == "data_service" ? type : "corba_cdr";
 }

@@ -9,9 +9,9 @@
 
 namespace RTC {
 
-struct RemotePush::Lane {
+struct RemotePush::SendQueue {
     std::unique_ptr<RemoteReceiver> receiver; // the writer's, or the thread's while threaded is set
-    Bounds bounds;
+    Limits bounds;
     std::atomic<bool> threaded{false}; // set by the writer, taken back by the thread under the mutex
     std::mutex mutex;                  // guards what follows
     std::condition_variable wake, progress;
@@ -30,32 +30,32 @@ struct RemotePush::Lane {
     void deliver();
 };
 
-RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Bounds& bounds)
-    : lane_(std::make_shared<Lane>()) {
-    lane_->receiver = std::move(receiver);
-    lane_->bounds = bounds;
-    lane_->set_bound(bounds.alone);
+RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& bounds)
+    : queue_(std::make_shared<SendQueue>()) {
+    queue_->receiver = std::move(receiver);
+    queue_->bounds = bounds;
+    queue_->set_bound(bounds.sole_answer_timeout);
 }
 
 RemotePush::~RemotePush() {
-    std::lock_guard<std::mutex> lock(lane_->mutex);
-    lane_->ending = true;
-    lane_->wake.notify_all();
+    std::lock_guard<std::mutex> lock(queue_->mutex);
+    queue_->ending = true;
+    queue_->wake.notify_all();
 }
 
-RemotePush::Bounds RemotePush::bounds(const coil::Properties& properties) {
-    Bounds bounds;
+RemotePush::Limits RemotePush::limits_from(const coil::Properties& properties) {
+    Limits bounds;
     auto milliseconds = [&](const std::string& key, double usual) {
         double seconds = usual;
         if (!coil::stringTo(seconds, properties.getProperty(key).c_str()) || !(seconds > 0)) seconds = usual;
         return std::chrono::milliseconds(std::max(1L, static_cast<long>(std::min(seconds, 3600.) * 1000)));
     };
-    bounds.alone = milliseconds("put_timeout", 2);
+    bounds.sole_answer_timeout = milliseconds("put_timeout", 2);
     // What the receiving port was told comes as inport.*: this side only passes it on.
     for (const std::string buffer : {"inport.buffer.write.", "buffer.write."}) {
         if (coil::normalize(properties.getProperty(buffer + "full_policy")) != "block") continue;
         const auto held_back = milliseconds(buffer + "timeout", 1);
-        bounds.alone += held_back;
+        bounds.sole_answer_timeout += held_back;
         bounds.thread += held_back;
         break;
     }
@@ -63,32 +63,32 @@ RemotePush::Bounds RemotePush::bounds(const coil::Properties& properties) {
 }
 
 DataPortStatus RemotePush::write(const ByteData& bytes, bool alone) {
-    Lane& lane = *lane_;
-    if (!alone || lane.threaded.load(std::memory_order_acquire)) {
-        std::unique_lock<std::mutex> lock(lane.mutex);
-        lane.alone = alone;
-        if (!alone && !lane.threaded) {
-            lane.set_bound(lane.bounds.thread);
-            lane.threaded = true;
+    SendQueue& queue = *queue_;
+    if (!alone || queue.threaded.load(std::memory_order_acquire)) {
+        std::unique_lock<std::mutex> lock(queue.mutex);
+        queue.alone = alone;
+        if (!alone && !queue.threaded) {
+            queue.set_bound(queue.bounds.thread);
+            queue.threaded = true;
         }
         // The thread may have caught up just now: then nothing waits, and this one sends.
-        if (lane.threaded) {
-            if (!lane.has_thread) {
-                lane.has_thread = true;
-                std::thread([shared = lane_] { shared->deliver(); }).detach();
+        if (queue.threaded) {
+            if (!queue.has_thread) {
+                queue.has_thread = true;
+                std::thread([shared = queue_] { shared->deliver(); }).detach();
             }
-            return lane.add(lock, bytes);
+            return queue.add(lock, bytes);
         }
     }
-    const auto status = lane.receiver->put(bytes);
+    const auto status = queue.receiver->put(bytes);
     if (status) return *status;
-    lane.set_bound(lane.bounds.thread);
-    lane.hangs = true; // no thread is there that could look at it
-    lane.threaded.store(true, std::memory_order_release);
+    queue.set_bound(queue.bounds.thread);
+    queue.hangs = true; // no thread is there that could look at it
+    queue.threaded.store(true, std::memory_order_release);
     return DataPortStatus::SEND_TIMEOUT;
 }
 
-DataPortStatus RemotePush::Lane::add(std::unique_lock<std::mutex>& lock, const ByteData& message) {
+DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, const ByteData& message) {
     const auto until = std::chrono::steady_clock::now() + bounds.beside;
     auto wait = [&](auto condition) { // for the receiver to go on
         if (!hangs && !progress.wait_until(lock, until, [&] { return lost || condition(); })) hangs = true;
@@ -107,7 +107,7 @@ DataPortStatus RemotePush::Lane::add(std::unique_lock<std::mutex>& lock, const B
     return answered >= number ? last : DataPortStatus::PORT_OK;
 }
 
-void RemotePush::Lane::deliver() {
+void RemotePush::SendQueue::deliver() {
     std::unique_lock<std::mutex> lock(mutex);
     while (!lost) {
         wake.wait(lock, [&] { return ending || !waiting.empty(); });
@@ -123,7 +123,7 @@ void RemotePush::Lane::deliver() {
         lost = last == DataPortStatus::CONNECTION_LOST;
         hangs = false;
         if (!lost && waiting.empty() && alone) {
-            set_bound(bounds.alone);
+            set_bound(bounds.sole_answer_timeout);
             threaded.store(false, std::memory_order_release);
         }
         progress.notify_all();

@@ -12,14 +12,15 @@ namespace RTC {
 /// next. No call is broken off for that, so nothing arrives twice or in another order. [one writer at a time]
 class RemotePush {
   public:
-    struct Bounds {
-        std::chrono::milliseconds alone{2000}; ///< a writer's wait for an answer, as the only connector
-        std::chrono::milliseconds beside{20};  ///< its wait for the thread, beside other connectors
+    struct Limits {
+        std::chrono::milliseconds sole_answer_timeout{
+            2000};                            ///< a writer's wait for an answer, as the only connector
+        std::chrono::milliseconds beside{20}; ///< its wait for the thread, beside other connectors
         std::chrono::milliseconds thread{
             10000};                  ///< the thread's wait for an answer; then the receiver is lost
         std::size_t bytes = 1 << 20; ///< that may wait; 8 messages may in any case
     };
-    RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Bounds& bounds);
+    RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& bounds);
     ~RemotePush();
     RemotePush(const RemotePush&) = delete;
     RemotePush& operator=(const RemotePush&) = delete;
@@ -29,13 +30,13 @@ class RemotePush {
     DataPortStatus write(const ByteData& bytes, bool alone);
     /// From the connection's properties: `put_timeout` (seconds) is the bound `alone`; a receiver that may
     /// hold a message back while its buffer is full is given that time on top.
-    static Bounds bounds(const coil::Properties& connector_properties);
+    static Limits limits_from(const coil::Properties& connector_properties);
 
   private:
-    struct Lane;
-    static void run(const std::shared_ptr<Lane>& lane);
+    struct SendQueue;
+    static void run(const std::shared_ptr<SendQueue>& queue);
 
-    std::shared_ptr<Lane> lane_; // shared with the thread, which may be in a call when this one goes
+    std::shared_ptr<SendQueue> queue_; // shared with the thread, which may be in a call when this one goes
 };
 
 } // namespace RTC

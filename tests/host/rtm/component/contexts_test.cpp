@@ -64,8 +64,8 @@ TEST_CASE("A periodic context counts its cycles, and those that were overrun") {
     REQUIRE(one.activate(0) == RTC::RTC_OK);
     REQUIRE(reaches(one, 30));
     REQUIRE(one.deactivate(0) == RTC::RTC_OK);
-    context.halt();
-    const auto ticks = context.ticks();
+    context.stopThread();
+    const auto ticks = context.tickStatistics();
     // The context also counts the cycles in which the component is activated and deactivated.
     CHECK(ticks.cycles >= static_cast<std::uint64_t>(one.count()));
     CHECK(ticks.cycles <= static_cast<std::uint64_t>(one.count()) + 2);
@@ -86,7 +86,7 @@ TEST_CASE("Cycles and skipped periods together are all the periods there were: n
     // The number of the present period of the grid, and the number of periods that the context has counted.
     auto sample = [&] {
         const auto now = std::chrono::steady_clock::now().time_since_epoch() - tandem::rt::grid_origin;
-        const auto ticks = context.ticks();
+        const auto ticks = context.tickStatistics();
         return std::pair(now / period, ticks.cycles + ticks.skipped);
     };
     const auto before = sample();
@@ -148,8 +148,8 @@ TEST_CASE("The warm-up before a tick calls neither the component nor its listene
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     REQUIRE(one.deactivate(0) == RTC::RTC_OK);
     auto& context = context_of<RTC_exp::PeriodicExecutionContext>(one);
-    context.halt();
-    const long cycles = static_cast<long>(context.ticks().cycles);
+    context.stopThread();
+    const long cycles = static_cast<long>(context.tickStatistics().cycles);
     CHECK(one.executed >= 100);
     CHECK(one.executed <= cycles);
     CHECK(one.executed + 2 >= cycles); // the cycles of the activation and the deactivation

@@ -45,9 +45,9 @@ TEST_CASE("A length without its data is refused and takes no memory") {
     RTC::PortService_var in = CORBA_RTCUtil::get_port_by_name(accumulator.in(), "in");
     RTC::ConnectorProfile profile = connection({in.in()});
     REQUIRE(in->notify_connect(profile) == RTC::RTC_OK);
-    CORBA::Object_var inlet =
+    CORBA::Object_var in_port_cdr =
         orb->string_to_object(NVUtil::toString(profile.properties, "dataport.corba_cdr.inport_ior").c_str());
-    const Call valid[] = {call(object_key(orb, inlet.in()), "put", CORBA::ULong(0)),
+    const Call valid[] = {call(object_key(orb, in_port_cdr.in()), "put", CORBA::ULong(0)),
                           call("manager", "set_configuration", CORBA::ULong(0)),
                           call(object_key(orb, in.in()), "notify_disconnect", CORBA::ULong(0)),
                           call(object_key(orb, in.in()), "notify_connect", "c", "c", CORBA::ULong(0))};

@@ -22,7 +22,7 @@ struct Place : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
     }
     void init(const coil::Properties&) override { made_last() = this; }
 
-    std::size_t longFrom() const override { return long_from; }
+    std::size_t minInPlaceLength() const override { return long_from; }
     std::size_t readable() const override { return messages.size(); }
     bool empty() const override { return messages.empty(); }
     RTC::BufferStatus write(const RTC::ByteData& bytes, std::chrono::nanoseconds) override {
