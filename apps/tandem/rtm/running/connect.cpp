@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/running/running.hpp"
 #include "apps/tandem/text.hpp"
-#include "host/rtm/runtime/transport/connection_profile.hpp"
+#include "host/rtm/runtime/port/custom_serializer.hpp"
 
 #include <fmt/format.h>
 #include <rtm/CORBA_RTCUtil.h>

@@ -118,14 +118,14 @@ class ExecutionContextBase {
 
     mutable std::mutex m_mutex; // participants, rate, running
     Participants m_participants = std::make_shared<const std::vector<Participant>>();
-    std::recursive_timed_mutex m_transition; // taken before m_mutex
+    std::recursive_timed_mutex m_startStopMutex; // taken before m_mutex
     bool m_running = false;
     double m_rate = DEFAULT_EXECUTION_RATE;
     TransitionWait m_activation, m_deactivation, m_reset;
     RTObject_var m_owner;
     ExecutionContextService_var m_objref;
 
-    std::timed_mutex m_cycle; // held during a cycle
+    std::timed_mutex m_cycleMutex; // held during a cycle
     std::atomic<std::thread::id> m_cycleThread{std::thread::id()};
     std::mutex m_cycleDoneMutex;
     std::condition_variable m_cycleDone;

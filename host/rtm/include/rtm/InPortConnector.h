@@ -76,22 +76,22 @@ class InPortConnector : public ConnectorBase {
         }
         return static_cast<ByteDataStream<DataType>*>(m_typedSerializer);
     }
-    DataPortStatus report(BufferStatus status, ByteData& bytes);
+    DataPortStatus notifyReadResult(BufferStatus status, ByteData& bytes);
     template <class DataType>
     DataPortStatus readDirect(DirectBuffer<DataType>& buffer, ByteDataStream<DataType>& stream,
                               DataType& data) {
         const BufferStatus status = buffer.read(data);
         if (status != BufferStatus::OK || !m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
-            return report(status, m_bytes);
+            return notifyReadResult(status, m_bytes);
         // Listeners see bytes, and may change them.
         stream.isLittleEndian(true);
         if (!stream.serialize(data)) return DataPortStatus::BUFFER_ERROR;
         m_bytes = stream;
         m_bytes.isLittleEndian(true);
-        const DataPortStatus status_reported = report(status, m_bytes);
+        const DataPortStatus read_status = notifyReadResult(status, m_bytes);
         stream.isLittleEndian(true);
         stream.writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
-        return stream.deserialize(data) ? status_reported : DataPortStatus::BUFFER_ERROR;
+        return stream.deserialize(data) ? read_status : DataPortStatus::BUFFER_ERROR;
     }
     /// Ours: the oldest message, if it is long, to `reader` where it lies, otherwise into `stream`.
     DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place);

@@ -89,7 +89,10 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     /// How many connectors at most; negative: any number.
     virtual void setConnectionLimit(int limit_value) { m_connectionLimit = limit_value; }
     virtual ReturnCode_t _publishInterfaces();
+    /// Ours: makes `reason` the connectError() and returns `code`.
     ReturnCode_t refuse(ReturnCode_t code, const std::string& reason);
+    /// Ours: the last connection has succeeded. Returns RTC_OK.
+    ReturnCode_t clearConnectError();
 
     static bool isEmptyId(const ConnectorProfile& connector_profile);
     static std::string getUUID();

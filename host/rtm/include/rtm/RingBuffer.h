@@ -21,8 +21,8 @@ class RingBuffer : public BufferBase<DataType> {
     void init(const coil::Properties& prop) override {
         std::size_t n = 0;
         if (coil::stringTo(n, prop.getProperty("length").c_str()) && n > 0 && n <= 1000000) length(n);
-        init_side(prop, "write.full_policy", "overwrite", overwrite_, block_write_);
-        init_side(prop, "read.empty_policy", "readback", readback_, block_read_);
+        read_policy(prop, "write.full_policy", "overwrite", overwrite_, block_write_);
+        read_policy(prop, "read.empty_policy", "readback", readback_, block_read_);
         coil::stringTo(write_timeout_, prop.getProperty("write.timeout").c_str());
         coil::stringTo(read_timeout_, prop.getProperty("read.timeout").c_str());
     }
@@ -35,24 +35,24 @@ class RingBuffer : public BufferBase<DataType> {
         if (n == 0) return BufferStatus::NOT_SUPPORTED;
         Lock lock(mutex_);
         slots_.resize(n);
-        forget();
+        clear();
         return BufferStatus::OK;
     }
     BufferStatus reset() override {
         Lock lock(mutex_);
-        forget();
+        clear();
         return BufferStatus::OK;
     }
 
     DataType* wptr(long int n = 0) override {
         Lock lock(mutex_);
-        return &slots_[shifted(write_, n)];
+        return &slots_[wrapped_index(write_, n)];
     }
     BufferStatus advanceWptr(long int n = 1, bool /*unlock_enable*/ = true) override {
         Lock lock(mutex_);
         if (n > static_cast<long int>(slots_.size() - fill_) || n < -static_cast<long int>(fill_))
             return BufferStatus::PRECONDITION_NOT_MET;
-        write_ = shifted(write_, n);
+        write_ = wrapped_index(write_, n);
         fill_ = static_cast<std::size_t>(static_cast<long int>(fill_) + n);
         written_ = written_ || n > 0;
         not_empty_.notify_all();
@@ -73,14 +73,14 @@ class RingBuffer : public BufferBase<DataType> {
                 if (!not_full_.wait_for(lock, bound, [this] { return fill_ < slots_.size(); }))
                     return BufferStatus::TIMEOUT;
             } else if (overwrite_) {
-                read_ = shifted(read_, 1);
+                read_ = wrapped_index(read_, 1);
                 --fill_;
             } else {
                 return BufferStatus::FULL;
             }
         }
         slots_[write_] = value;
-        write_ = shifted(write_, 1);
+        write_ = wrapped_index(write_, 1);
         ++fill_;
         written_ = true;
         if (block_read_) not_empty_.notify_all();
@@ -101,13 +101,13 @@ class RingBuffer : public BufferBase<DataType> {
 
     DataType* rptr(long int n = 0) override {
         Lock lock(mutex_);
-        return &slots_[shifted(read_, n)];
+        return &slots_[wrapped_index(read_, n)];
     }
     BufferStatus advanceRptr(long int n = 1, bool /*unlock_enable*/ = true) override {
         Lock lock(mutex_);
         if (n > static_cast<long int>(fill_) || n < -static_cast<long int>(slots_.size() - fill_))
             return BufferStatus::PRECONDITION_NOT_MET;
-        read_ = shifted(read_, n);
+        read_ = wrapped_index(read_, n);
         fill_ = static_cast<std::size_t>(static_cast<long int>(fill_) - n);
         not_full_.notify_all();
         return BufferStatus::OK;
@@ -131,14 +131,14 @@ class RingBuffer : public BufferBase<DataType> {
                 if (!not_empty_.wait_for(lock, bound, [this] { return fill_ > 0; }))
                     return BufferStatus::TIMEOUT;
             } else if (readback_ && written_) {
-                value = slots_[shifted(read_, -1)];
+                value = slots_[wrapped_index(read_, -1)];
                 return BufferStatus::OK;
             } else {
                 return BufferStatus::EMPTY;
             }
         }
         value = slots_[read_];
-        read_ = shifted(read_, 1);
+        read_ = wrapped_index(read_, 1);
         --fill_;
         if (block_write_) not_full_.notify_all();
         return BufferStatus::OK;
@@ -155,18 +155,18 @@ class RingBuffer : public BufferBase<DataType> {
   private:
     using Lock = std::unique_lock<std::mutex>;
 
-    static void init_side(const coil::Properties& prop, const char* key, const char* usual_word, bool& usual,
-                          bool& block) {
+    static void read_policy(const coil::Properties& prop, const char* key, const char* default_word,
+                            bool& default_policy, bool& block) {
         const std::string policy = coil::normalize(prop.getProperty(key));
         if (policy.empty()) return;
-        usual = policy == usual_word;
+        default_policy = policy == default_word;
         block = policy == "block";
     }
-    std::size_t shifted(std::size_t index, long int n) const {
+    std::size_t wrapped_index(std::size_t index, long int n) const {
         const long int size = static_cast<long int>(slots_.size());
         return static_cast<std::size_t>(((static_cast<long int>(index) + n) % size + size) % size);
     }
-    void forget() {
+    void clear() {
         write_ = read_ = fill_ = 0;
         written_ = false;
     }

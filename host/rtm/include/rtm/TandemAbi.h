@@ -3,7 +3,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 2 // headers: d30b06d5f866f9d3
+#define TANDEM_RTM_ABI 3 // headers: 3044440f8fd5c38f
 
 // Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
 // or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.

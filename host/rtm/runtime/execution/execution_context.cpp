@@ -65,7 +65,8 @@ bool ExecutionContextBase::isRunning() const {
 // own end.
 ReturnCode_t ExecutionContextBase::start() {
     if (isInsideCycle()) return PRECONDITION_NOT_MET;
-    std::unique_lock<std::recursive_timed_mutex> transition(m_transition, 2 * host_options().stop_timeout);
+    std::unique_lock<std::recursive_timed_mutex> transition(m_startStopMutex,
+                                                            2 * host_options().stop_timeout);
     if (!transition || isRunning()) return PRECONDITION_NOT_MET;
     if (onStopping() != RTC_OK) return PRECONDITION_NOT_MET; // what a stop within a cycle has left
     setRunning(true);
@@ -74,7 +75,7 @@ ReturnCode_t ExecutionContextBase::start() {
 }
 
 ReturnCode_t ExecutionContextBase::stop() {
-    std::unique_lock<std::recursive_timed_mutex> transition(m_transition, std::defer_lock);
+    std::unique_lock<std::recursive_timed_mutex> transition(m_startStopMutex, std::defer_lock);
     if (!isInsideCycle() && !transition.try_lock_for(2 * host_options().stop_timeout)) return RTC_ERROR;
     if (!setRunning(false)) return PRECONDITION_NOT_MET;
     const ReturnCode_t result = onStopping();

@@ -19,7 +19,7 @@ void ExecutionContextBase::invokeWorker() {
 void ExecutionContextBase::warmUp() { cycle(true); }
 
 void ExecutionContextBase::cycle(bool warm_up) {
-    std::lock_guard<std::timed_mutex> lock(m_cycle);
+    std::lock_guard<std::timed_mutex> lock(m_cycleMutex);
     m_cycleThread = std::this_thread::get_id();
     const auto all = participants();
     for (auto& participant : *all) participant->applyTransition(warm_up);
@@ -60,7 +60,7 @@ ReturnCode_t ExecutionContextBase::requestTransition(LightweightRTObject_ptr com
         return !wait.sync || isInsideCycle() ? RTC_OK : waitForTransition(participant, to, wait.timeout);
     }
     if (isInsideCycle()) return RTC_OK; // done at the beginning of the next cycle
-    std::unique_lock<std::timed_mutex> lock(m_cycle, wait.timeout);
+    std::unique_lock<std::timed_mutex> lock(m_cycleMutex, wait.timeout);
     if (!lock.owns_lock()) return RTC_ERROR;
     m_cycleThread = std::this_thread::get_id();
     participant->applyTransition();
@@ -74,9 +74,9 @@ ReturnCode_t ExecutionContextBase::requestTransition(LightweightRTObject_ptr com
 ReturnCode_t ExecutionContextBase::waitForTransition(const Participant& participant, LifeCycleState to,
                                                      std::chrono::nanoseconds timeout) {
     // A slow context cannot be expected to be done before its next cycle; but nobody waits for days.
-    const std::chrono::nanoseconds patience =
+    const std::chrono::nanoseconds cycle_wait =
         std::min<std::chrono::nanoseconds>(2 * getPeriod(), std::chrono::minutes(1));
-    const auto bound = timeout + patience;
+    const auto bound = timeout + cycle_wait;
     std::unique_lock<std::mutex> lock(m_cycleDoneMutex);
     m_cycleDone.wait_for(lock, bound, [&] { return !participant->hasPendingTransition(); });
     return participant->state() == to && !participant->hasPendingTransition() ? RTC_OK : RTC_ERROR;

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/component/local_object.hpp"
 #include <rtm/RTObject.h>
+#include <type_traits>
 
 namespace RTC_impl {
 
@@ -9,10 +11,45 @@ using RTC::ERROR_STATE;
 using RTC::LifeCycleState;
 using RTC::RTC_OK;
 
+namespace {
+
+// The classes of omniORB's stubs, which the IDL mapping names only by their pointers.
+using ComponentStub = std::remove_pointer_t<RTC::ComponentAction_ptr>;
+using DataFlowStub = std::remove_pointer_t<RTC::DataFlowComponentAction_ptr>;
+
+} // namespace
+
+/// One callback of a component and the ways to call it: `local` in this process; in another process by the one
+/// of the two IDL interfaces that declares it, the other pointer is NULL.
+struct RTObjectStateMachine::Action {
+    RTC::ReturnCode_t (RTC::RTObject_impl::*local)(RTC::UniqueId);
+    RTC::ReturnCode_t (ComponentStub::*remote)(RTC::UniqueId);
+    RTC::ReturnCode_t (DataFlowStub::*remote_data_flow)(RTC::UniqueId);
+};
+
+#define TANDEM_COMPONENT_ACTION(NAME)                                                                        \
+    const RTObjectStateMachine::Action RTObjectStateMachine::NAME{&RTC::RTObject_impl::NAME,                 \
+                                                                  &ComponentStub::NAME, nullptr};
+#define TANDEM_DATA_FLOW_ACTION(NAME)                                                                        \
+    const RTObjectStateMachine::Action RTObjectStateMachine::NAME{&RTC::RTObject_impl::NAME, nullptr,        \
+                                                                  &DataFlowStub::NAME};
+TANDEM_COMPONENT_ACTION(on_startup)
+TANDEM_COMPONENT_ACTION(on_shutdown)
+TANDEM_COMPONENT_ACTION(on_activated)
+TANDEM_COMPONENT_ACTION(on_deactivated)
+TANDEM_COMPONENT_ACTION(on_aborting)
+TANDEM_COMPONENT_ACTION(on_error)
+TANDEM_COMPONENT_ACTION(on_reset)
+TANDEM_DATA_FLOW_ACTION(on_execute)
+TANDEM_DATA_FLOW_ACTION(on_state_update)
+TANDEM_DATA_FLOW_ACTION(on_rate_changed)
+#undef TANDEM_COMPONENT_ACTION
+#undef TANDEM_DATA_FLOW_ACTION
+
 RTObjectStateMachine::RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTObject_ptr component)
     : id_(id), reference_(RTC::LightweightRTObject::_duplicate(component)),
       local_(RTC::local_object<RTC::RTObject_impl>(component).get()) {
-    if (local_ == nullptr) remote_actions_ = RTC::DataFlowComponentAction::_narrow(component);
+    if (local_ == nullptr) data_flow_actions_ = RTC::DataFlowComponentAction::_narrow(component);
 }
 
 RTObjectStateMachine::~RTObjectStateMachine() = default;
@@ -27,14 +64,14 @@ bool RTObjectStateMachine::hasPendingTransition() const {
     return current_ != next_;
 }
 
-bool RTObjectStateMachine::goTo(LifeCycleState from, LifeCycleState to) {
+bool RTObjectStateMachine::requestTransition(LifeCycleState from, LifeCycleState to) {
     std::lock_guard<std::mutex> lock(mutex_);
     if (current_ != from || next_ != from) return false;
     next_ = to;
     return true;
 }
 
-bool RTObjectStateMachine::onItsWay(LifeCycleState from, LifeCycleState to) const {
+bool RTObjectStateMachine::isRequested(LifeCycleState from, LifeCycleState to) const {
     std::lock_guard<std::mutex> lock(mutex_);
     return current_ == from && next_ == to;
 }
@@ -43,109 +80,69 @@ bool RTObjectStateMachine::refersTo(RTC::LightweightRTObject_ptr component) cons
     return reference_->_is_equivalent(component);
 }
 
+// Overrides a transition that was requested meanwhile: an error goes first.
 void RTObjectStateMachine::requestErrorState() {
     std::lock_guard<std::mutex> lock(mutex_);
     next_ = ERROR_STATE;
 }
 
-void RTObjectStateMachine::preDo(bool rehearsal) {
+void RTObjectStateMachine::applyTransition(bool warm_up) {
     LifeCycleState from, to;
     {
         std::lock_guard<std::mutex> lock(mutex_);
         from = current_;
         to = next_;
     }
-    if (from == to || rehearsal) return;
-    if (from == ACTIVE_STATE) call(Action::deactivated);
-    if (from == ERROR_STATE && call(Action::reset) != RTC_OK)
-        return requestErrorState(); // stays in the error state
-    const bool ok = to == ACTIVE_STATE ? call(Action::activated) == RTC_OK : true;
-    if (to == ERROR_STATE) call(Action::aborting);
+    if (from == to || warm_up) return;
+    // The callbacks run without the mutex: they may ask for the state, or request a transition.
+    if (from == ACTIVE_STATE) call(on_deactivated);
+    if (from == ERROR_STATE && call(on_reset) != RTC_OK) return requestErrorState(); // it stays in ERROR
+    const bool entered = to == ACTIVE_STATE ? call(on_activated) == RTC_OK : true;
+    if (to == ERROR_STATE) call(on_aborting);
+
     std::lock_guard<std::mutex> lock(mutex_);
     current_ = to;
-    if (!ok) next_ = ERROR_STATE;
+    // on_activated has failed: the component counts as active until the next step, which aborts it.
+    if (!entered) next_ = ERROR_STATE;
 }
 
-void RTObjectStateMachine::execute(bool rehearsal) {
+void RTObjectStateMachine::execute(bool warm_up) {
     if (hasPendingTransition()) return;
     const LifeCycleState now = state();
-    if (now == ERROR_STATE && !rehearsal) call(Action::error);
-    if (now == ACTIVE_STATE && call(rehearsal ? Action::rehearse : Action::execute) != RTC_OK)
+    if (now == ERROR_STATE && !warm_up) call(on_error);
+    if (now == ACTIVE_STATE && (warm_up ? warmUpExecute() : call(on_execute)) != RTC_OK) requestErrorState();
+}
+
+void RTObjectStateMachine::updateState() {
+    if (!hasPendingTransition() && state() == ACTIVE_STATE && call(on_state_update) != RTC_OK)
         requestErrorState();
 }
 
-void RTObjectStateMachine::postDo() {
-    if (!hasPendingTransition() && state() == ACTIVE_STATE && call(Action::update) != RTC_OK)
-        requestErrorState();
+RTC::ReturnCode_t RTObjectStateMachine::startup() { return call(on_startup); }
+RTC::ReturnCode_t RTObjectStateMachine::shutdown() { return call(on_shutdown); }
+RTC::ReturnCode_t RTObjectStateMachine::rateChanged() { return call(on_rate_changed); }
+
+RTC::ReturnCode_t RTObjectStateMachine::call(const Action& action) {
+    return local_ ? (local_->*action.local)(id_) : callRemote(action);
 }
 
-RTC::ReturnCode_t RTObjectStateMachine::startup() { return call(Action::startup); }
-RTC::ReturnCode_t RTObjectStateMachine::shutdown() { return call(Action::shutdown); }
-RTC::ReturnCode_t RTObjectStateMachine::rateChanged() { return call(Action::rate); }
-
-RTC::ReturnCode_t RTObjectStateMachine::call(Action action) {
-    return local_ ? callLocal(action) : callRemote(action);
-}
-
-RTC::ReturnCode_t RTObjectStateMachine::callLocal(Action action) {
-    switch (action) {
-    case Action::startup:
-        return local_->on_startup(id_);
-    case Action::shutdown:
-        return local_->on_shutdown(id_);
-    case Action::activated:
-        return local_->on_activated(id_);
-    case Action::deactivated:
-        return local_->on_deactivated(id_);
-    case Action::aborting:
-        return local_->on_aborting(id_);
-    case Action::error:
-        return local_->on_error(id_);
-    case Action::reset:
-        return local_->on_reset(id_);
-    case Action::execute:
-        return local_->on_execute(id_);
-    case Action::rehearse:
-        return local_->execute(id_, true);
-    case Action::update:
-        return local_->on_state_update(id_);
-    case Action::rate:
-        return local_->on_rate_changed(id_);
-    }
-    return RTC::BAD_PARAMETER;
-}
-
-RTC::ReturnCode_t RTObjectStateMachine::callRemote(Action action) {
+RTC::ReturnCode_t RTObjectStateMachine::callRemote(const Action& action) {
     try {
-        const bool data_flow = !CORBA::is_nil(remote_actions_.in());
-        switch (action) {
-        case Action::startup:
-            return reference_->on_startup(id_);
-        case Action::shutdown:
-            return reference_->on_shutdown(id_);
-        case Action::activated:
-            return reference_->on_activated(id_);
-        case Action::deactivated:
-            return reference_->on_deactivated(id_);
-        case Action::aborting:
-            return reference_->on_aborting(id_);
-        case Action::error:
-            return reference_->on_error(id_);
-        case Action::reset:
-            return reference_->on_reset(id_);
-        case Action::execute:
-            return data_flow ? remote_actions_->on_execute(id_) : RTC_OK;
-        case Action::rehearse:
-            return RTC_OK;
-        case Action::update:
-            return data_flow ? remote_actions_->on_state_update(id_) : RTC_OK;
-        case Action::rate:
-            return data_flow ? remote_actions_->on_rate_changed(id_) : RTC_OK;
+        if (action.remote != nullptr) {
+            RTC::ComponentAction_ptr actions = reference_.in();
+            return (actions->*action.remote)(id_);
         }
+        // A component without data-flow actions (a plain LightweightRTObject) has nothing to do there.
+        if (CORBA::is_nil(data_flow_actions_.in())) return RTC_OK;
+        return (data_flow_actions_.in()->*action.remote_data_flow)(id_);
     } catch (const CORBA::SystemException&) {
         return RTC::RTC_ERROR; // a component that cannot be reached is in error
     }
-    return RTC::BAD_PARAMETER;
+}
+
+// Only a component of this process has code and data here that could be brought into the caches.
+RTC::ReturnCode_t RTObjectStateMachine::warmUpExecute() {
+    return local_ ? local_->execute(id_, true) : RTC_OK;
 }
 
 } // namespace RTC_impl

@@ -9,63 +9,61 @@ class RTObject_impl;
 
 namespace RTC_impl {
 
-/// The state machine of one component in one execution context. A component of this process is called through
-/// its C++ object, another one by CORBA.
-/// goTo() and state() are for any thread, the others for the thread that runs the context's cycle.
+/// The life-cycle state machine of one component in one execution context (OMG RTC 1.0: INACTIVE, ACTIVE,
+/// ERROR). A component of this process is called through its C++ object, any other by CORBA.
+/// state(), hasPendingTransition(), requestTransition() and isRequested() [any-thread]; startup(), shutdown()
+/// and rateChanged() in the thread that changes the context; the steps of the cycle in the thread that runs it.
 class RTObjectStateMachine {
   public:
+    /// `id` is the component's handle of the context. Throws CORBA::SystemException when a component of another
+    /// process cannot be asked for its interface.
     RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTObject_ptr component);
     ~RTObjectStateMachine();
 
     RTC::LifeCycleState state() const;
     bool hasPendingTransition() const;
-    /// Asks for a transition; false when the component is in another state than `from` or already on its way.
-    bool goTo(RTC::LifeCycleState from, RTC::LifeCycleState to);
-    bool onItsWay(RTC::LifeCycleState from, RTC::LifeCycleState to) const;
-
+    /// Requests a transition, which the next applyTransition() carries out. False when the component is not in
+    /// state `from`, or when a transition is pending already.
+    bool requestTransition(RTC::LifeCycleState from, RTC::LifeCycleState to);
+    /// Is exactly this transition pending?
+    bool isRequested(RTC::LifeCycleState from, RTC::LifeCycleState to) const;
     bool refersTo(RTC::LightweightRTObject_ptr component) const;
+    /// Not duplicated: valid as long as this object.
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 
-    // A rehearsal goes the same way, so that code and data are in the caches, but calls nothing of the component
-    // and changes nothing.
+    // The steps of one cycle, in this order. With `warm_up` a step takes the same path through the code, which
+    // brings code and data into the caches shortly before the cycle, but it calls nothing of the component and
+    // changes nothing.
 
-    /// Carries out a requested transition.
-    void preDo(bool rehearsal = false);
-    /// onExecute or onError.
-    void execute(bool rehearsal);
-    /// onStateUpdate.
-    void postDo();
+    /// Carries out the pending transition, if there is one. One that fails leads to the ERROR state.
+    void applyTransition(bool warm_up = false);
+    /// on_execute in the ACTIVE state, on_error in the ERROR state; nothing while a transition is pending.
+    void execute(bool warm_up);
+    /// on_state_update in the ACTIVE state.
+    void updateState();
 
+    // Callbacks outside the cycle; their result is the component's, RTC_ERROR when it cannot be reached.
     RTC::ReturnCode_t startup();
     RTC::ReturnCode_t shutdown();
     RTC::ReturnCode_t rateChanged();
 
   private:
-    enum class Action {
-        startup,
-        shutdown,
-        activated,
-        deactivated,
-        aborting,
-        error,
-        reset,
-        execute,
-        rehearse,
-        update,
-        rate
-    };
-    RTC::ReturnCode_t call(Action action);
-    RTC::ReturnCode_t callRemote(Action action);
-    RTC::ReturnCode_t callLocal(Action action);
+    struct Action;
+    static const Action on_startup, on_shutdown, on_activated, on_deactivated, on_aborting, on_error,
+        on_reset, on_execute, on_state_update, on_rate_changed;
+
+    RTC::ReturnCode_t call(const Action& action);
+    RTC::ReturnCode_t callRemote(const Action& action);
+    RTC::ReturnCode_t warmUpExecute();
     void requestErrorState();
 
     RTC::UniqueId id_;
     RTC::LightweightRTObject_var reference_;
-    RTC::DataFlowComponentAction_var remote_actions_;
-    RTC::RTObject_impl* local_;
-    mutable std::mutex mutex_;
+    RTC::DataFlowComponentAction_var data_flow_actions_; // nil: of this process, or without these actions
+    RTC::RTObject_impl* local_;                          // NULL: of another process
+    mutable std::mutex mutex_;                           // guards both states
     RTC::LifeCycleState current_ = RTC::INACTIVE_STATE;
-    RTC::LifeCycleState next_ = RTC::INACTIVE_STATE;
+    RTC::LifeCycleState next_ = RTC::INACTIVE_STATE; // differs from current_ while a transition is pending
 };
 
 } // namespace RTC_impl

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"

@@ -92,11 +92,17 @@ std::string PortBase::connectError() const {
     return m_connectError;
 }
 
-ReturnCode_t PortBase::refuse(ReturnCode_t code, const std::string& why) {
-    RTC_DEBUG(("%s", why.c_str()));
+ReturnCode_t PortBase::refuse(ReturnCode_t code, const std::string& reason) {
+    RTC_DEBUG(("%s", reason.c_str()));
     std::lock_guard<std::mutex> lock(m_errorMutex);
-    m_connectError = why;
+    m_connectError = reason;
     return code;
+}
+
+ReturnCode_t PortBase::clearConnectError() {
+    std::lock_guard<std::mutex> lock(m_errorMutex);
+    m_connectError.clear();
+    return RTC_OK;
 }
 
 bool PortBase::isEmptyId(const ConnectorProfile& profile) { return profile.connector_id[0] == '\0'; }

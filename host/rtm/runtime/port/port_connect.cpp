@@ -3,7 +3,7 @@
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
-#include "host/rtm/runtime/transport/connection_profile.hpp"
+#include "host/rtm/runtime/port/custom_serializer.hpp"
 #include <coil/stringutil.h>
 #include <rtm/PortBase.h>
 
@@ -73,7 +73,7 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         auto first = local_object<PortBase>(profile.ports[0]);
         const ReturnCode_t result =
             first ? first->notify_connect(profile) : profile.ports[0]->notify_connect(profile);
-        if (result == RTC_OK) return refuse(RTC_OK, "");
+        if (result == RTC_OK) return clearConnectError();
         if (first && first.get() != this) refuse(result, first->connectError());
         const std::string id(profile.connector_id);
         const std::string reason = connectError();
@@ -117,7 +117,7 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
                      "YES", "NO", false);
     if (!duplicates && isAlreadyConnected(profile))
         return refuse(PRECONDITION_NOT_MET, std::string(getName()) + " is already connected to that port");
-    refuse(RTC_OK, "");
+    clearConnectError();
 
     using Step = PortConnectRetListenerType;
     notifyListeners(PortConnectListenerType::ON_NOTIFY_CONNECT, profile);

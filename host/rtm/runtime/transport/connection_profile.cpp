@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/connection_profile.hpp"
-#include "host/rtm/runtime/component/local_object.hpp"
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/Manager.h>
 #include <rtm/NVUtil.h>
@@ -9,36 +8,11 @@ namespace RTC {
 
 coil::Properties connector_properties(const coil::Properties& port, const ConnectorProfile& profile,
                                       const char* side) {
-    coil::Properties all = NVUtil::toProperties(profile.properties);
+    coil::Properties connection = NVUtil::toProperties(profile.properties);
     coil::Properties merged(port);
-    merged << all.getNode("dataport");
-    merged << all.getNode(std::string("dataport.") + side);
+    merged << connection.getNode("dataport");
+    merged << connection.getNode(std::string("dataport.") + side);
     return merged;
-}
-
-namespace {
-
-// As the port's connector will find it: the connection's word counts more than the port's own.
-std::string marshaling_type(const ConnectorProfile& profile, const SDOPackage::NVList& port) {
-    const bool in = NVUtil::toString(port, "port.port_type") == "DataInPort";
-    for (const char* key : {in ? "dataport.inport.marshaling_type" : "dataport.outport.marshaling_type",
-                            "dataport.marshaling_type"}) {
-        const std::string type = NVUtil::toString(profile.properties, key);
-        if (!type.empty()) return type;
-    }
-    return NVUtil::toString(port, "marshaling_type");
-}
-
-} // namespace
-
-bool converts(const ConnectorProfile& profile) {
-    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
-        const auto local = local_object<PortBase>(profile.ports[i]);
-        const PortProfile_var port = local ? local->get_port_profile() : profile.ports[i]->get_port_profile();
-        const std::string type = coil::eraseBothEndsBlank(marshaling_type(profile, port->properties));
-        if (!type.empty() && type != "cdr") return true;
-    }
-    return false;
 }
 
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties) {
@@ -52,7 +26,8 @@ ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Proper
 
 namespace {
 
-std::string byte_order(const coil::Properties& connector_properties) {
+// The property is a list in order of preference; only the first entry counts here.
+std::string preferred_byte_order(const coil::Properties& connector_properties) {
     const std::string orders = coil::normalize(connector_properties.getProperty("serializer.cdr.endian"));
     return orders.substr(0, orders.find(','));
 }
@@ -60,13 +35,13 @@ std::string byte_order(const coil::Properties& connector_properties) {
 } // namespace
 
 bool is_little_endian(const coil::Properties& connector_properties) {
-    return byte_order(connector_properties) != "big";
+    return preferred_byte_order(connector_properties) != "big";
 }
 
-std::string unsupported(const coil::Properties& connector_properties) {
+std::string unsupported_reason(const coil::Properties& connector_properties) {
     const std::string flow = coil::normalize(connector_properties.getProperty("dataflow_type", "push"));
     if (flow != "push" && flow != "pull") return "dataflow_type is " + flow + ", expected push or pull";
-    const std::string order = byte_order(connector_properties);
+    const std::string order = preferred_byte_order(connector_properties);
     if (!order.empty() && order != "big" && order != "little")
         return "serializer.cdr.endian is " + order + ", expected little or big";
     const std::string length = connector_properties.getProperty("buffer.length");
@@ -76,7 +51,7 @@ std::string unsupported(const coil::Properties& connector_properties) {
     return "";
 }
 
-CORBA::Object_ptr published_object(const ConnectorProfile& profile, const std::string& key) {
+CORBA::Object_ptr find_published_object(const ConnectorProfile& profile, const std::string& key) {
     const CORBA::Long index = NVUtil::find_index(profile.properties, (key + "_ref").c_str());
     CORBA::Object_var object;
     if (index >= 0 &&

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both kinds of data ports do with connection profiles.
+// What data ports and their connectors read from, and write to, the profile of a connection. The keys are those
+// of OpenRTM-aist. All functions [any-thread].
 #pragma once
 #include <rtm/ConnectorBase.h>
 #include <string>
@@ -7,24 +8,26 @@
 namespace RTC {
 
 /// The properties of a connector as one side sees them: the port's own, then `dataport.*`, then
-/// `dataport.<side>.*` (side: inport or outport); keys without those prefixes.
+/// `dataport.<side>.*` (side: inport or outport); keys without those prefixes, the later win.
 coil::Properties connector_properties(const coil::Properties& port, const ConnectorProfile& profile,
                                       const char* side);
 
-/// Does a port of the connection use a serializer of somebody's own, named by the connection or by the port's
-/// own configuration? Such a one may make another type of a value. Asks the ports: throws
-/// CORBA::SystemException.
-bool converts(const ConnectorProfile& profile);
-
+/// Name, id, ports (as IORs) of the connection, with `properties` of connector_properties().
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);
 
-/// The first byte order that `serializer.cdr.endian` names (little, big; a list); little when it names none.
+/// Is the first byte order that `serializer.cdr.endian` names (`little`, `big`, or a list) little-endian? Also
+/// true when it names none, as in OpenRTM-aist.
 bool is_little_endian(const coil::Properties& connector_properties);
-/// Why a connection with these properties cannot be made; empty when it can.
-std::string unsupported(const coil::Properties& connector_properties);
 
-/// A reference published as an object or as an IOR under `<key>_ref` and `<key>_ior`; nil when there is none.
-CORBA::Object_ptr published_object(const ConnectorProfile& profile, const std::string& key);
+/// Why a connection with these properties cannot be made, in one line; empty when it can.
+std::string unsupported_reason(const coil::Properties& connector_properties);
+
+/// The object that the other port has published as a reference under `<key>_ref` or as an IOR under
+/// `<key>_ior`; nil when there is none. The caller owns the reference. Throws CORBA::SystemException when the
+/// IOR is malformed.
+CORBA::Object_ptr find_published_object(const ConnectorProfile& profile, const std::string& key);
+
+/// Publishes the object in both forms: OpenRTM-aist reads one or the other, depending on its version.
 void publish_object(ConnectorProfile& profile, const std::string& key, CORBA::Object_ptr object,
                     const std::string& ior);
 

@@ -24,18 +24,21 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream) {
     return status;
 }
 
-DataPortStatus InPortConnector::read(ByteData& bytes) { return report(m_buffer->read(bytes), bytes); }
+DataPortStatus InPortConnector::read(ByteData& bytes) {
+    return notifyReadResult(m_buffer->read(bytes), bytes);
+}
 
 DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place) {
     if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
-    const DataPortStatus status = report(m_inPlace->readInPlace(m_bytes, reader, read_in_place), m_bytes);
+    const DataPortStatus status =
+        notifyReadResult(m_inPlace->readInPlace(m_bytes, reader, read_in_place), m_bytes);
     if (status != DataPortStatus::PORT_OK || read_in_place) return status;
     stream->isLittleEndian(m_bytes.getEndian());
     stream->writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
     return status;
 }
 
-DataPortStatus InPortConnector::report(BufferStatus status, ByteData& bytes) {
+DataPortStatus InPortConnector::notifyReadResult(BufferStatus status, ByteData& bytes) {
     switch (status) {
     case BufferStatus::OK:
         m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);

@@ -9,124 +9,147 @@
 
 namespace RTC {
 
+/// The receiver, the messages that wait for it and the thread that sends them. Owned by the connector and by
+/// that thread; whoever is last destroys it.
 struct RemotePush::SendQueue {
-    std::unique_ptr<RemoteReceiver> receiver; // the writer's, or the thread's while threaded is set
-    Limits bounds;
-    std::atomic<bool> threaded{false}; // set by the writer, taken back by the thread under the mutex
-    std::mutex mutex;                  // guards what follows
-    std::condition_variable wake, progress;
-    std::deque<ByteData> waiting; // the first one is on its way
-    std::size_t bytes = 0;
-    std::uint64_t taken = 0, answered = 0;
-    DataPortStatus last = DataPortStatus::PORT_OK;
-    bool has_thread = false, lost = false, ending = false, alone = true;
-    bool hangs = false; // a wait for it was in vain: no other before it goes on
+    std::unique_ptr<RemoteReceiver> receiver; // the writer calls it, or the thread while uses_thread is set
+    Limits limits;
+    // Set by the writer, cleared by the thread under the mutex. The writer may read it without the mutex: while
+    // it is false the thread has no message to send and touches neither it nor the receiver.
+    std::atomic<bool> uses_thread{false};
 
-    void set_bound(std::chrono::milliseconds bound) { receiver->setTimeout(bound); }
+    std::mutex mutex; // guards what follows
+    std::condition_variable wake_thread, answer_received;
+    std::deque<ByteData> messages; // the first one is being sent
+    std::size_t queued_bytes = 0;
+    std::uint64_t queued_count = 0, answered_count = 0; // since the beginning
+    DataPortStatus last_status = DataPortStatus::PORT_OK;
+    bool thread_started = false;
+    bool connection_lost = false;
+    bool stop_requested = false;
+    bool is_sole_connector = true;
+    // Set when an answer did not come in time: until the next answer no writer waits again.
+    bool receiver_hangs = false;
+
     bool full(const ByteData& message) const {
-        return waiting.size() >= 8 && bytes + message.getDataLength() > bounds.bytes;
+        return messages.size() >= limits.min_queued_messages &&
+               queued_bytes + message.getDataLength() > limits.max_queued_bytes;
     }
+    void switchToThread();
     DataPortStatus add(std::unique_lock<std::mutex>& lock, const ByteData& message);
-    void deliver();
+    void sendLoop();
 };
 
-RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& bounds)
+RemotePush::RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& limits)
     : queue_(std::make_shared<SendQueue>()) {
     queue_->receiver = std::move(receiver);
-    queue_->bounds = bounds;
-    queue_->set_bound(bounds.sole_answer_timeout);
+    queue_->limits = limits;
+    queue_->receiver->setTimeout(limits.sole_answer_timeout);
 }
 
 RemotePush::~RemotePush() {
     std::lock_guard<std::mutex> lock(queue_->mutex);
-    queue_->ending = true;
-    queue_->wake.notify_all();
+    queue_->stop_requested = true;
+    queue_->wake_thread.notify_all();
 }
 
 RemotePush::Limits RemotePush::limits_from(const coil::Properties& properties) {
-    Limits bounds;
-    auto milliseconds = [&](const std::string& key, double usual) {
-        double seconds = usual;
-        if (!coil::stringTo(seconds, properties.getProperty(key).c_str()) || !(seconds > 0)) seconds = usual;
+    // Anything but a positive number of seconds means the default; an hour is the longest.
+    auto milliseconds = [&](const std::string& key, double default_seconds) {
+        double seconds = default_seconds;
+        if (!coil::stringTo(seconds, properties.getProperty(key).c_str()) || !(seconds > 0))
+            seconds = default_seconds;
         return std::chrono::milliseconds(std::max(1L, static_cast<long>(std::min(seconds, 3600.) * 1000)));
     };
-    bounds.sole_answer_timeout = milliseconds("put_timeout", 2);
-    // What the receiving port was told comes as inport.*: this side only passes it on.
+    Limits limits;
+    limits.sole_answer_timeout = milliseconds("put_timeout", 2);
+    // The receiving port's own buffer settings arrive in the profile as inport.*; they are read first, since
+    // it is that buffer which holds the message back.
     for (const std::string buffer : {"inport.buffer.write.", "buffer.write."}) {
         if (coil::normalize(properties.getProperty(buffer + "full_policy")) != "block") continue;
-        const auto held_back = milliseconds(buffer + "timeout", 1);
-        bounds.sole_answer_timeout += held_back;
-        bounds.thread += held_back;
+        const auto full_buffer_wait = milliseconds(buffer + "timeout", 1);
+        limits.sole_answer_timeout += full_buffer_wait;
+        limits.thread_answer_timeout += full_buffer_wait;
         break;
     }
-    return bounds;
+    return limits;
 }
 
-DataPortStatus RemotePush::write(const ByteData& bytes, bool alone) {
+DataPortStatus RemotePush::write(const ByteData& bytes, bool is_sole_connector) {
     SendQueue& queue = *queue_;
-    if (!alone || queue.threaded.load(std::memory_order_acquire)) {
+    if (!is_sole_connector || queue.uses_thread.load(std::memory_order_acquire)) {
         std::unique_lock<std::mutex> lock(queue.mutex);
-        queue.alone = alone;
-        if (!alone && !queue.threaded) {
-            queue.set_bound(queue.bounds.thread);
-            queue.threaded = true;
-        }
-        // The thread may have caught up just now: then nothing waits, and this one sends.
-        if (queue.threaded) {
-            if (!queue.has_thread) {
-                queue.has_thread = true;
-                std::thread([shared = queue_] { shared->deliver(); }).detach();
+        queue.is_sole_connector = is_sole_connector;
+        if (!is_sole_connector) queue.switchToThread();
+        // The thread may have caught up since the check above: then the queue is empty and this call sends.
+        if (queue.uses_thread) {
+            if (!queue.thread_started) {
+                queue.thread_started = true;
+                std::thread([shared = queue_] { shared->sendLoop(); }).detach();
             }
             return queue.add(lock, bytes);
         }
     }
-    const auto status = queue.receiver->put(bytes);
-    if (status) return *status;
-    queue.set_bound(queue.bounds.thread);
-    queue.hangs = true; // no thread is there that could look at it
-    queue.threaded.store(true, std::memory_order_release);
+    if (const auto status = queue.receiver->put(bytes)) return *status;
+    // No thread uses the receiver yet, so it may be changed without the mutex. From the next message on the
+    // thread sends.
+    queue.receiver_hangs = true;
+    queue.switchToThread();
     return DataPortStatus::SEND_TIMEOUT;
 }
 
-DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, const ByteData& message) {
-    const auto until = std::chrono::steady_clock::now() + bounds.beside;
-    auto wait = [&](auto condition) { // for the receiver to go on
-        if (!hangs && !progress.wait_until(lock, until, [&] { return lost || condition(); })) hangs = true;
-    };
-    if (full(message)) wait([&] { return !full(message); });
-    if (lost) return DataPortStatus::CONNECTION_LOST;
-    if (full(message)) return DataPortStatus::SEND_FULL;
-    const bool idle = waiting.empty();
-    waiting.push_back(message);
-    bytes += message.getDataLength();
-    const std::uint64_t number = ++taken;
-    wake.notify_all();
-    if (!idle) return DataPortStatus::PORT_OK;
-    wait([&] { return answered >= number; });
-    if (lost) return DataPortStatus::CONNECTION_LOST;
-    return answered >= number ? last : DataPortStatus::PORT_OK;
+void RemotePush::SendQueue::switchToThread() {
+    if (uses_thread) return;
+    receiver->setTimeout(limits.thread_answer_timeout);
+    uses_thread.store(true, std::memory_order_release);
 }
 
-void RemotePush::SendQueue::deliver() {
+/// Queues one message and waits for its answer, unless others are waiting before it. The caller holds the mutex.
+DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, const ByteData& message) {
+    // One deadline for both waits: the writer is held up for this long at most.
+    const auto deadline = std::chrono::steady_clock::now() + limits.shared_answer_timeout;
+    auto wait_until = [&](auto condition) {
+        if (receiver_hangs) return;
+        receiver_hangs =
+            !answer_received.wait_until(lock, deadline, [&] { return connection_lost || condition(); });
+    };
+    if (full(message)) wait_until([&] { return !full(message); });
+    if (connection_lost) return DataPortStatus::CONNECTION_LOST;
+    if (full(message)) return DataPortStatus::SEND_FULL;
+
+    const bool was_empty = messages.empty();
+    messages.push_back(message);
+    queued_bytes += message.getDataLength();
+    const std::uint64_t number = ++queued_count;
+    wake_thread.notify_all();
+    if (!was_empty) return DataPortStatus::PORT_OK;
+    wait_until([&] { return answered_count >= number; });
+    if (connection_lost) return DataPortStatus::CONNECTION_LOST;
+    return answered_count >= number ? last_status : DataPortStatus::PORT_OK;
+}
+
+/// [sending thread] Sends the messages one after the other until the connector or the receiver is gone.
+void RemotePush::SendQueue::sendLoop() {
     std::unique_lock<std::mutex> lock(mutex);
-    while (!lost) {
-        wake.wait(lock, [&] { return ending || !waiting.empty(); });
-        if (ending) return;
-        ByteData& message = waiting.front(); // stays where it is when others are added
+    while (!connection_lost) {
+        wake_thread.wait(lock, [&] { return stop_requested || !messages.empty(); });
+        if (stop_requested) return;
+        ByteData& message = messages.front(); // push_back() does not move it: a deque keeps references valid
         lock.unlock();
         const auto status = receiver->put(message);
         lock.lock();
-        bytes -= message.getDataLength();
-        waiting.pop_front();
-        ++answered;
-        last = status.value_or(DataPortStatus::CONNECTION_LOST);
-        lost = last == DataPortStatus::CONNECTION_LOST;
-        hangs = false;
-        if (!lost && waiting.empty() && alone) {
-            set_bound(bounds.sole_answer_timeout);
-            threaded.store(false, std::memory_order_release);
+        queued_bytes -= message.getDataLength();
+        messages.pop_front();
+        ++answered_count;
+        last_status = status.value_or(DataPortStatus::CONNECTION_LOST);
+        connection_lost = last_status == DataPortStatus::CONNECTION_LOST;
+        receiver_hangs = false;
+        // Caught up: the writer may send by itself again, unless the port has other connectors to serve.
+        if (!connection_lost && messages.empty() && is_sole_connector) {
+            receiver->setTimeout(limits.sole_answer_timeout);
+            uses_thread.store(false, std::memory_order_release);
         }
-        progress.notify_all();
+        answer_received.notify_all();
     }
 }
 

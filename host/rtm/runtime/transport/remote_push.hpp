@@ -5,38 +5,45 @@
 
 namespace RTC {
 
-/// Sends messages to a receiver in another process, such that one that hangs holds nobody up for long.
-/// The only connector of its port sends in the writer's thread, which costs least; when an answer is missing
-/// after a time, messages go by a thread of this connector until the receiver has caught up. Where a port has
-/// several connectors they always do: the writer waits for the answer only a moment, then the others are
-/// next. No call is broken off for that, so nothing arrives twice or in another order. [one writer at a time]
+/// Sends messages to a receiver in another process, such that a receiver that hangs delays nobody for long.
+///
+/// The only connector of its port sends in the writer's thread, which costs least. After an answer that did not
+/// come in time, and always when the port has several connectors, messages are queued and sent by a thread of
+/// this connector; the writer waits for the answer only briefly, then serves the other connectors. A call under
+/// way is never broken off for that, so that no message arrives twice or out of order. [one writer at a time]
 class RemotePush {
   public:
     struct Limits {
-        std::chrono::milliseconds sole_answer_timeout{
-            2000};                            ///< a writer's wait for an answer, as the only connector
-        std::chrono::milliseconds beside{20}; ///< its wait for the thread, beside other connectors
-        std::chrono::milliseconds thread{
-            10000};                  ///< the thread's wait for an answer; then the receiver is lost
-        std::size_t bytes = 1 << 20; ///< that may wait; 8 messages may in any case
+        /// How long a writer waits for the answer when this is the only connector of its port.
+        std::chrono::milliseconds sole_answer_timeout{2000};
+        /// How long a writer waits for the sending thread when the port has other connectors.
+        std::chrono::milliseconds shared_answer_timeout{20};
+        /// How long the sending thread waits for an answer; after that the receiver counts as lost.
+        std::chrono::milliseconds thread_answer_timeout{10000};
+        /// How much may be queued; `min_queued_messages` may be queued whatever their size.
+        std::size_t max_queued_bytes = 1 << 20;
+        std::size_t min_queued_messages = 8;
     };
-    RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& bounds);
+
+    RemotePush(std::unique_ptr<RemoteReceiver> receiver, const Limits& limits);
+    /// Does not wait: a call under way ends in the sending thread, which then lets go of the receiver.
     ~RemotePush();
     RemotePush(const RemotePush&) = delete;
     RemotePush& operator=(const RemotePush&) = delete;
 
-    /// PORT_OK may also mean: will be sent. SEND_TIMEOUT: no answer, nobody knows whether the message
-    /// arrives. SEND_FULL: too much is waiting, this message was not taken.
-    DataPortStatus write(const ByteData& bytes, bool alone);
-    /// From the connection's properties: `put_timeout` (seconds) is the bound `alone`; a receiver that may
-    /// hold a message back while its buffer is full is given that time on top.
+    /// PORT_OK: the receiver has the message, or it is queued. SEND_TIMEOUT: no answer; whether the message
+    /// arrives is unknown. SEND_FULL: the queue is full and this message was dropped. CONNECTION_LOST: the
+    /// receiver is gone.
+    DataPortStatus write(const ByteData& bytes, bool is_sole_connector);
+
+    /// From the connection's properties: `put_timeout` (seconds) is sole_answer_timeout. A receiver that may
+    /// hold a message back while its buffer is full (full_policy block) is given that time in addition.
     static Limits limits_from(const coil::Properties& connector_properties);
 
   private:
     struct SendQueue;
-    static void run(const std::shared_ptr<SendQueue>& queue);
-
-    std::shared_ptr<SendQueue> queue_; // shared with the thread, which may be in a call when this one goes
+    // Shared with the sending thread, which may still be in a call when this object is destroyed.
+    std::shared_ptr<SendQueue> queue_;
 };
 
 } // namespace RTC
