@@ -44,7 +44,8 @@ class Async_t : public Async {
     std::atomic<bool> m_finished{false};
 };
 
-/// `func` is called with `object`, once for each invoke(). With auto_delete the result ends itself.
+/// Makes a call of `func(object)` in a thread of its own, once for each invoke(). With auto_delete the result
+/// deletes itself when the call has ended; otherwise exit() does.
 template <typename Object, typename Func>
 Async_t<Object, Func>* AsyncInvoker(Object* object, Func func, bool auto_delete = false) {
     return new Async_t<Object, Func>(object, std::move(func), auto_delete);

@@ -8,7 +8,7 @@
 
 namespace coil {
 
-/// Time since the epoch of a clock, which may be set. [any-thread]
+/// A clock: its time since the epoch. settime() is false when it cannot be set. [any-thread]
 class IClock {
   public:
     virtual ~IClock() = default;
@@ -16,7 +16,7 @@ class IClock {
     virtual bool settime(std::chrono::nanoseconds clocktime) = 0;
 };
 
-/// The system's; setting it is refused.
+/// The system clock, which cannot be set.
 class SystemClock : public IClock {
   public:
     std::chrono::nanoseconds gettime() const override {
@@ -25,7 +25,7 @@ class SystemClock : public IClock {
     bool settime(std::chrono::nanoseconds) override { return false; }
 };
 
-/// Stands still between two settime().
+/// A clock that stands still between two calls of settime(): for simulated time.
 class LogicalClock : public IClock {
   public:
     std::chrono::nanoseconds gettime() const override {
@@ -43,7 +43,7 @@ class LogicalClock : public IClock {
     std::chrono::nanoseconds m_now{0};
 };
 
-/// Runs on from what it was set to.
+/// A clock that runs on from the time it was set to.
 class AdjustedClock : public IClock {
   public:
     std::chrono::nanoseconds gettime() const override {
@@ -62,7 +62,7 @@ class AdjustedClock : public IClock {
     std::chrono::nanoseconds m_offset{0};
 };
 
-/// The process's clocks: `logical`, `adjusted`, anything else is the system's.
+/// The clocks of the process: `logical`, `adjusted`; any other name is the system clock.
 class ClockManager : public Singleton<ClockManager> {
   public:
     IClock& getClock(const std::string& clocktype) {

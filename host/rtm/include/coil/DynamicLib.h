@@ -8,14 +8,14 @@
 
 namespace coil {
 
-/// A shared library; closed with the object unless told otherwise.
+/// A shared library, closed in the destructor unless `close_handle_on_destruction` is 0.
 class DynamicLib {
   public:
     explicit DynamicLib(int close_handle_on_destruction = 1) : m_closeflag(close_handle_on_destruction) {}
     DynamicLib(const char* dynlib_name, int open_mode = COIL_DEFAULT_DYNLIB_MODE,
                int close_handle_on_destruction = 1);
     virtual ~DynamicLib();
-    /// Opens the library once more.
+    /// Opens the same library once more, so that each object has a handle of its own.
     DynamicLib(const DynamicLib& rhs);
     DynamicLib& operator=(const DynamicLib& rhs);
 
@@ -23,6 +23,7 @@ class DynamicLib {
     virtual int open(const char* dll_name, int open_mode = COIL_DEFAULT_DYNLIB_MODE,
                      int close_handle_on_destruction = 1);
     virtual int close();
+    /// NULL when there is none or no library is open.
     void* symbol(const char* symbol_name);
     static const char* error() { return ::dlerror(); }
 

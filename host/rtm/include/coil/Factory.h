@@ -21,6 +21,7 @@ enum class FactoryReturn : std::uint8_t {
     UNKNOWN_ERROR
 };
 
+/// For addFactory(): creates a ConcreteClass, and deletes one.
 template <class AbstractClass, class ConcreteClass>
 AbstractClass* Creator() {
     return new ConcreteClass();
@@ -32,7 +33,8 @@ void Destructor(AbstractClass*& object) {
     object = nullptr;
 }
 
-/// Creators and destructors by name; it remembers which name made which object. [any-thread]
+/// Creates objects by the name of their class; remembers which entry has made an object, whose destructor
+/// function deletes it. [any-thread]
 template <class AbstractClass, typename Identifier = std::string, typename Compare = std::less<Identifier>,
           typename Creator = AbstractClass* (*)(), typename Destructor = void (*)(AbstractClass*&)>
 class Factory {
@@ -75,6 +77,7 @@ class Factory {
         return creators_.erase(id) ? FactoryReturn::OK : FactoryReturn::NOT_FOUND;
     }
 
+    /// NULL when there is no such name. Give the object back with deleteObject().
     AbstractClass* createObject(const Identifier& id) {
         std::lock_guard<std::mutex> lock(mutex_);
         auto found = creators_.find(id);
@@ -85,6 +88,7 @@ class Factory {
     }
 
     FactoryReturn deleteObject(const Identifier&, AbstractClass*& object) { return deleteObject(object); }
+    /// NOT_FOUND, and nothing else, for an object that this factory has not made.
     FactoryReturn deleteObject(AbstractClass*& object) {
         std::lock_guard<std::mutex> lock(mutex_);
         auto found = objects_.find(object);
@@ -119,12 +123,13 @@ class Factory {
     std::mutex mutex_;
 };
 
-/// The one factory of a kind in this process.
+/// The factory of a class that all libraries of the process share. Our library instantiates it explicitly, so
+/// that there is one instance.
 template <class AbstractClass, typename Identifier = std::string, typename Compare = std::less<Identifier>,
           typename Creator = AbstractClass* (*)(), typename Destructor = void (*)(AbstractClass*&)>
 class GlobalFactory : public Factory<AbstractClass, Identifier, Compare, Creator, Destructor> {
   public:
-    // Never destroyed: objects may be returned to it while the process exits.
+    // Never destroyed: objects may be given back to it while the process exits.
     static GlobalFactory& instance() {
         static GlobalFactory* the_instance = new GlobalFactory();
         return *the_instance;

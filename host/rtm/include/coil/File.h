@@ -3,7 +3,7 @@
 #define COIL_FILE_H
 #include <coil/stringutil.h>
 #include <string>
-// Component sources count on these being there.
+// Component sources use them without including them, as OpenRTM-aist's header has them.
 #include <cstring>
 #include <dirent.h>
 #include <sys/stat.h>
@@ -11,7 +11,7 @@
 
 namespace coil {
 
-/// `/a/b` of `/a/b/c`; `.` when there is no folder in it.
+/// `/a/b` for `/a/b/c`; `.` when the path has no folder.
 std::string dirname(const char* path);
 std::string basename(const char* path);
 /// Names in a folder, those that match a glob pattern when one is given. Empty when it cannot be read.

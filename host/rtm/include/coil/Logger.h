@@ -8,9 +8,9 @@
 
 namespace coil {
 
-/// Where log lines go; a plugin of RTC::LogstreamFactory derives from it and overrides write(). As it is, it
-/// hands lines on to the streams that were added to it. write() may be called by any thread, by one at a
-/// time.
+/// A destination of log lines; a library's log stream (RTC::LogstreamFactory) derives from it and overrides
+/// write(). This class passes lines on to the streams that were added to it. write() is called in any thread,
+/// by one at a time.
 class LogStreamBuffer {
   public:
     LogStreamBuffer() = default;
@@ -20,7 +20,7 @@ class LogStreamBuffer {
 
     /// `cleanup`: the stream is deleted with this one, or when it is removed.
     void addStream(LogStreamBuffer* stream, bool cleanup = false);
-    /// False: it was not there. When this returns the stream is not called any more.
+    /// False when it is not in the list. After that the stream is not called any more.
     bool removeStream(LogStreamBuffer* stream);
     std::vector<LogStreamBuffer*> getBuffers();
 

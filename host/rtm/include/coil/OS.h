@@ -22,7 +22,8 @@ inline bool getenv(const char* name, std::string& value) {
     return true;
 }
 
-/// getopt(3) as an object: each call gives the next option, -1 at the end.
+/// getopt(3) as an object: each call returns the next option, -1 at the end. One object at a time: getopt()
+/// has global state.
 class GetOpt {
   public:
     GetOpt(int argc, char* const argv[], const char* opt, int /*flag*/)

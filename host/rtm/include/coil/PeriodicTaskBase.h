@@ -11,7 +11,7 @@
 
 namespace coil {
 
-/// A task as an object; the form of 1.x.
+/// A function object as a task, the form of 1.x.
 class TaskFuncBase {
   public:
     virtual ~TaskFuncBase() = default;
@@ -35,7 +35,7 @@ class PeriodicTaskBase : public Task {
     void finalize() override = 0;
     int suspend() override = 0;
     int resume() override = 0;
-    /// One more call of a suspended task.
+    /// Makes a suspended task call its function once.
     virtual void signal() = 0;
     virtual void setTask(std::function<void()> func) = 0;
     virtual void setPeriod(std::chrono::nanoseconds period) = 0;

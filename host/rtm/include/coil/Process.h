@@ -9,7 +9,8 @@
 
 namespace coil {
 
-/// Starts a command and goes on; 0, or -1. Arguments are split at blanks, no shell takes part.
+/// Starts a command and does not wait for it; 0, or -1. Arguments are split at blanks; no shell interprets
+/// them.
 int launch_shell(const std::string& command);
 /// Runs a command through the shell to its end and adds the lines of its output; 0, or -1.
 int create_process(const std::string& command, std::vector<std::string>& out);

@@ -11,8 +11,8 @@
 
 namespace coil {
 
-/// A tree of strings addressed by dotted keys (`a.b.c`); each node has a value and a default.
-/// Not synchronised: the owner guards it.
+/// A tree of strings addressed by dotted keys (`a.b.c`; `\\.` is a dot within a name); each node has a value
+/// and a default. Not synchronized: its owner guards it.
 class Properties {
   public:
     explicit Properties(const char* key = "", const char* value = "", bool set_value = false);
@@ -33,7 +33,7 @@ class Properties {
 
     /// Value of a key; its default when no value was set; empty when there is neither.
     const std::string& getProperty(const std::string& key) const;
-    /// The same, with `def` when there is no such key.
+    /// The same; `def` when that is empty.
     const std::string& getProperty(const std::string& key, const std::string& def) const;
     const std::string& operator[](const std::string& key) const;
     /// Creates the node when needed; the reference stays valid as long as the node.
@@ -53,9 +53,12 @@ class Properties {
 
     std::vector<std::string> propertyNames() const;
     std::size_t size() const;
+    /// NULL when there is none. The node stays this tree's.
     Properties* findNode(const std::string& key) const;
+    /// Creates the node when it does not exist.
     Properties& getNode(const std::string& key);
     bool createNode(const std::string& key);
+    /// Takes a direct child out of the tree; the caller deletes it. NULL when there is none.
     Properties* removeNode(const char* leaf_name);
     Properties* hasKey(const char* key) const;
     void clear();

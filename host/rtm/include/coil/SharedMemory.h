@@ -7,7 +7,8 @@
 
 namespace coil {
 
-/// A named POSIX shared memory object of a fixed size. All functions: 0, or -1.
+/// A named POSIX shared memory object of a fixed size. The functions that can fail return 0, or -1. Whoever
+/// has created the object removes its name in the destructor.
 class SharedMemory {
   public:
     SharedMemory() = default;
@@ -17,7 +18,7 @@ class SharedMemory {
 
     /// Readable and writable by this user only.
     virtual int create(std::string shm_address, unsigned long long memory_size = DEFAULT_MEMORY_SIZE);
-    /// -1 also when there is less memory than `memory_size`.
+    /// -1 also when the object is smaller than `memory_size`.
     virtual int open(std::string shm_address, unsigned long long memory_size = DEFAULT_MEMORY_SIZE);
     virtual int write(const char* data, unsigned long long pos, unsigned long long size);
     virtual int read(char* data, unsigned long long pos, unsigned long long size);

@@ -7,7 +7,7 @@ namespace coil {
 
 using SignalHandler = void (*)(int);
 
-/// Sets a signal's handler for good.
+/// Sets the handler of a signal; the destructor does not reset it.
 class SignalAction {
   public:
     SignalAction() = default;

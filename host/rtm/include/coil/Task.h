@@ -7,7 +7,7 @@
 
 namespace coil {
 
-/// A thread that runs svc() and then finalize(); derive and override.
+/// A thread that runs svc() and then finalize(). Derive from it and override them.
 class Task {
   public:
     Task() = default;
@@ -17,7 +17,7 @@ class Task {
     virtual int open(void* args = nullptr);
     virtual int close(unsigned long flags = 0);
     virtual int svc();
-    /// Nothing happens while svc() runs already.
+    /// Starts the thread; does nothing while it runs.
     virtual void activate();
     virtual int wait();
     virtual int suspend();

@@ -8,7 +8,7 @@
 
 namespace coil {
 
-/// Statistics of the times between tick() and tack().
+/// Statistics of the times between tick() and tack(), in seconds. Not synchronized.
 class TimeMeasure {
   public:
     struct Statistics {
@@ -16,7 +16,7 @@ class TimeMeasure {
     };
     explicit TimeMeasure(int /*buflen*/ = 100) {}
     void tick() { begin_ = std::chrono::steady_clock::now(); }
-    /// Nothing before the first tick().
+    /// Does nothing before the first tick().
     void tack() {
         if (begin_ == std::chrono::steady_clock::time_point()) return;
         const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
@@ -30,7 +30,7 @@ class TimeMeasure {
     }
     void reset() { *this = TimeMeasure(); }
     unsigned long count() const { return count_; }
-    /// The last one.
+    /// The last time measured.
     TimeValue& interval() { return interval_; }
     bool getStatistics(double& max, double& min, double& mean, double& deviation) const {
         if (count_ == 0) return false;

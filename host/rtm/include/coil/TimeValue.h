@@ -8,8 +8,8 @@
 
 namespace coil {
 
-/// Seconds and microseconds of one sign. It converts to double, so that what is not + or - of two of them is
-/// the arithmetic of seconds.
+/// A time span as seconds and microseconds of one sign. It converts to double (seconds): all arithmetic but +
+/// and - of two TimeValues is that of double.
 class TimeValue {
     template <class T>
     using IfInteger = typename std::enable_if<std::is_integral<T>::value, int>::type;

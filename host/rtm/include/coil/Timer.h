@@ -11,12 +11,12 @@
 
 namespace coil {
 
-/// Called once, when its delay has passed.
+/// A function that is called once, when its delay has passed.
 class DelayedFunction {
   public:
     DelayedFunction(std::function<void()> fn, std::chrono::nanoseconds delay) noexcept
         : m_fn(std::move(fn)), m_remains(delay) {}
-    /// True: it is done with.
+    /// True when it was called and can be dropped.
     bool tick(std::chrono::nanoseconds interval) {
         m_remains -= interval;
         if (m_remains.count() > 0) return false;
@@ -29,7 +29,7 @@ class DelayedFunction {
     std::chrono::nanoseconds m_remains;
 };
 
-/// Called again and again until stop().
+/// A function that is called once per period until stop().
 class PeriodicFunction {
   public:
     PeriodicFunction(std::function<void()> fn, std::chrono::nanoseconds period) noexcept
@@ -56,7 +56,8 @@ class PeriodicFunction {
     std::mutex m_mutex;
 };
 
-/// Functions that run in the thread that calls tick(). Adding is safe from any thread, and from a function.
+/// A list of functions that run in the thread that calls tick(). emplace() [any-thread], also from a
+/// function.
 template <class Function>
 class Timer {
   public:
@@ -71,7 +72,7 @@ class Timer {
         m_tasks.emplace_back(std::forward<Args>(args)...);
         return &m_tasks.back();
     }
-    /// `interval` has passed since the last tick.
+    /// Calls the functions that are due; `interval` is the time since the last tick().
     void tick(std::chrono::nanoseconds interval) {
         std::list<Function> tasks;
         {

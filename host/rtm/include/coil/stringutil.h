@@ -23,7 +23,7 @@ std::string toUpper(std::string str) noexcept;
 std::string toLower(std::string str) noexcept;
 /// One line without its CR or LF.
 std::string getlinePortable(std::istream& in);
-/// Is the character at `pos` behind an odd number of backslashes?
+/// Do an odd number of backslashes precede the character at `pos`?
 bool isEscaped(const std::string& str, std::string::size_type pos);
 std::string escape(const std::string& str);
 std::string unescape(std::string str) noexcept;
@@ -31,10 +31,10 @@ std::string eraseBlank(std::string str) noexcept;
 std::string eraseHeadBlank(std::string str) noexcept;
 std::string eraseTailBlank(std::string str) noexcept;
 std::string eraseBothEndsBlank(std::string str) noexcept;
-/// Blanks trimmed, lower case.
+/// Trimmed of blanks and in lower case.
 std::string normalize(std::string str) noexcept;
 std::string replaceString(std::string str, const std::string& from, const std::string& to);
-/// Parts trimmed of blanks; an empty input gives no part.
+/// Parts are trimmed of blanks; an empty input has no parts.
 vstring split(const std::string& input, const std::string& delimiter, bool ignore_empty = false);
 bool toBool(std::string str, std::string yes, std::string no, bool default_value = true);
 bool includes(const vstring& list, std::string value, bool ignore_case = true);
@@ -110,10 +110,10 @@ bool hexToPtr(T*& ptr, const std::string& str) {
     return ptr != nullptr;
 }
 
-/// 1.x: an `argv` with a NULL behind it. The caller frees each string and the list with delete[].
+/// The form of 1.x: an `argv` that ends with NULL. The caller frees each string and the array with delete[].
 char** toArgv(const vstring& args);
 
-/// Owns what an `argv` points to.
+/// An `argv` and the strings it points to.
 class Argv {
   public:
     Argv() = default;

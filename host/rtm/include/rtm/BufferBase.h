@@ -8,13 +8,14 @@
 
 namespace RTC {
 
-/// The queue between a connector and a port. A connector calls write(), a port readable() and read();
-/// both may happen at the same time in different threads.
+/// The queue between a connector and a port. A connector calls write(), a port readable() and read(), at the
+/// same time in different threads. The interface is OpenRTM-aist's; a connection may name an implementation
+/// of a library (CdrBufferFactory).
 template <class DataType>
 class BufferBase {
   public:
     virtual ~BufferBase() = default;
-    /// Called once, with the connector's properties below `buffer.`.
+    /// Called with the connector's properties below `buffer.`: once for each connection that uses the buffer.
     virtual void init(const coil::Properties& prop) = 0;
     virtual std::size_t length() const = 0;
     virtual BufferStatus length(std::size_t n) = 0;
@@ -22,7 +23,7 @@ class BufferBase {
     virtual DataType* wptr(long int n = 0) = 0;
     virtual BufferStatus advanceWptr(long int n = 1, bool unlock_enable = true) = 0;
     virtual BufferStatus put(const DataType& value) = 0;
-    /// Negative timeout: what the buffer's own policy says.
+    /// Appends a value. FULL or TIMEOUT: not accepted. A negative timeout leaves it to the buffer's policy.
     virtual BufferStatus write(const DataType& value,
                                std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) = 0;
     virtual std::size_t writable() const = 0;
@@ -31,6 +32,7 @@ class BufferBase {
     virtual BufferStatus advanceRptr(long int n = 1, bool unlock_enable = true) = 0;
     virtual BufferStatus get(DataType& value) = 0;
     virtual DataType& get() = 0;
+    /// Takes the oldest value. EMPTY or TIMEOUT: there is none.
     virtual BufferStatus read(DataType& value,
                               std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) = 0;
     virtual std::size_t readable() const = 0;

@@ -21,8 +21,8 @@ struct BufferStatusCode {
     };
 };
 
-/// What came of using a buffer: in 2.x an enumeration, in 1.x a class with `Enum` in it; this is taken for
-/// both.
+/// The result of a buffer operation. In 2.x it is a scoped enumeration, in 1.x a class with an `Enum` in it;
+/// this class can be used as either.
 class BufferStatus {
   public:
     static const BufferStatus OK, BUFFER_ERROR, FULL, EMPTY, NOT_SUPPORTED, TIMEOUT, PRECONDITION_NOT_MET;
@@ -44,7 +44,8 @@ class BufferStatus {
 };
 inline const char* toString(BufferStatus status) { return BufferStatus::toString(status); }
 
-// inline for headers of C++14, too: what both compilers do with it there is what C++17 says.
+// Inline variables are C++17; both compilers accept them in C++14 with this warning, which is turned off
+// here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wc++17-extensions"
 #define TANDEM_BUFFER_STATUS(NAME) inline constexpr BufferStatus BufferStatus::NAME{BufferStatusCode::NAME};

@@ -5,8 +5,8 @@
 namespace RTC {
 class ByteDataStreamBase;
 
-/// Owned bytes of one serialized message and their byte order. Memory is kept and reused: assigning or
-/// writing allocates only when a message is longer than any before.
+/// The bytes of one serialized message and their byte order. Memory is kept and reused: assigning or writing
+/// allocates only when a message is longer than all before. Not synchronized.
 class ByteData {
   public:
     ByteData();
@@ -16,14 +16,16 @@ class ByteData {
     ByteData& operator=(const ByteData& other);
     ByteData& operator=(const ByteDataStreamBase& stream);
 
-    /// Copies `length` bytes out; asking for more than there is copies what there is.
+    /// Copies `length` bytes to `data`, or all there are when that is less.
     void readData(unsigned char* data, unsigned long length) const;
+    /// Replaces the content.
     void writeData(const unsigned char* data, unsigned long length);
     unsigned char* getBuffer() const { return m_buf; }
     unsigned long getDataLength() const { return m_len; }
     /// Sets the length; bytes up to it are kept, new ones are zero.
     void setDataLength(unsigned long length);
     void isLittleEndian(bool little_endian) { m_little_endian = little_endian; }
+    /// True: little-endian.
     bool getEndian() const { return m_little_endian; }
 
   private:

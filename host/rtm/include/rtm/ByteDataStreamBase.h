@@ -10,7 +10,8 @@
 
 namespace RTC {
 
-/// Serialized bytes as a connector handles them: writeData() puts bytes in, readData() takes them out.
+/// A serializer as a connector sees it: writeData() gives it bytes to decode, readData() copies out what it
+/// has encoded. Not synchronized: each connector has its own.
 class ByteDataStreamBase {
   public:
     ByteDataStreamBase() = default;
@@ -19,10 +20,12 @@ class ByteDataStreamBase {
     virtual void writeData(const unsigned char* buffer, unsigned long length) = 0;
     virtual void readData(unsigned char* buffer, unsigned long length) const = 0;
     virtual unsigned long getDataLength() const = 0;
+    /// Sets the byte order of what follows.
     virtual void isLittleEndian(bool little_endian);
 };
 
-/// Values of one type to bytes and back.
+/// A serializer for values of one type. Both functions: false when that cannot be done. Users derive from it
+/// and register it with addSerializer().
 template <typename DataType>
 class ByteDataStream : public ByteDataStreamBase {
   public:
@@ -30,13 +33,14 @@ class ByteDataStream : public ByteDataStreamBase {
     virtual bool deserialize(DataType& data) = 0;
 };
 
-/// By `<repository id>:<marshaling type>`.
+/// All serializers of the process, by `<repository id>:<marshaling type>`.
 using SerializerFactory = coil::GlobalFactory<ByteDataStreamBase>;
 
 template <class DataType>
 std::string addDataTypeToMarshalingType(const std::string& marshalingtype) {
     return std::string(CORBA_Util::toRepositoryId<DataType>()) + ":" + marshalingtype;
 }
+/// Makes a serializer available to connections whose `marshaling_type` names it.
 template <class DataType, class SerializerType>
 void addSerializer(const std::string& marshalingtype) {
     SerializerFactory::instance().addFactory(addDataTypeToMarshalingType<DataType>(marshalingtype),
@@ -47,10 +51,12 @@ template <class DataType>
 void removeSerializer(const std::string& marshalingtype) {
     SerializerFactory::instance().removeFactory(addDataTypeToMarshalingType<DataType>(marshalingtype));
 }
+/// NULL when there is none; give it back with SerializerFactory::deleteObject().
 template <class DataType>
 ByteDataStreamBase* createSerializer(const std::string& marshalingtype) {
     return SerializerFactory::instance().createObject(addDataTypeToMarshalingType<DataType>(marshalingtype));
 }
+/// The marshaling types that are available for a data type.
 template <class DataType>
 std::vector<std::string> getSerializerList() {
     const std::string prefix = addDataTypeToMarshalingType<DataType>("");

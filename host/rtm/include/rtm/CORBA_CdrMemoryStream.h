@@ -11,7 +11,8 @@
 
 namespace RTC {
 
-/// CDR of one message, aligned from its first byte. The memory is kept between messages.
+/// Encodes and decodes one message as CDR (OMG CORBA 3.3, part 2, 9.3), aligned from its first byte, without
+/// the encapsulation's byte-order octet, as OpenRTM-aist sends it. The memory is kept between messages.
 class CORBA_CdrMemoryStream {
   public:
     template <class DataType>
@@ -34,6 +35,7 @@ class CORBA_CdrMemoryStream {
             return false;
         }
     }
+    /// Before encoding, and before writeCdrData().
     void setEndian(bool little_endian) { m_endian = little_endian; }
     const unsigned char* getBuffer();
     unsigned long getCdrDataLength() const;
@@ -46,6 +48,7 @@ class CORBA_CdrMemoryStream {
     bool m_endian = true;
 };
 
+/// The serializer of the marshaling type `cdr`.
 template <class DataType>
 class CORBA_CdrSerializer : public ByteDataStream<DataType> {
   public:
@@ -64,7 +67,7 @@ class CORBA_CdrSerializer : public ByteDataStream<DataType> {
     CORBA_CdrMemoryStream m_cdr;
 };
 
-/// One value for an InPlaceBuffer.
+/// Encodes one value into an InPlaceBuffer. Refers to the value, which must outlive it.
 template <class DataType>
 class CdrMarshal final : public Marshal {
   public:
@@ -82,6 +85,7 @@ class CdrMarshal final : public Marshal {
     const DataType& m_data;
 };
 
+/// Decodes one value in an InPlaceBuffer; `valid` says whether the bytes were one.
 template <class DataType>
 class CdrUnmarshal final : public Unmarshal {
   public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Short forms of what one does with references to components, contexts and ports, in this process or others.
-// All throw CORBA::SystemException when an object cannot be reached.
+// Helper functions for references to components, contexts and ports, of this process or others. All throw
+// CORBA::SystemException when an object cannot be reached; references they return are the caller's.
 #ifndef RTC_CORBA_RTCUTIL_H
 #define RTC_CORBA_RTCUTIL_H
 #include <coil/Properties.h>
@@ -31,7 +31,7 @@ double get_current_rate(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id);
 RTC::ReturnCode_t set_current_rate(RTC::RTObject_ptr rtc, RTC::UniqueId ec_id, double rate);
 /// Number of a context of the component; -1 when it is none of its own.
 RTC::UniqueId get_ec_id(RTC::RTObject_ptr rtc, RTC::ExecutionContext_ptr context);
-/// `other` takes part in the first context of `rtc`, or no longer does.
+/// Adds `other` to, or removes it from, the first context of `rtc`.
 RTC::ReturnCode_t add_rtc_to_default_ec(RTC::RTObject_ptr rtc, RTC::RTObject_ptr other);
 RTC::ReturnCode_t remove_rtc_to_default_ec(RTC::RTObject_ptr rtc, RTC::RTObject_ptr other);
 /// Components in the first context of `rtc`.
@@ -50,6 +50,7 @@ coil::vstring get_connector_names(RTC::RTObject_ptr rtc, const std::string& port
 coil::vstring get_connector_ids(RTC::PortService_ptr port);
 coil::vstring get_connector_ids(RTC::RTObject_ptr rtc, const std::string& port_name);
 
+/// The profile for a connection of two ports, which connect() uses; the caller owns it.
 RTC::ConnectorProfile* create_connector(const std::string& name, const coil::Properties& properties,
                                         RTC::PortService_ptr port0, RTC::PortService_ptr port1);
 bool already_connected(RTC::PortService_ptr port0, RTC::PortService_ptr port1);
@@ -58,7 +59,8 @@ RTC::ReturnCode_t connect(const std::string& name, const coil::Properties& prope
 RTC::ReturnCode_t connect_by_name(const std::string& name, const coil::Properties& properties,
                                   RTC::RTObject_ptr rtc0, const std::string& port0, RTC::RTObject_ptr rtc1,
                                   const std::string& port1);
-/// Each target by a connection of its own; the first failure is the result, the others are made all the same.
+/// Connects `port` with each target by a connection of its own. The result is that of the first that fails;
+/// the others are made all the same.
 RTC::ReturnCode_t connect_multi(const std::string& name, const coil::Properties& properties,
                                 RTC::PortService_ptr port, RTC::PortServiceList& target_ports);
 // BAD_PARAMETER: there is no such connection.
@@ -68,8 +70,8 @@ RTC::ReturnCode_t disconnect_connector_id(RTC::PortService_ptr port, const std::
 /// All connections of `port` with the port called `other_name`.
 RTC::ReturnCode_t disconnect_name(RTC::PortService_ptr port, const std::string& other_name);
 RTC::ReturnCode_t disconnect_all(RTC::PortService_ptr port);
-// The same for a port given by `Name0.port`, rtcname://HOST:PORT/CONTEXT/Name0.port or rtcloc://HOST:PORT/Name0.port;
-// BAD_PARAMETER, or nil, when it is not there.
+// The same functions for a port given by `Name0.port`, rtcname://HOST:PORT/CONTEXT/Name0.port or
+// rtcloc://HOST:PORT/Name0.port; BAD_PARAMETER, or nil, when it is not there.
 RTC::ReturnCode_t disconnect_connector_name(const std::string& port_name, const std::string& connector_name);
 RTC::ReturnCode_t disconnect_connector_id(const std::string& port_name, const std::string& connector_id);
 RTC::ReturnCode_t disconnect_all(const std::string& port_name);

@@ -21,6 +21,7 @@ CORBA::Long find(const CorbaSequence& seq, Functor f) {
     return -1;
 }
 
+/// Appends a copy of `elem`.
 template <class CorbaSequence, class SequenceElement>
 void push_back(CorbaSequence& seq, SequenceElement elem) {
     const CORBA::ULong at = seq.length();
@@ -35,7 +36,7 @@ void push_back_list(CorbaSequence& seq1, const CorbaSequence& seq2) {
     for (CORBA::ULong i = 0; i < seq2.length(); ++i) seq1[at + i] = seq2[i];
 }
 
-/// Behind the end when `index` is.
+/// Inserts before position `index`, or at the end when that is beyond it.
 template <class CorbaSequence, class SequenceElement>
 void insert(CorbaSequence& seq, SequenceElement& elem, CORBA::ULong index) {
     const CORBA::ULong length = seq.length();
@@ -54,6 +55,7 @@ SequenceElement& back(CorbaSequence& seq) {
     return seq[seq.length() - 1];
 }
 
+/// Nothing happens when `index` is beyond the end.
 template <class CorbaSequence>
 void erase(CorbaSequence& seq, CORBA::ULong index) {
     const CORBA::ULong length = seq.length();
@@ -62,6 +64,7 @@ void erase(CorbaSequence& seq, CORBA::ULong index) {
     seq.length(length - 1);
 }
 
+/// Erases the first element for which f is true.
 template <class CorbaSequence, class Functor>
 void erase_if(CorbaSequence& seq, Functor f) {
     const CORBA::Long index = find(seq, f);
@@ -73,11 +76,11 @@ void clear(CorbaSequence& seq) {
     seq.length(0);
 }
 
-/// Stringified references.
+/// The IORs of a list of references.
 template <class CorbaRefSequence>
 coil::vstring refToVstring(const CorbaRefSequence& objlist) {
     int argc = 0;
-    CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr); // the process has one: this is it
+    CORBA::ORB_var orb = CORBA::ORB_init(argc, nullptr); // omniORB has one ORB per process: this one
     coil::vstring iors;
     for (CORBA::ULong i = 0; i < objlist.length(); ++i) {
         CORBA::String_var ior = orb->object_to_string(objlist[i]);

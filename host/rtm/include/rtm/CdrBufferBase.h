@@ -8,8 +8,8 @@
 
 namespace RTC {
 using CdrBufferBase = BufferBase<ByteData>;
-/// A connector whose property `dataport.buffer_type` (or `dataport.inport.buffer_type`) names a factory added
-/// here gets a buffer of its own from it on the InPort side.
+/// Buffers that libraries bring, by name. A connection whose `dataport.buffer_type` (or
+/// `dataport.inport.buffer_type`) names one gets a buffer of its own on the InPort's side.
 using CdrBufferFactory = ::coil::GlobalFactory<CdrBufferBase>;
 } // namespace RTC
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks around the life-cycle callbacks of a component, and around its ports and contexts.
+// Listeners to the life cycle of a component: before and after each of its callbacks, and when a port or a
+// context is added or removed. They run in the thread that causes the event.
 #ifndef RTC_COMPONENTACTIONLISTENER_H
 #define RTC_COMPONENTACTIONLISTENER_H
 #include <array>
@@ -45,7 +46,7 @@ enum class ExecutionContextActionListenerType : std::uint8_t {
     EC_ACTION_LISTENER_NUM
 };
 
-// Plain names, as components written for 1.x say them.
+// The unscoped names that components written for 1.x use.
 constexpr auto PRE_ON_INITIALIZE = PreComponentActionListenerType::PRE_ON_INITIALIZE;
 constexpr auto PRE_ON_FINALIZE = PreComponentActionListenerType::PRE_ON_FINALIZE;
 constexpr auto PRE_ON_STARTUP = PreComponentActionListenerType::PRE_ON_STARTUP;
@@ -81,24 +82,28 @@ constexpr auto POST_COMPONENT_ACTION_LISTENER_NUM =
 constexpr auto PORT_ACTION_LISTENER_NUM = PortActionListenerType::PORT_ACTION_LISTENER_NUM;
 constexpr auto EC_ACTION_LISTENER_NUM = ExecutionContextActionListenerType::EC_ACTION_LISTENER_NUM;
 
+/// Called before a callback of the component.
 class PreComponentActionListener {
   public:
     static const char* toString(PreComponentActionListenerType type);
     virtual ~PreComponentActionListener() = default;
     virtual void operator()(UniqueId ec_id) = 0;
 };
+/// Called after a callback of the component, with its result.
 class PostComponentActionListener {
   public:
     static const char* toString(PostComponentActionListenerType type);
     virtual ~PostComponentActionListener() = default;
     virtual void operator()(UniqueId ec_id, ReturnCode_t ret) = 0;
 };
+/// Called when a port is added or removed.
 class PortActionListener {
   public:
     static const char* toString(PortActionListenerType type);
     virtual ~PortActionListener() = default;
     virtual void operator()(const RTC::PortProfile& profile) = 0;
 };
+/// Called when a context is attached or detached.
 class ExecutionContextActionListener {
   public:
     static const char* toString(ExecutionContextActionListenerType type);
@@ -106,7 +111,7 @@ class ExecutionContextActionListener {
     virtual void operator()(UniqueId ec_id) = 0;
 };
 
-/// A component's listeners by kind.
+/// The listeners of a component, by type of event: index with at(type). [any-thread]
 class ComponentActionListeners {
     template <class Listener, class Type, Type Count>
     using Table = std::array<RTM::util::ListenerHolder<Listener>, static_cast<std::size_t>(Count)>;

@@ -13,17 +13,19 @@
 
 namespace RTC {
 
-/// A variable bound to a configuration parameter.
+/// A variable of a component, bound to a configuration parameter.
 struct ConfigBase {
     ConfigBase(const char* name_, const char* def_val) : name(name_), default_value(def_val) {}
     virtual ~ConfigBase() = default;
-    /// Text into the variable, the default when the text does not fit; true when the text was new.
+    /// Converts the text into the variable; takes the default when it cannot be converted. True when the text
+    /// was new.
     virtual bool update(const char* val) = 0;
     std::string name;
     std::string default_value;
     std::string string_value;
 };
 
+/// The same for a variable of one type; `trans` converts from text.
 template <typename VarType>
 class Config : public ConfigBase {
   public:
@@ -44,16 +46,17 @@ class Config : public ConfigBase {
     bool m_set = false;
 };
 
-/// Named sets of parameters, one of them active. Variables change only in update(), which the component calls
-/// at its update points; setting and choosing sets is safe from any thread.
+/// The configuration of a component: named sets of parameters, one of them active. Bound variables change
+/// only in update(), which the component calls at its update points, in the thread of its cycle; changing and
+/// choosing sets [any-thread].
 class ConfigAdmin {
   public:
     explicit ConfigAdmin(coil::Properties& configsets) : m_configsets(configsets) {}
     ConfigAdmin(const ConfigAdmin&) = delete;
     ConfigAdmin& operator=(const ConfigAdmin&) = delete;
 
-    /// Gives `var` its default (or what the active set says) at once. False: a parameter of that name exists,
-    /// or the default cannot be read.
+    /// Binds a variable and sets it at once, to its default or to the value of the active set. False: a
+    /// parameter of that name exists, or the default cannot be converted.
     template <typename VarType>
     bool bindParameter(const char* param_name, VarType& var, const char* def_val,
                        bool (*trans)(VarType&, const char*) = coil::stringTo) {
@@ -62,10 +65,12 @@ class ConfigAdmin {
         add(std::unique_ptr<ConfigBase>(new Config<VarType>(param_name, var, def_val, trans)));
         return true;
     }
+    /// False: there is no such parameter.
     bool unbindParameter(const char* param_name);
 
-    /// The active set into the variables, when there is something new.
+    /// Sets the variables from the active set, when it or the choice of it has changed.
     void update();
+    /// Sets the variables, or one of them, from that set, whether or not it is the active one.
     void update(const char* config_set);
     void update(const char* config_set, const char* config_param);
 
@@ -77,7 +82,7 @@ class ConfigAdmin {
     bool isActive() const { return m_active; }
 
     std::vector<coil::Properties*> getConfigurationSets() const;
-    /// Ours: what may be looked at while others change and remove sets.
+    /// Ours: copies of the sets, which stay valid while other threads change and remove sets.
     std::vector<coil::Properties> copies() const;
     std::string activeId() const;
     coil::Properties getConfigurationSet(const char* config_id) const;
@@ -100,7 +105,7 @@ class ConfigAdmin {
     void removeConfigurationSetNameListener(ConfigurationSetNameListenerType type,
                                             ConfigurationSetNameListener* listener);
 
-    // 1.0: one callback each, which stays its owner's.
+    // The form of 1.0; the callbacks stay the caller's.
     void setOnUpdate(OnUpdateCallback* callback) {
         addConfigurationSetNameListener(ON_UPDATE_CONFIG_SET, callback, false);
     }

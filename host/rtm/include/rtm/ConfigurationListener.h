@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks of configuration changes.
+// Listeners to changes of a component's configuration. They run in the thread that causes the change.
 #ifndef RTC_CONFIGURATIONLISTENER_H
 #define RTC_CONFIGURATIONLISTENER_H
 #include <coil/Properties.h>
@@ -35,18 +35,21 @@ constexpr auto CONFIG_PARAM_LISTENER_NUM = ConfigurationParamListenerType::CONFI
 constexpr auto CONFIG_SET_LISTENER_NUM = ConfigurationSetListenerType::CONFIG_SET_LISTENER_NUM;
 constexpr auto CONFIG_SET_NAME_LISTENER_NUM = ConfigurationSetNameListenerType::CONFIG_SET_NAME_LISTENER_NUM;
 
+/// Called when a parameter has been set from a configuration set.
 class ConfigurationParamListener {
   public:
     static const char* toString(ConfigurationParamListenerType type);
     virtual ~ConfigurationParamListener() = default;
     virtual void operator()(const char* config_set_name, const char* config_param_name) = 0;
 };
+/// Called when a configuration set has been changed or added.
 class ConfigurationSetListener {
   public:
     static const char* toString(ConfigurationSetListenerType type);
     virtual ~ConfigurationSetListener() = default;
     virtual void operator()(const coil::Properties& config_set) = 0;
 };
+/// Called when a configuration set has been applied, removed or chosen.
 class ConfigurationSetNameListener {
   public:
     static const char* toString(ConfigurationSetNameListenerType type);
@@ -54,6 +57,7 @@ class ConfigurationSetNameListener {
     virtual void operator()(const char* config_set_name) = 0;
 };
 
+// Names of 1.0.
 using OnUpdateCallback = ConfigurationSetNameListener;
 using OnUpdateParamCallback = ConfigurationParamListener;
 using OnSetConfigurationSetCallback = ConfigurationSetListener;

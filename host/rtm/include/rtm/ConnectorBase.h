@@ -12,7 +12,8 @@
 
 namespace RTC {
 
-/// What a connector is: name, id, names (or IORs) of its ports, and its properties without `dataport.`.
+/// The description of a connector: name, id, the IORs of its connection's ports, and its properties without
+/// the prefix `dataport.`.
 class ConnectorInfo {
   public:
     ConnectorInfo() = default;
@@ -34,6 +35,7 @@ class ConnectorBase {
     virtual const char* id() = 0;
     virtual const char* name() = 0;
     virtual DataPortStatus disconnect() = 0;
+    /// NULL when this end has none.
     virtual CdrBufferBase* getBuffer() = 0;
     virtual void activate() = 0;
     virtual void deactivate() = 0;

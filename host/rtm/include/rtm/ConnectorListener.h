@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks of data connectors: kinds, base classes to derive from, and the table a port keeps them in.
+// Callbacks of data connectors: kinds of events, base classes to derive from, and the table in which a port
+// keeps its listeners.
 #ifndef RTC_CONNECTORLISTENER_H
 #define RTC_CONNECTORLISTENER_H
 #include <algorithm>
@@ -15,6 +16,7 @@
 
 namespace RTC {
 
+/// What a listener has changed; results of several listeners are combined by |.
 class ConnectorListenerStatus {
   public:
     enum Enum {
@@ -40,6 +42,7 @@ inline ConnectorListenerStatus::Enum operator&(ConnectorListenerStatus::Enum a,
     using ::RTC::ConnectorListenerStatus::DATA_CHANGED;                                                      \
     using ::RTC::ConnectorListenerStatus::BOTH_CHANGED
 
+/// Events with a message.
 enum class ConnectorDataListenerType : std::uint8_t {
     ON_BUFFER_WRITE = 0,
     ON_BUFFER_FULL,
@@ -53,6 +56,7 @@ enum class ConnectorDataListenerType : std::uint8_t {
     ON_RECEIVER_ERROR,
     CONNECTOR_DATA_LISTENER_NUM
 };
+/// Events without a message.
 enum class ConnectorListenerType : std::uint8_t {
     ON_BUFFER_EMPTY = 0,
     ON_BUFFER_READ_TIMEOUT,
@@ -64,7 +68,7 @@ enum class ConnectorListenerType : std::uint8_t {
     CONNECTOR_LISTENER_NUM
 };
 
-// Plain names, as components written for 1.x say them.
+// The unscoped names that components written for 1.x use.
 constexpr auto ON_BUFFER_WRITE = ConnectorDataListenerType::ON_BUFFER_WRITE;
 constexpr auto ON_BUFFER_FULL = ConnectorDataListenerType::ON_BUFFER_FULL;
 constexpr auto ON_BUFFER_WRITE_TIMEOUT = ConnectorDataListenerType::ON_BUFFER_WRITE_TIMEOUT;
@@ -85,9 +89,9 @@ constexpr auto ON_DISCONNECT = ConnectorListenerType::ON_DISCONNECT;
 constexpr auto CONNECTOR_DATA_LISTENER_NUM = ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM;
 constexpr auto CONNECTOR_LISTENER_NUM = ConnectorListenerType::CONNECTOR_LISTENER_NUM;
 
-/// Listens to the bytes. It runs in the thread that caused the event: writer, reader or ORB thread.
-/// Override one form: that of 2.x (ByteData), of 1.2 (a stream) or of 1.0 (const arguments, void).
-/// DATA_CHANGED hands changed bytes on.
+/// A listener to messages as bytes. It runs in the thread that causes the event: the writer's, the reader's
+/// or an ORB thread. Override one form: that of 2.x (ByteData), of 1.2 (a stream) or of 1.0 (const arguments,
+/// no result). With the result DATA_CHANGED the changed bytes are passed on.
 class ConnectorDataListener : public ConnectorListenerStatus {
   public:
     USE_CONNLISTENER_STATUS;
@@ -98,7 +102,7 @@ class ConnectorDataListener : public ConnectorListenerStatus {
     virtual void operator()(const ConnectorInfo& info, const cdrMemoryStream& data);
 };
 
-/// Listens to values of one type.
+/// A listener to messages as values of one type. Messages that are not of this type are not reported.
 template <class DataType>
 class ConnectorDataListenerT : public ConnectorDataListener {
   public:
@@ -146,7 +150,7 @@ class ConnectorDataListenerT : public ConnectorDataListener {
     std::string m_marshalingtype;
 };
 
-/// Listens to events without data.
+/// A listener to events without a message.
 class ConnectorListener : public ConnectorListenerStatus {
   public:
     USE_CONNLISTENER_STATUS;
@@ -156,7 +160,7 @@ class ConnectorListener : public ConnectorListenerStatus {
     virtual void operator()(const ConnectorInfo& info);
 };
 
-/// A port's listeners. notify() without listeners costs one load. [any-thread]
+/// The listeners of a port. notify() costs one atomic load when there are none. [any-thread]
 class ConnectorListeners {
   public:
     ConnectorListeners() = default;
@@ -164,6 +168,8 @@ class ConnectorListeners {
     ConnectorListeners(const ConnectorListeners&) = delete;
     ConnectorListeners& operator=(const ConnectorListeners&) = delete;
 
+    /// `autoclean`: the listener is deleted when it is removed or with this object. False: no such type, or
+    /// NULL.
     bool addListener(ConnectorDataListenerType type, ConnectorDataListener* listener, bool autoclean = true);
     bool addListener(ConnectorListenerType type, ConnectorListener* listener, bool autoclean = true);
     bool removeListener(ConnectorDataListenerType type, ConnectorDataListener* listener);
@@ -176,7 +182,7 @@ class ConnectorListeners {
         return info_[index(type)].count.load(std::memory_order_acquire) != 0;
     }
 
-    /// Is there a listener to any kind of data?
+    /// Is there a listener to any event with a message?
     bool hasDataListener() const {
         return std::any_of(data_.begin(), data_.end(),
                            [](const auto& kind) { return kind.count.load(std::memory_order_acquire) != 0; });
@@ -186,7 +192,8 @@ class ConnectorListeners {
                                          const std::string& marshalingtype) {
         return has(type) ? call(type, info, data, marshalingtype) : ConnectorListenerStatus::NO_CHANGE;
     }
-    /// As transports of libraries call them: serialized as the receiving, the sending end does.
+    /// For transports of libraries: the marshaling type is that of the receiving (In) or of the sending end
+    /// (Out).
     ConnectorListenerStatus::Enum notifyIn(ConnectorDataListenerType type, ConnectorInfo& info,
                                            ByteData& data) {
         return has(type) ? call(type, info, data, marshalingType(info, "inport"))
@@ -207,6 +214,8 @@ class ConnectorListeners {
     static std::size_t index(Type type) {
         return static_cast<std::size_t>(type);
     }
+    /// The listeners to one type of event, each with its autoclean. `count` is their number, readable without
+    /// the mutex.
     template <class Listener>
     struct Holder {
         std::recursive_mutex mutex;

@@ -8,8 +8,9 @@
 
 namespace RTC {
 
-/// One CORBA name server. Names as strings: `id.kind/id.kind`. Unless said otherwise the functions throw
-/// CORBA::SystemException and the exceptions of CosNaming; references they return are the caller's.
+/// A client of one CORBA name server. Names as strings are `id.kind/id.kind` (CosNaming's stringified names).
+/// Unless said otherwise the functions throw CORBA::SystemException and the exceptions of CosNaming;
+/// references they return are the caller's.
 class CorbaNaming {
   public:
     using SystemException = CORBA::SystemException;
@@ -29,7 +30,7 @@ class CorbaNaming {
     /// Does the server answer?
     bool isAlive();
 
-    // `force`: makes the contexts on the way.
+    // `force`: creates the contexts that the name goes through.
     void bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force = true);
     void bindByString(const char* string_name, CORBA::Object_ptr obj, bool force = true);
     void bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
@@ -57,9 +58,9 @@ class CorbaNaming {
     CosNaming::NamingContext_ptr bindNewContext(const CosNaming::Name& name, bool force = true);
     CosNaming::NamingContext_ptr bindNewContext(const char* string_name, bool force = true);
     static void destroy(CosNaming::NamingContext_ptr context);
-    /// Empties the context and the contexts in it. Objects stay alive.
+    /// Removes all bindings of the context and of the contexts in it. The bound objects are not touched.
     void destroyRecursive(CosNaming::NamingContext_ptr context);
-    /// Empties the server.
+    /// Removes all bindings of the server.
     void clearAll();
 
     static void list(CosNaming::NamingContext_ptr name_cxt, CORBA::ULong how_many,
@@ -73,7 +74,7 @@ class CorbaNaming {
     static CosNaming::Name toName(const char* string_name);
     char* toUrl(char* addr, char* string_name);
 
-    /// Binds, or gives what is bound already.
+    /// Binds the object, or returns the one that is bound to the name already.
     static CORBA::Object_ptr bindOrResolve(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
                                            CORBA::Object_ptr obj);
     static CosNaming::NamingContext_ptr bindOrResolveContext(CosNaming::NamingContext_ptr context,
@@ -86,7 +87,7 @@ class CorbaNaming {
     CosNaming::NamingContext_ptr getRootContext() {
         return CosNaming::NamingContext::_duplicate(m_rootContext.in());
     }
-    /// False also for what cannot be reached.
+    /// False also for an object that cannot be reached.
     static bool isNamingContext(CORBA::Object_ptr obj);
     bool isNamingContext(const CosNaming::Name& name);
     bool isNamingContext(const char* string_name);

@@ -10,17 +10,18 @@
 namespace RTC {
 
 /// A service port: any number of provided and required interfaces. A consumer gets the provider of the same
-/// type and instance name on the other side, unless the connector's properties map it explicitly.
-/// Providers can be called only while their component is active.
+/// type and instance name at the other port, unless the connection's properties map it explicitly. Providers
+/// can be called only while their component is active: others get CORBA::OBJECT_NOT_EXIST.
 class CorbaPort : public PortBase {
   public:
     explicit CorbaPort(const char* name);
     ~CorbaPort() override;
-    /// With the port's properties of rtc.conf, when the port is added to its component.
+    /// Called with the port's properties of rtc.conf when the port is added to its component.
     void init(coil::Properties& prop);
     /// `provider` stays the caller's and must outlive the port; it may be any servant, dynamic ones included.
     bool registerProvider(const char* instance_name, const char* type_name,
                           PortableServer::ServantBase& provider);
+    /// `consumer` stays the caller's and must outlive the port. False, as above: the name is in use.
     bool registerConsumer(const char* instance_name, const char* type_name, CorbaConsumerBase& consumer);
 
     void activateInterfaces() override;
@@ -33,6 +34,7 @@ class CorbaPort : public PortBase {
 
   private:
     class Provider;
+    /// A required interface and the IOR of its present provider; empty when there is none.
     struct Consumer {
         std::string type, instance;
         CorbaConsumerBase* consumer;

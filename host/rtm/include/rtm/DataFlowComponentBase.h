@@ -6,7 +6,7 @@
 
 namespace RTC {
 
-/// What components derive from.
+/// The base class of users' components.
 class DataFlowComponentBase : public RTObject_impl {
   public:
     explicit DataFlowComponentBase(Manager* manager);

@@ -25,8 +25,9 @@ struct DataPortStatusCode {
     };
 };
 
-/// What came of handing data on: in 2.x an enumeration, in 1.x a class with `Enum` in it; this is taken for
-/// both.
+/// The result of sending or receiving a message. In 2.x it is a scoped enumeration, in 1.x a class with an
+/// `Enum` in it; this class can be used as either. BUFFER_...: the buffer on this side; SEND_..., RECV_...:
+/// the peer.
 class DataPortStatus {
   public:
     static const DataPortStatus PORT_OK, PORT_ERROR, BUFFER_ERROR, BUFFER_FULL, BUFFER_EMPTY, BUFFER_TIMEOUT,
@@ -46,7 +47,8 @@ using DataPortStatusList = std::vector<DataPortStatus>;
 
 const char* toString(DataPortStatus status);
 
-// inline for headers of C++14, too: what both compilers do with it there is what C++17 says.
+// Inline variables are C++17; both compilers accept them in C++14 with this warning, which is turned off
+// here.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wc++17-extensions"
 #define TANDEM_DATAPORT_STATUS(NAME)                                                                         \

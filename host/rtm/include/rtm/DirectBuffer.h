@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ours: the interface type `direct`, by which values of one process get from port to port as they are.
+// Ours: the buffer behind the interface type `direct`, by which values go from port to port within one
+// process without being serialized.
 #ifndef RTC_DIRECTBUFFER_H
 #define RTC_DIRECTBUFFER_H
 #include <memory>
@@ -14,14 +15,18 @@ namespace RTC {
 class DirectBufferBase {
   public:
     virtual ~DirectBufferBase() = default;
+    /// The data type of the port; a writer of another type cannot use the buffer.
     virtual const std::type_info& type() const = 0;
+    /// With a connection's properties below `buffer.`, as RingBuffer.
     virtual void init(const coil::Properties& buffer) = 0;
     virtual std::size_t readable() const = 0;
     virtual bool full() const = 0;
-    /// A message that had to be serialized after all: somebody listens to it, or it came from another process.
+    /// Stores a message that was serialized all the same: a listener wanted its bytes, or it came from
+    /// another process. BUFFER_ERROR: it is not of the port's type.
     virtual BufferStatus writeBytes(const ByteData& bytes) = 0;
 };
 
+/// The same for one data type; reading gives copies of the values that were written.
 template <class DataType>
 class DirectBuffer : public DirectBufferBase {
   public:
@@ -43,7 +48,8 @@ class DirectBuffer : public DirectBufferBase {
     RingBuffer<DataType> m_values;
 };
 
-/// Puts one value into a buffer. NOT_SUPPORTED: the buffer is for another type.
+/// Writes one value, whose type the caller does not know, into a buffer. NOT_SUPPORTED: the buffer is for
+/// another type.
 class DirectWriter {
   public:
     virtual BufferStatus operator()(DirectBufferBase& buffer) const = 0;
@@ -52,6 +58,7 @@ class DirectWriter {
     ~DirectWriter() = default;
 };
 
+/// Refers to the value, which must outlive it.
 template <class DataType>
 class TypedDirectWriter final : public DirectWriter {
   public:

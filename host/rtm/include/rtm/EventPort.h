@@ -11,12 +11,13 @@
 
 namespace RTC {
 
-/// Is a connection meant for an event? Its property `fsm_event_name`, or its name, says for which.
+/// Does the connection carry this event? Its property `fsm_event_name`, or its name, says which one it
+/// carries.
 inline bool carriesEvent(ConnectorInfo& info, const std::string& event_name) {
     return info.properties.getProperty("fsm_event_name") == event_name || info.name == event_name;
 }
 
-/// Puts an event without argument into the machine, whatever the message is.
+/// Queues an event without argument for each message of its connection, whatever the message's type.
 template <class FSM, class TOP, class R>
 class EventBinder0 : public ConnectorDataListener {
   public:
@@ -38,7 +39,7 @@ class EventBinder0 : public ConnectorDataListener {
     R (TOP::*m_handler)();
 };
 
-/// Puts an event into the machine whose argument is the value received.
+/// Queues an event whose argument is the received value.
 template <class FSM, class TOP, class R, class P0>
 class EventBinder1 : public ConnectorDataListenerT<P0> {
   public:
@@ -46,7 +47,7 @@ class EventBinder1 : public ConnectorDataListenerT<P0> {
     EventBinder1(FSM& fsm, const char* event_name, R (TOP::*handler)(P0))
         : m_fsm(fsm), m_eventName(event_name), m_handler(handler) {}
     using ConnectorDataListenerT<P0>::operator();
-    // Before the bytes are taken apart: other events' messages are of other types.
+    // Checked before the bytes are decoded: messages of other events are of other types.
     ReturnCode operator()(ConnectorInfo& info, ByteData& bytes, const std::string& marshalingtype) override {
         if (!carriesEvent(info, m_eventName)) return NO_CHANGE;
         return ConnectorDataListenerT<P0>::operator()(info, bytes, marshalingtype);
@@ -64,7 +65,8 @@ class EventBinder1 : public ConnectorDataListenerT<P0> {
     R (TOP::*m_handler)(P0);
 };
 
-/// A connection's `buffer.*` are those of the machine's events; its messages are not kept.
+/// Applies a connection's properties `buffer.*` to the machine's event queue; the port itself keeps no
+/// messages.
 class EventConnListener : public ConnectorListener {
   public:
     USE_CONNLISTENER_STATUS;
@@ -79,7 +81,8 @@ class EventConnListener : public ConnectorListener {
     FsmEvents& m_events;
 };
 
-/// A data port whose messages are events of a state machine. It accepts any data type.
+/// A data port whose messages are events of a state machine. It accepts any data type. Messages are queued in
+/// the sender's thread; the machine handles them in run_event().
 template <class FsmType>
 class EventInPort : public InPortBase {
   public:

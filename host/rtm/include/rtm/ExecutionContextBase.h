@@ -23,8 +23,10 @@ class RTObjectStateMachine;
 namespace RTC {
 class RTObject_impl;
 
-/// Runs the state machines of its components. A cycle carries out pending transitions of all components, then
-/// their onExecute (or onError), then onStateUpdate, one component after the other in one thread.
+/// An execution context (OMG RTC 1.0): runs the life-cycle state machines of its participants. A cycle
+/// carries out the pending transitions of all components, then their onExecute (or onError), then
+/// onStateUpdate, one component after the other in one thread. Derived classes say when a cycle comes. All
+/// public functions [any-thread].
 class ExecutionContextBase {
   public:
     explicit ExecutionContextBase(const char* name);
@@ -32,63 +34,80 @@ class ExecutionContextBase {
     ExecutionContextBase(const ExecutionContextBase&) = delete;
     ExecutionContextBase& operator=(const ExecutionContextBase&) = delete;
 
-    /// `rate` (Hz), `phase` (ms), `sync_transition` (YES), `transition_timeout` (s), and the last two for
-    /// activation, deactivation and reset alone.
+    /// Properties: `rate` (Hz), `phase` (ms), `sync_transition` (YES), `transition_timeout` (s, 0.5), and the
+    /// last two for activation, deactivation and reset alone, as `sync_activation`, `activation_timeout` ...
+    /// Values that do not fit are ignored.
     virtual void init(coil::Properties& props);
     /// Makes the component its owner and first participant.
     virtual ReturnCode_t bindComponent(RTObject_impl* rtc);
 
     bool isRunning() const;
+    /// Calls on_startup of all participants, then cycles begin. PRECONDITION_NOT_MET: it runs already, a
+    /// former thread of it hangs in a callback, or the caller is a callback of this context.
     ReturnCode_t start();
+    /// Ends the cycles, waits for one under way, then calls on_shutdown of all participants. RTC_ERROR: a
+    /// callback does not return. From a callback of this context it does not wait.
     ReturnCode_t stop();
     double getRate() const;
     std::chrono::nanoseconds getPeriod() const;
+    /// In Hz, from the next cycle on; calls on_rate_changed of all participants. BAD_PARAMETER unless
+    /// isRate().
     ReturnCode_t setRate(double rate);
-    /// Ours: is this a rate in Hz with a period that a clock can keep?
+    /// Ours: is this a rate in Hz whose period is between 1 ns and 11 days?
     static bool isRate(double rate) { return rate >= 1e-6 && rate <= 1e9; }
     ExecutionKind getKind() const { return m_kind; }
 
+    /// A component, also of another process, becomes a participant or ceases to be one, which it can only
+    /// while inactive. RTC_ERROR: it cannot be reached.
     ReturnCode_t addComponent(LightweightRTObject_ptr comp);
     ReturnCode_t removeComponent(LightweightRTObject_ptr comp);
-    /// With sync_transition they return when the transition is done, or RTC_ERROR when it has failed or is
-    /// not done within the timeout; called from a callback of this context, they only ask for it.
+    /// Transitions, which a cycle carries out. With sync_transition the call returns when the transition is
+    /// done, RTC_ERROR when it has failed or did not end within the timeout; called from a callback of this
+    /// context it only requests it. PRECONDITION_NOT_MET: the component is in another state, or the context
+    /// does not run.
     ReturnCode_t activateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t deactivateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t resetComponent(LightweightRTObject_ptr comp);
+    /// CREATED_STATE for what is no participant.
     LifeCycleState getComponentState(LightweightRTObject_ptr comp);
     static const char* getStateString(LifeCycleState state);
 
+    /// The caller owns it. Its properties are those of init(), with what the context has counted.
     ExecutionContextProfile* getProfile();
     ExecutionContextService_ptr getObjRef() const {
         return ExecutionContextService::_duplicate(m_objref.in());
     }
     coil::Properties getProperties() const { return m_properties; }
 
-    /// One cycle in the calling thread; not from a callback of this context.
+    /// Runs one cycle in the calling thread; not from a callback of this context.
     void invokeWorker();
-    /// Ours: ends the context's thread; cycles are over, and a transition is carried out by who asks for it.
-    /// RTC_ERROR: a callback does not return.
+    /// Ours: ends the context's thread and with it the cycles; from then on a transition is carried out in
+    /// the thread that requests it. RTC_ERROR: a callback does not return.
     ReturnCode_t stopThread() { return onStopping(); }
-    /// Ours: is the caller a callback of this context?
+    /// Ours: is the calling thread inside a cycle of this context, in a callback?
     bool isInsideCycle() const;
-    /// Ours: lets go of the owner and of the reference; after that the context can be deleted.
+    /// Ours: stops, drops owner and participants and deactivates the CORBA object; then it can be deleted.
     void retire();
 
   protected:
+    // Hooks of derived classes. An error of onStopping() says that the context's thread hangs in a callback;
+    // it is called once more before the next start.
     virtual ReturnCode_t onStarted() { return RTC_OK; }
     virtual ReturnCode_t onStopping() { return RTC_OK; }
     virtual ReturnCode_t onSetRate(double) { return RTC_OK; }
-    /// Has the context a thread that will carry a requested transition out? Otherwise the caller's does.
+    /// Has the context a thread that will carry out a requested transition? Otherwise the requesting thread
+    /// does.
     virtual bool hasThread() const { return false; }
+    /// Wakes that thread, which may be sleeping while nothing is active.
     virtual void onTransitionRequested() {}
-    /// Adds to the properties of the profile what the context has counted.
+    /// Adds what the context has counted to the properties of its profile.
     virtual void addStatistics(coil::Properties& /*properties*/) {}
     virtual PortableServer::ServantBase* servant() = 0;
 
     void setObjRef(ExecutionContextService_ptr ref) { m_objref = ExecutionContextService::_duplicate(ref); }
-    /// Is there anything to do: a component that is not simply inactive?
+    /// Does a cycle have anything to do: is a component not simply inactive?
     bool hasWork();
-    /// [cycle's thread] Has what the next cycle needs in the caches.
+    /// [cycle's thread] Brings what the next cycle needs into the caches; calls no component.
     void warmUp();
 
     mutable Logger rtclog;
@@ -99,11 +118,11 @@ class ExecutionContextBase {
   private:
     using Participant = std::shared_ptr<RTC_impl::RTObjectStateMachine>;
     Participant find(LightweightRTObject_ptr comp);
-    // Replaced, never changed: a cycle takes it without copying.
+    // The list is replaced, never changed, so that a cycle takes it without copying and without the mutex.
     using Participants = std::shared_ptr<const std::vector<Participant>>;
     Participants participants() const;
     void addParticipant(Participant participant);
-    /// Does who asks for a transition wait for it, and for how long?
+    /// Does the thread that requests a transition wait for its end, and how long?
     struct TransitionWait {
         bool sync = true;
         std::chrono::nanoseconds timeout = std::chrono::milliseconds(500);
@@ -113,41 +132,45 @@ class ExecutionContextBase {
     ReturnCode_t waitForTransition(const Participant& participant, LifeCycleState to,
                                    std::chrono::nanoseconds timeout);
     void cycle(bool warm_up);
-    bool setRunning(bool running); ///< false: it was so before
+    /// False when it was so before.
+    bool setRunning(bool running);
     void forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)());
 
-    mutable std::mutex m_mutex; // participants, rate, running
+    mutable std::mutex m_mutex; // guards participants, rate, running
     Participants m_participants = std::make_shared<const std::vector<Participant>>();
-    std::recursive_timed_mutex m_startStopMutex; // taken before m_mutex
+    // Held during start() and stop(), taken before m_mutex. Recursive: a callback of start() may stop().
+    std::recursive_timed_mutex m_startStopMutex;
     bool m_running = false;
     double m_rate = DEFAULT_EXECUTION_RATE;
     TransitionWait m_activation, m_deactivation, m_reset;
     RTObject_var m_owner;
     ExecutionContextService_var m_objref;
 
-    std::timed_mutex m_cycleMutex; // held during a cycle
-    std::atomic<std::thread::id> m_cycleThread{std::thread::id()};
+    std::timed_mutex m_cycleMutex;                                 // held during a cycle
+    std::atomic<std::thread::id> m_cycleThread{std::thread::id()}; // the thread inside a cycle, if any
     std::mutex m_cycleDoneMutex;
-    std::condition_variable m_cycleDone;
+    std::condition_variable m_cycleDone; // for those who wait for a transition
 };
 
-/// Contexts that libraries bring along, by name; registerECFactory() is 1.x's way to do the same.
+/// Context types that libraries bring, by name; Manager::registerECFactory() is the way of 1.x to add one.
 using ExecutionContextFactory = coil::GlobalFactory<ExecutionContextBase>;
 using ECNewFunc = ExecutionContextBase* (*)();
 using ECDeleteFunc = void (*)(ExecutionContextBase*);
 
-/// Creators of contexts by name.
+/// For registerECFactory().
 template <class T_New>
 ExecutionContextBase* ECCreate() {
     return new T_New();
 }
+/// Gives up the creator's reference: a call from outside that is under way keeps the context until it ends.
 void deleteExecutionContext(ExecutionContextBase* context);
 template <class T_Delete>
 void ECDelete(ExecutionContextBase* context) {
     deleteExecutionContext(context);
 }
 
-/// The CORBA face of a context: `Skeleton` is one of the POA_ classes of execution contexts.
+/// The CORBA object of a context: `Skeleton` is one of the POA_ classes of execution contexts; each operation
+/// of the IDL calls its counterpart above. [ORB threads]
 template <class Skeleton>
 class ExecutionContextServant : public virtual Skeleton,
                                 public virtual PortableServer::RefCountServantBase,

@@ -6,8 +6,8 @@
 
 namespace RTC {
 
-/// A context whose thread runs one cycle for each tick(), which does not wait for it; no tick is lost.
-/// Requested transitions are carried out by the thread that asks for them, between cycles.
+/// A context whose thread runs one cycle for each tick(). tick() does not wait for the cycle, and none is
+/// lost. Requested transitions are carried out in the thread that requests them, between cycles.
 class ExtTrigExecutionContext : public ExecutionContextServant<POA_OpenRTM::ExtTrigExecutionContextService> {
   public:
     ExtTrigExecutionContext();
@@ -32,7 +32,7 @@ namespace RTC {
 class Manager;
 }
 extern "C" {
-/// Makes the type known to the manager, which knows it anyway.
+/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
 void ExtTrigExecutionContextInit(RTC::Manager* manager);
 }
 #endif

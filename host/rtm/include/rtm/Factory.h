@@ -13,18 +13,19 @@ class RTObject_impl;
 using RtcNewFunc = RTObject_impl* (*)(Manager*);
 using RtcDeleteFunc = void (*)(RTObject_impl*);
 
+/// For registerFactory(): creates a component of class T_New.
 template <class T_New>
 RTObject_impl* Create(Manager* manager) {
     return new T_New(manager);
 }
-/// Gives up the creator's reference; a call from outside that is under way keeps the component until it ends.
+/// Releases the creator's reference; a call from outside that is under way keeps the component until it ends.
 void deleteRTObject(RTObject_impl* rtc);
 template <class T_Delete>
 void Delete(RTObject_impl* rtc) {
     deleteRTObject(rtc);
 }
 
-/// Makes and ends components of one type, and names them.
+/// Creates, names and destroys the components of one type.
 class FactoryBase {
   public:
     explicit FactoryBase(const coil::Properties& profile) : m_Profile(profile) {}
@@ -39,9 +40,10 @@ class FactoryBase {
     std::atomic<int> m_Number{-1};
 };
 
+/// A factory by the two functions that a module registers.
 class FactoryCXX : public FactoryBase {
   public:
-    /// The policy is the factory's from now on; NULL: ProcessUniquePolicy.
+    /// Takes over the policy that numbers the instances; NULL: ProcessUniquePolicy.
     FactoryCXX(const coil::Properties& profile, RtcNewFunc new_func, RtcDeleteFunc delete_func,
                RTM::NumberingPolicyBase* policy = nullptr)
         : FactoryBase(profile), m_New(new_func), m_Delete(delete_func), m_policy(policy) {
@@ -49,7 +51,7 @@ class FactoryCXX : public FactoryBase {
     }
     RTObject_impl* create(Manager* manager) override;
     void destroy(RTObject_impl* comp) override;
-    /// Ours: of which library the components are.
+    /// Ours: by its address the manager finds the library that the components come from.
     RtcNewFunc creator() const { return m_New; }
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks around the actions of a component's state machine.
+// Listeners to a component's state machine (StaticFSM.h): before and after the actions of its states.
 #ifndef RTC_FSMACTIONLISTENER_H
 #define RTC_FSMACTIONLISTENER_H
 #include <array>
@@ -26,12 +26,14 @@ enum class PostFsmActionListenerType : std::uint8_t {
     POST_FSM_ACTION_LISTENER_NUM
 };
 
+/// Called before an action, with the name of its state.
 class PreFsmActionListener {
   public:
     static const char* toString(PreFsmActionListenerType type);
     virtual ~PreFsmActionListener() = default;
     virtual void operator()(const char* state) = 0;
 };
+/// Called after an action, with its result.
 class PostFsmActionListener {
   public:
     static const char* toString(PostFsmActionListenerType type);

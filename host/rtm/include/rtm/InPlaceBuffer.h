@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ours, for bridges.
+// Ours, for bridges whose shared memory can hold a message while it is encoded or decoded.
 #ifndef RTC_INPLACEBUFFER_H
 #define RTC_INPLACEBUFFER_H
 #include <rtm/BufferStatus.h>
@@ -8,7 +8,8 @@
 
 namespace RTC {
 
-/// Puts one value into a stream, as often as it is asked to: to count its bytes, to write them. False: it cannot.
+/// Encodes one value into a stream. May be called several times, first to count the bytes, then to write
+/// them. False: the value cannot be encoded.
 class Marshal {
   public:
     virtual bool operator()(cdrStream& out) const = 0;
@@ -17,7 +18,7 @@ class Marshal {
     ~Marshal() = default;
 };
 
-/// Takes a message apart where it lies.
+/// Decodes a message from a stream over the buffer's memory.
 class Unmarshal {
   public:
     virtual void operator()(cdrStream& in) = 0;
@@ -26,16 +27,18 @@ class Unmarshal {
     ~Unmarshal() = default;
 };
 
-/// What a CdrBufferBase may be as well: a buffer in which long messages are made and read in place, without
-/// ByteData and the copies to and from it. Its messages are little-endian.
+/// A CdrBufferBase may implement this as well: long messages are then encoded into, and decoded from, the
+/// buffer's own memory, which saves the copies to and from ByteData. Its messages are little-endian. The
+/// thread rules are those of BufferBase.
 class InPlaceBuffer {
   public:
     virtual ~InPlaceBuffer() = default;
-    /// What a message is long from, in bytes.
+    /// From how many bytes on a message counts as long.
     virtual std::size_t minInPlaceLength() const = 0;
-    /// NOT_SUPPORTED: the message is not long, or it cannot be marshalled. Nothing has happened; write() it.
+    /// NOT_SUPPORTED: the message is not long, or cannot be encoded. Nothing has happened then: use write().
     virtual BufferStatus writeInPlace(const Marshal& marshal) = 0;
-    /// Like read(), but a long message is shown to `reader`, and `read_in_place` set, instead of being copied to `bytes`.
+    /// Like read(), but a long message is shown to `reader`, and `read_in_place` set, instead of being copied
+    /// to `bytes`.
     virtual BufferStatus readInPlace(ByteData& bytes, Unmarshal& reader, bool& read_in_place) = 0;
 };
 

@@ -9,7 +9,8 @@
 
 namespace RTC {
 
-/// A data port that receives values of one IDL struct into a variable of its component. [owner's thread]
+/// A data port that receives values of one IDL struct into a variable of its component. Registers the type's
+/// CDR serializer. All functions [owner's thread], which is the only one to touch the variable.
 template <class DataType>
 class InPort : public InPortBase {
   public:
@@ -20,14 +21,15 @@ class InPort : public InPortBase {
         addProperty("dataport.marshaling_types",
                     coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
     }
-    /// 1.x: the further arguments are those of the former buffer and mean nothing here.
+    /// The form of 1.x: its further arguments configured a buffer of the port and have no effect here.
     InPort(const char* name, DataType& value, int /*bufsize*/, bool /*read_block*/ = false,
            bool /*write_block*/ = false, int /*read_timeout*/ = 0, int /*write_timeout*/ = 0)
         : InPort(name, value) {}
 
     virtual const char* name() { return m_name.c_str(); }
 
-    /// Is there a value that was not read yet?
+    /// Does a connector have a value that was not read yet? With `name`: that connector; with `names`:
+    /// receives the names of all such connectors.
     bool isNew() override { return InPortBase::isNew(); }
     virtual bool isNew(std::string name) {
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
@@ -36,11 +38,13 @@ class InPort : public InPortBase {
     }
     virtual bool isNew(coil::vstring& names) { return selectConnectorNames(names, true); }
     bool isEmpty() override { return InPortBase::isEmpty(); }
+    /// The opposite, in the same three forms.
     virtual bool isEmpty(std::string name) { return !isNew(name); }
     virtual bool isEmpty(coil::vstring& names) { return selectConnectorNames(names, false); }
 
-    /// The oldest value into the variable; with an empty buffer what its policy says (readback: the last
-    /// value again, true). False: not connected, nothing ever came, or a message that is not of this type.
+    /// Reads the oldest value into the variable. With an empty buffer its policy decides (readback, the
+    /// default: the last value again, true). False, with getStatus(): not connected, nothing has ever come,
+    /// or a message that is not of this type; the variable may then be partly overwritten.
     bool read(std::string name = "") override {
         if (m_OnRead != nullptr) (*m_OnRead)();
         {
@@ -59,15 +63,19 @@ class InPort : public InPortBase {
         rhs = m_value;
     }
 
+    /// Of the last read(); an InPort has one status whatever the index.
     DataPortStatus getStatus(int /*index*/) { return m_status[0]; }
     DataPortStatusList getStatusList() { return m_status; }
+    /// Function objects called before a read, and with the value read; NULL: none. They stay the caller's.
     void setOnRead(OnRead<DataType>* on_read) { m_OnRead = on_read; }
     void setOnReadConvert(OnReadConvert<DataType>* on_rconvert) { m_OnReadConvert = on_rconvert; }
 
+    // Made on demand: most ports have no direct connection.
     std::shared_ptr<DirectBufferBase> directBuffer() override {
         if (m_directBuffer == nullptr) m_directBuffer = std::make_shared<DirectBuffer<DataType>>();
         return m_directBuffer;
     }
+    // [sender's or ORB thread] The message is bytes here: to set its time it is decoded and encoded again.
     void stampOnReceive(ByteData& bytes) override {
         CORBA_CdrSerializer<DataType> stream;
         DataType data = DataType();
@@ -96,7 +104,7 @@ class InPort : public InPortBase {
     OnReadConvert<DataType>* m_OnReadConvert = nullptr;
     DataPortStatusList m_status;
     std::shared_ptr<DirectBufferBase>
-        m_directBuffer; // one for all connections, as the buffer of the others is
+        m_directBuffer; // shared by all direct connections, as m_thebuffer is by the others
 };
 
 } // namespace RTC

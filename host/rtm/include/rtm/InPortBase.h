@@ -12,32 +12,37 @@ namespace RTC {
 class PushReceiver;
 class InPortPushConnector;
 
-/// A data port that receives. Connectors share one ring buffer, unless a connector asks for a buffer type of
-/// its own. Derive from it for a port whose type is known at run time only.
+/// A data port that receives. Its connectors share one ring buffer, except for those whose connection names a
+/// `buffer_type`. Derive from it for a port whose data type is known at run time only.
 class InPortBase : public PortBase {
   public:
     using ConnectorList = std::vector<InPortConnector*>;
 
     InPortBase(const char* name, const char* data_type);
     ~InPortBase() override;
-    /// With the port's properties of rtc.conf, when the port is added to its component.
+    /// Called with the port's properties of rtc.conf when the port is added to its component.
     virtual void init(coil::Properties& prop);
     virtual bool read(std::string name = "") = 0;
     virtual bool isNew() { return findReadable() != nullptr; }
     virtual bool isEmpty() { return findReadable() == nullptr; }
 
+    /// The port's configuration: the default for every connection's properties.
     coil::Properties& properties() { return m_properties; }
     const std::vector<InPortConnector*>& connectors() { return m_connectors; }
     ConnectorInfoList getConnectorProfiles();
     coil::vstring getConnectorIds();
     coil::vstring getConnectorNames();
+    /// NULL when there is none. The connector is deleted when its connection ends: not for keeping.
     InPortConnector* getConnectorById(const char* id);
     InPortConnector* getConnectorByName(const char* name);
+    /// False when there is none.
     bool getConnectorProfileById(const char* id, ConnectorInfo& prof);
     bool getConnectorProfileByName(const char* name, ConnectorInfo& prof);
     void activateInterfaces() override;
     void deactivateInterfaces() override;
 
+    /// `autoclean`: the listener is deleted when it is removed or when the port is destroyed. Listeners run
+    /// in the thread that causes the event. [any-thread]
     void addConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener,
                                   bool autoclean = true);
     void removeConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener);
@@ -46,23 +51,26 @@ class InPortBase : public PortBase {
     ConnectorListenersBase* getListeners() { return &m_listeners; }
     bool isLittleEndian() { return m_littleEndian; }
 
-    /// Ours: the local end of a connector, for an OutPort of this process; NULL when there is none.
+    /// Ours: where an OutPort of this process puts the messages of that connection; NULL when it is not a
+    /// push connection of this port. [any-thread]
     std::shared_ptr<PushReceiver> pushReceiver(const char* connector_id);
-    /// Ours: puts the time into a message that has arrived (timestamp_policy on_received).
+    /// Ours: sets the time in a received message (timestamp_policy on_received). [sender's or ORB thread]
     virtual void stampOnReceive(ByteData& bytes);
-    /// Ours: the buffer of `direct` connections; NULL for a port that takes bytes only.
+    /// Ours: the buffer of `direct` connections, which takes unserialized values; NULL for a port that takes
+    /// bytes only.
     virtual std::shared_ptr<DirectBufferBase> directBuffer() { return nullptr; }
 
   protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
-    /// The connector to read next: one with data, NULL when none has any. Locks m_connectorsMutex.
+    /// The connector to read next: the first with data, NULL when none has any. Locks m_connectorsMutex.
     InPortConnector* findReadable();
-    /// The same for a holder of m_connectorsMutex; `name` empty: any.
+    /// The same for a caller that holds m_connectorsMutex. `name`: only connectors of that name; empty: all.
+    /// `fallback_to_first`: the first of them, for its status, when none has data.
     InPortConnector* findReadableLocked(const std::string& name, bool fallback_to_first);
 
-    bool m_singlebuffer = true;
+    bool m_singlebuffer = true; // connectors share m_thebuffer; components may clear it
     CdrBufferBase* m_thebuffer = nullptr;
     ConnectorList m_connectors;
     bool m_littleEndian = true;
@@ -71,7 +79,7 @@ class InPortBase : public PortBase {
   private:
     ReturnCode_t addPushConnector(ConnectorProfile& connector_profile, const coil::Properties& prop);
     ReturnCode_t addPushProvider(ConnectorProfile& connector_profile, const coil::Properties& prop,
-                                 const std::string& type, InPortPushConnector* connector);
+                                 const std::string& type, std::unique_ptr<InPortPushConnector> connector);
     ReturnCode_t addPullConnector(const ConnectorProfile& connector_profile, const coil::Properties& prop);
     void addConnector(InPortConnector* connector);
 };

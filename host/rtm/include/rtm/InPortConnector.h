@@ -9,7 +9,9 @@
 
 namespace RTC {
 
-/// The receiving end of a data connection. Its port reads it from one thread at a time.
+/// The receiving end of a data connection, owned by its InPort, which reads it from one thread at a time.
+/// Values go through the serializer of the connection's marshaling type (CDR unless it names another), except
+/// for the two short cuts: a DirectBuffer has the value as it is, an InPlaceBuffer decodes it where it lies.
 class InPortConnector : public ConnectorBase {
   public:
     InPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners, CdrBufferBase* buffer);
@@ -23,10 +25,13 @@ class InPortConnector : public ConnectorBase {
     void activate() override {}
     void deactivate() override {}
 
-    /// The oldest message into `stream`, in the byte order it came in.
+    /// Reads the oldest message into `stream`, in the byte order it came in.
     virtual DataPortStatus read(ByteDataStreamBase* stream);
-    /// The oldest message as bytes.
+    /// Reads the oldest message as bytes. BUFFER_EMPTY, BUFFER_TIMEOUT: the buffer has none, by its
+    /// empty-policy.
     virtual DataPortStatus read(ByteData& bytes);
+    /// Reads the oldest message as a value. PORT_ERROR: no serializer for its type; BUFFER_ERROR: it is not
+    /// one.
     template <class DataType>
     DataPortStatus read(DataType& data) {
         auto* stream = serializer<DataType>();
@@ -51,9 +56,9 @@ class InPortConnector : public ConnectorBase {
         return status;
     }
 
-    /// A message from the other end; ON_RECEIVED listeners first, then the buffer. [any-thread]
+    /// Stores a message from the peer, after its ON_RECEIVED listeners: for an InPortProvider. [any-thread]
     virtual BufferStatus write(ByteData& bytes);
-    /// Ours: how many messages wait.
+    /// Ours: how many messages can be read.
     std::size_t readableCount() {
         return m_directBuffer ? m_directBuffer->readable() : getBuffer()->readable();
     }
@@ -61,7 +66,8 @@ class InPortConnector : public ConnectorBase {
     virtual bool isLittleEndian() { return m_littleEndian; }
 
   protected:
-    // Looked up once: the type of a connector never changes.
+    // Looked up at the first read: the type of a connector does not change after that. Compared by address
+    // first, which is the same for one type within a library and costs no string comparison.
     template <class DataType>
     ByteDataStream<DataType>* serializer() {
         if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
@@ -83,7 +89,7 @@ class InPortConnector : public ConnectorBase {
         const BufferStatus status = buffer.read(data);
         if (status != BufferStatus::OK || !m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ))
             return notifyReadResult(status, m_bytes);
-        // Listeners see bytes, and may change them.
+        // A listener wants the bytes, and may change them: encoded for it and decoded again.
         stream.isLittleEndian(true);
         if (!stream.serialize(data)) return DataPortStatus::BUFFER_ERROR;
         m_bytes = stream;
@@ -93,7 +99,8 @@ class InPortConnector : public ConnectorBase {
         stream.writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
         return stream.deserialize(data) ? read_status : DataPortStatus::BUFFER_ERROR;
     }
-    /// Ours: the oldest message, if it is long, to `reader` where it lies, otherwise into `stream`.
+    /// Ours: lets `reader` decode the oldest message in the buffer when it is long (`read_in_place` is true
+    /// then), otherwise copies it into `stream`.
     DataPortStatus read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place);
 
     Logger rtclog{"InPortConnector"};
@@ -105,11 +112,11 @@ class InPortConnector : public ConnectorBase {
     TimestampPolicy m_timestamp;
     ByteDataStreamBase* m_cdr = nullptr;
 
-    InPlaceBuffer* m_inPlace = nullptr;               // the buffer, if it is one
-    std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection
+    InPlaceBuffer* m_inPlace = nullptr;               // m_buffer, when it is one
+    std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection, else NULL
 
   private:
-    bool m_isStandardCdr = false; // the serializer does what any stream does
+    bool m_isStandardCdr = false; // the serializer is ours, so CdrUnmarshal may replace it
     ByteData m_bytes;
     void* m_typedSerializer = nullptr;
     const std::type_info* m_type = nullptr;

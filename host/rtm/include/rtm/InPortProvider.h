@@ -12,7 +12,8 @@
 
 namespace RTC {
 
-/// The receiving end of a transport for push: gives the InPort's connector what arrives.
+/// The receiving end of a transport for push connections, which a library brings: writes the messages that
+/// arrive into the InPort's connector, after calling the ON_RECEIVED listeners.
 class InPortProvider {
   public:
     InPortProvider();
@@ -21,9 +22,9 @@ class InPortProvider {
     virtual void setBuffer(BufferBase<ByteData>* buffer) = 0;
     virtual void setListener(ConnectorInfo& info, ConnectorListenersBase* listeners) = 0;
     virtual void setConnector(InPortConnector* connector) = 0;
-    /// Its types, for the port's profile.
+    /// Publishes its types in the port's profile.
     virtual void publishInterfaceProfile(SDOPackage::NVList& prop);
-    /// Its address, for a connection of its interface type; false for others.
+    /// Publishes its address in the profile of a connection of its interface type; false for other types.
     virtual bool publishInterface(SDOPackage::NVList& prop);
 
   protected:
@@ -38,7 +39,7 @@ class InPortProvider {
   private:
     std::string m_interfaceType, m_dataflowType, m_subscriptionType;
 };
-/// By interface type.
+/// The registered ones, by the interface type that a connection asks for.
 using InPortProviderFactory = ::coil::GlobalFactory<InPortProvider>;
 
 } // namespace RTC

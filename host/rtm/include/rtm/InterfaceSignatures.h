@@ -8,10 +8,12 @@
 
 namespace RTC {
 
-/// Type signatures of IDL structs and operations, by repository id; ours, not part of OpenRTM-aist.
-/// A signature is structural: b c y n q i u x t f d s w, a<T> sequence, [N]<T> array, (...) struct, ? unsayable.
-/// Filled by the initialisers that tandem_add_rtm_idl() generates, and by ports for their data types.
-/// [any-thread]
+/// Type signatures of IDL structs and operations, by repository id; ours, not part of OpenRTM-aist. A
+/// signature says the structure of a type in the alphabet of the D-Bus type system: b boolean, y octet, n q i
+/// u x t integers of 16, 32 and 64 bits (n, i, x signed), d double, s string, a<T> sequence, (...) struct.
+/// Beyond D-Bus: c char, f float, w wide string, [N]<T> array, ? a type that has no signature (any, union,
+/// object reference, recursive). Filled by the initialisers that tandem_add_rtm_idl() generates, and by ports
+/// for their data types. [any-thread]
 class InterfaceSignatures {
   public:
     struct Operation {

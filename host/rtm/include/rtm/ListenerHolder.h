@@ -9,7 +9,8 @@
 namespace RTM {
 namespace util {
 
-/// Listeners and whether they are deleted when they go. Called in the order they were added. [any-thread]
+/// A list of listeners, each with `autoclean`: whether it is deleted when it is removed or with the list.
+/// They are called in the order they were added. [any-thread]
 template <class ListenerClass>
 class ListenerHolder {
   public:
@@ -33,6 +34,8 @@ class ListenerHolder {
         if (found->second) delete found->first;
         m_listeners.erase(found);
     }
+    /// Calls `call(listener)` with the mutex held. It is recursive and the loop goes by index, so that a
+    /// listener may add others.
     template <class Call>
     void forEach(Call call) {
         std::lock_guard<std::recursive_mutex> lock(m_mutex);

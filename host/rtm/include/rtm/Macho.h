@@ -2,12 +2,11 @@
 // Hierarchical state machines with the interface that components know from Macho (E. Hiti): states are
 // classes, a substate derives from its superstate, events are the virtual functions of the top state.
 //
-//   TOPSTATE(Top) { struct Box { int n = 0; }; STATE(Top); virtual void go() {} };
-//   SUBSTATE(Moving, Top) { STATE(Moving); void go() override; };
-//   Macho::Machine<Top> m;  m->go();
+// TOPSTATE(Top) { struct Box { int n = 0; }; STATE(Top); virtual void go() {} }; SUBSTATE(Moving, Top) {
+// STATE(Moving); void go() override; }; Macho::Machine<Top> m;  m->go();
 //
-// A change of state asked for by a handler takes place when the handler has returned. A machine belongs to
-// one thread at a time.
+// A handler's setState() takes effect when the handler has returned. A machine is used by one thread at a
+// time.
 #ifndef MACHO_HPP
 #define MACHO_HPP
 #include <cstddef>
@@ -43,7 +42,8 @@
   public:                                                                                                    \
     bool _persistent() const override { return true; }
 
-/// Calls the init() of a state, which may be private. (Each state has it as a friend, under Macho's name for it.)
+/// Calls the init() of a state, which may be private. (Each state has it as a friend, under Macho's name for
+/// it.)
 class _VS8_Bug_101615 {
   public:
     template <class S, class... A, std::size_t... I>
@@ -57,7 +57,7 @@ namespace Macho {
 template <class TOP>
 class Machine;
 
-/// An event on its way to whatever state is current when it gets there.
+/// An event as an object: dispatch() calls its handler in the state that is current then.
 template <class TOP>
 class IEvent {
   public:
@@ -82,19 +82,19 @@ class _Event : public IEvent<TOP> {
     std::tuple<std::decay_t<P>...> m_arguments;
 };
 
-/// For dispatch(), which deletes it: `dispatch(Macho::Event(&Top::go, 3))`.
+/// Makes an event for dispatch(), which deletes it: `dispatch(Macho::Event(&Top::go, 3))`.
 template <class TOP, class R, class... P, class... A>
 IEvent<TOP>* Event(R (TOP::*handler)(P...), A&&... arguments) {
     return new _Event<TOP, R, P...>(handler, std::forward<A>(arguments)...);
 }
 
-/// Superstate of the top state.
+/// The superstate of the top state.
 template <class T>
 class TopBase : public _StateSpecification {
   public:
     using TOP = T;
     explicit TopBase(_StateInstance& instance) : _StateSpecification(instance) {}
-    /// For subclasses: an event that goes to the state the machine will be in after the present handler.
+    /// For states: dispatches an event after the present handler, to the state the machine is in then.
     void dispatch(IEvent<TOP>* event) { owner()._setPendingEvent(event); }
     const Machine<TOP>& machine() { return owner(); }
 
@@ -111,7 +111,7 @@ class Link : public P {
     using LINK = Link<C, P>;
     using Box = _EmptyBox;
 
-    // Not inherited: what a superstate does at its own entry is not done again for its substates.
+    // Overridden with nothing, so that a state does not inherit them: they run for the superstate itself.
     void entry() override {}
     void exit() override {}
     void init() override {}
@@ -128,7 +128,7 @@ class Link : public P {
     }
 
   protected:
-    // Each level of the class hierarchy is a state of its own, with its own Box.
+    // Each level of the class hierarchy is a state with a Box of its own.
     explicit Link(_StateInstance& instance) : P(superFor(instance)), m_linked(instance) {}
     void* _box() { return m_linked.box(); }
 
@@ -169,7 +169,7 @@ template <class S>
 Alias State() {
     return Alias(&_MachineBase::_instance<S>, S::_state_name(), typeid(S));
 }
-/// With arguments for S::init(...).
+/// The same with arguments for S::init(...).
 template <class S, class A0, class... A>
 Alias State(const A0& first, const A&... others) {
     const std::tuple<A0, A...> kept(first, others...);
@@ -198,7 +198,7 @@ void _StateSpecification::setStateBox(typename S::Box* box) {
     _machine()._setPending(State<S>(), owned);
 }
 
-/// A machine whose top state is TOP. `machine->event(...)` calls the current state's handler.
+/// A state machine whose top state is TOP. `machine->event(...)` calls the handler of the current state.
 template <class TOP>
 class Machine : public _MachineBase {
   public:
@@ -206,7 +206,8 @@ class Machine : public _MachineBase {
     explicit Machine(const Alias& state) { begin(state); }
     ~Machine() override { leave(); }
 
-    /// Carries out, when the expression ends, what the handler has asked for.
+    /// Calls a handler through ->; its destructor, at the end of the expression, carries out the change of
+    /// state that the handler has requested.
     class AfterAdvice {
       public:
         explicit AfterAdvice(Machine& machine) : m_machine(&machine) {}
@@ -217,7 +218,7 @@ class Machine : public _MachineBase {
         TOP* operator->() const { return &m_machine->state(); }
 
       private:
-        // The handler has thrown: what it asked for takes place after the next event.
+        // The handler has thrown: the change of state takes place after the next event.
         static bool failing() {
 #ifdef __cpp_lib_uncaught_exceptions
             return std::uncaught_exceptions() > 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all state machines of Macho.h are made of, whatever their states.
+// The parts of Macho.h's state machines that do not depend on the classes of the states.
 #ifndef MACHO_BASE_HPP
 #define MACHO_BASE_HPP
 #include <functional>
@@ -14,10 +14,10 @@ class _MachineBase;
 class _StateInstance;
 
 enum class _History : unsigned char { none, shallow, deep };
-/// Of states without data of their own.
+/// The Box of states without data of their own.
 struct _EmptyBox {};
 
-/// What all states of all machines are.
+/// The base class of all states.
 class _StateSpecification {
   public:
     explicit _StateSpecification(_StateInstance& instance) : m_instance(instance) {}
@@ -29,13 +29,13 @@ class _StateSpecification {
     virtual bool _persistent() const { return false; }
 
   protected:
-    // Changes of state: asked for by handlers, entry(), exit() and init() of the current state.
+    // Requests a change of state; for handlers, entry(), exit() and init() of the current state.
     template <class S, class... A>
     void setState(const A&... arguments);
     template <class S>
     void setStateHistory();
     void setState(const class Alias& state);
-    /// With a Box that the caller has made; NULL: a new one.
+    /// The same with a Box that the caller has made and gives away; NULL: a new one.
     template <class S>
     void setStateBox(typename S::Box* box = nullptr);
 
@@ -45,7 +45,7 @@ class _StateSpecification {
     _StateInstance& m_instance;
 };
 
-/// What a machine knows of one of its states.
+/// A state within one machine: its place in the hierarchy, its Box and its history.
 class _StateInstance {
   public:
     _StateInstance(_MachineBase& machine, _StateInstance* super, const char* name, std::type_index type)
@@ -79,7 +79,7 @@ class _StateInstance {
 
 inline _MachineBase& _StateSpecification::_machine() { return m_instance.machine(); }
 
-/// How to get to a state; `State<S>(...)` and Machine::currentState() make them.
+/// Names a state, with what is to happen on entering it; made by `State<S>(...)` and Machine::currentState().
 class Alias {
   public:
     using Find = _StateInstance& (*)(_MachineBase&);
@@ -133,9 +133,9 @@ class _MachineBase {
 
   protected:
     void start(const Alias& state);
-    /// Leaves all states.
+    /// Exits all states.
     void leave();
-    /// Carries out what is pending; a pending event when there is no change of state left.
+    /// Carries out pending changes of state; then dispatches a pending event, if any, and begins again.
     template <class DispatchPending>
     void settle(DispatchPending dispatch_pending) {
         do

@@ -32,14 +32,14 @@ class Manager;
 class NamingManager;
 using ModuleInitProc = void (*)(Manager*);
 
-/// Ours: what is wrong with rtc.conf, a module, a component or a connection it names; what() is one line.
+/// Ours: an error in rtc.conf, or in a module, component or connection it names; what() is one line.
 class ManagerError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The one manager of a process: ORB, configuration, modules, components.
-/// init() [main-thread], then activateManager(), then runManager(). All other functions [any-thread].
+/// The manager of a process, of which there is one: ORB, configuration, modules, components. Its owner calls
+/// init(), activateManager() and runManager() in this order [main-thread]; all other functions [any-thread].
 class Manager {
   public:
     struct Options; // host/rtm/runtime/manager/manager_options.hpp: what only rtm_host sets
@@ -48,7 +48,7 @@ class Manager {
     /// called again the running manager is returned. Bad input ends the process with one line on standard
     /// error.
     static Manager* init(int argc, char** argv);
-    /// The same without arguments, when init() was not called before.
+    /// The running manager; starts one without arguments when init() was not called before.
     static Manager& instance();
     /// Ours: init() that throws ManagerError for bad input, with options of our host.
     static Manager& start(int argc, char** argv, const Options& options);
@@ -57,14 +57,15 @@ class Manager {
     Manager& operator=(const Manager&) = delete;
 
     void setModuleInitProc(ModuleInitProc proc);
-    /// Loads, creates, connects and activates what the configuration names; calls the init procedure. Errors
-    /// of the configuration are logged and passed over, as in OpenRTM-aist.
+    /// Loads the modules and creates, connects and activates the components that the configuration names;
+    /// calls the module init procedure. Errors of the configuration are logged and skipped, as in
+    /// OpenRTM-aist.
     bool activateManager();
     /// Ours: the same, throwing ManagerError at the first error.
     void activateOrThrow();
     /// Blocks until terminate(), unless `no_block`.
     void runManager(bool no_block = false);
-    /// Asks for the end: runManager() returns after an orderly stop. Safe in a signal handler.
+    /// Requests the end: runManager() returns after an orderly stop. Safe in a signal handler.
     static void terminate();
     void join();
     /// Deactivates and finalizes all components in reverse order of creation, ends the ORB.
@@ -89,8 +90,8 @@ class Manager {
     /// rule. Throws ManagerError.
     std::string tryFactories(const std::function<void(const std::string&)>& before,
                              std::chrono::nanoseconds patience);
-    /// Forgets a module's component types; its code stays for what may still use it. PRECONDITION_NOT_MET while
-    /// there are components of it.
+    /// Forgets a module's component types; its code stays for what may still use it. PRECONDITION_NOT_MET
+    /// while there are components of it.
     ReturnCode_t unload(const char* file_name);
     void unloadAll();
     std::vector<coil::Properties> getLoadedModules();
@@ -131,7 +132,7 @@ class Manager {
     void invoke(std::function<void()> fn, std::chrono::nanoseconds delay = std::chrono::nanoseconds::zero());
 
     using TaskId = coil::PeriodicFunction*;
-    /// Runs fn in the manager's thread again and again, until removeTask().
+    /// Runs fn in the manager's thread once per period, until removeTask().
     TaskId addTask(std::function<void()> fn, std::chrono::nanoseconds period);
     static void removeTask(TaskId id) { id->stop(); }
 
@@ -148,12 +149,13 @@ class Manager {
     void addNamingActionListener(RTM::NamingActionListener* listener, bool autoclean = true);
     void removeNamingActionListener(RTM::NamingActionListener* listener);
 
-    // CORBA; references are the caller's (duplicated) for get..., the manager's for the...
+    // CORBA. get...() returns a duplicated reference, which the caller releases; the...() one that it does
+    // not.
     CORBA::ORB_ptr theORB();
     CORBA::ORB_ptr getORB();
     PortableServer::POA_ptr thePOA();
     PortableServer::POA_ptr getPOA();
-    /// Calls within the process go straight to the servant, without a dispatcher.
+    /// A POA whose objects are called within the process without omniORB's dispatcher.
     PortableServer::POA_ptr theShortCutPOA();
     PortableServer::POA_ptr getShortCutPOA();
     PortableServer::POAManager_ptr thePOAManager();

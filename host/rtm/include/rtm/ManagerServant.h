@@ -7,8 +7,8 @@
 
 namespace RTM {
 
-/// The manager as tools see it, at corbaloc:iiop:HOST:PORT/manager. Masters and slaves are not supported: it
-/// stands alone. [ORB threads]
+/// The manager as a CORBA object for tools, at corbaloc:iiop:HOST:PORT/manager. OpenRTM-aist's master and
+/// slave managers are not supported. [ORB threads]
 class ManagerServant : public virtual POA_RTM::Manager, public virtual PortableServer::RefCountServantBase {
   public:
     explicit ManagerServant(RTC::Manager& manager) : manager_(manager) {}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of named CORBA values: making, finding, and to and from coil::Properties.
+// Functions for lists of named CORBA values (SDOPackage::NVList): make, find, convert to and from
+// coil::Properties.
 #ifndef NVUTIL_NVUTIL_H
 #define NVUTIL_NVUTIL_H
 #include <coil/Properties.h>
@@ -29,8 +30,9 @@ void mergeFromProperties(SDOPackage::NVList& nv, const coil::Properties& prop);
 void copyToProperties(coil::Properties& prop, const SDOPackage::NVList& nv);
 coil::Properties toProperties(const SDOPackage::NVList& nv);
 
-/// Throws std::invalid_argument naming what is not there.
+/// Throws std::invalid_argument with the name when there is no such value.
 const CORBA::Any& find(const SDOPackage::NVList& nv, const char* name);
+/// -1 when there is none.
 CORBA::Long find_index(const SDOPackage::NVList& nv, const char* name);
 bool isString(const SDOPackage::NVList& nv, const char* name);
 bool isStringValue(const SDOPackage::NVList& nv, const char* name, const char* value);

@@ -16,25 +16,25 @@ class Manager;
 class PortBase;
 class RTObject_impl;
 
-/// Names of this process in CORBA name servers, `host.host_cxt/Name0.rtc`. Manager::getNaming() gives the one
-/// there is. A server that is away holds nobody up: it gets the names when it comes. [any-thread]
+/// The names of this process's objects in CORBA name servers, `host.host_cxt/Name0.rtc`. Manager::getNaming()
+/// returns the one of the process. A name server that does not answer delays nobody: it gets the names when
+/// it answers again. [any-thread]
 class NamingManager {
   public:
     explicit NamingManager(Manager* manager) : m_manager(manager) {}
     virtual ~NamingManager() = default;
 
-    /// One more name server, `host` or `host:port`, which gets all names. `method` is `corba`; there is no
-    /// other.
+    /// Adds a name server, `host` or `host:port`, which gets all names. `method` must be `corba`.
     void registerNameServer(const char* method, const char* name_server);
     void bindObject(const char* name, const RTObject_impl* rtobj);
     void bindObject(const char* name, const PortBase* port);
     void bindObject(const char* name, const RTM::ManagerServant* mgr);
-    /// All names again in servers that were away.
+    /// Binds all names again in servers that did not answer.
     void update();
     void unbindObject(const char* name);
-    /// What was bound by bindObject().
+    /// Unbinds everything that was bound by bindObject().
     void unbindAll();
-    /// The components among them.
+    /// The components among the bound objects.
     std::vector<RTObject_impl*> getObjects();
     /// `Name0` of this process, rtcname://HOST:PORT/CONTEXT/Name0 or rtcloc://HOST:PORT/Name0; empty when
     /// nobody answers there.

@@ -8,7 +8,7 @@
 
 namespace RTM {
 
-/// Names instances 0, 1, 2 ...; a number that has become free is used again.
+/// Numbers instances 0, 1, 2 ...; the number of a deleted instance is used again. [any-thread]
 class ProcessUniquePolicy : public NumberingPolicyBase {
   public:
     std::string onCreate(void* object) override;

@@ -5,7 +5,7 @@
 
 namespace RTM {
 
-/// Gives the part of an instance name behind the type name.
+/// Makes the part of an instance name that follows the type name.
 class NumberingPolicyBase {
   public:
     virtual ~NumberingPolicyBase() = default;

@@ -5,8 +5,8 @@
 
 namespace RTC {
 
-/// A context without a thread: tick() runs one cycle in the caller's thread, and requested transitions are
-/// carried out by the thread that asks for them.
+/// A context without a thread: tick() runs one cycle in the calling thread, and requested transitions are
+/// carried out in the thread that requests them. Simulators drive it.
 class OpenHRPExecutionContext : public ExecutionContextServant<POA_OpenRTM::ExtTrigExecutionContextService> {
   public:
     OpenHRPExecutionContext();
@@ -19,7 +19,7 @@ namespace RTC {
 class Manager;
 }
 extern "C" {
-/// Makes the type known to the manager, which knows it anyway.
+/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
 void OpenHRPExecutionContextInit(RTC::Manager* manager);
 }
 #endif

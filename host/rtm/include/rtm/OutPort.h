@@ -11,7 +11,8 @@
 
 namespace RTC {
 
-/// A data port that sends values of one IDL struct. [owner's thread]
+/// A data port that sends values of one IDL struct. Registers the type's CDR serializer. All functions
+/// [owner's thread].
 template <class DataType>
 class OutPort : public OutPortBase {
   public:
@@ -21,13 +22,14 @@ class OutPort : public OutPortBase {
         addProperty("dataport.marshaling_types",
                     coil::eraseBlank(coil::flatten(getSerializerList<DataType>())).c_str());
     }
-    /// 1.x: the length of the former buffer means nothing here.
+    /// The form of 1.x: its length configured a buffer of the port and has no effect here.
     OutPort(const char* name, DataType& value, int /*length*/) : OutPort(name, value) {}
 
     virtual const char* name() { return m_name.c_str(); }
 
-    /// To every connector; true when all took it, false when one did not or when there is none.
-    /// Serialized once, however many there are.
+    /// Sends the value to every connector, serialized once for all that send the same bytes. True when all
+    /// have accepted it; false, with getStatus(), when one has not or when there is none. Ends connections
+    /// whose receiver is gone. How long it may block: per connector its buffer's policy and `put_timeout`.
     virtual bool write(DataType& value) {
         if (m_onWrite != nullptr) (*m_onWrite)(value);
         if (m_onWriteConvert == nullptr) return send(value);
@@ -37,8 +39,10 @@ class OutPort : public OutPortBase {
     bool write() override { return write(m_value); }
     bool operator<<(DataType& value) { return write(value); }
 
+    /// Of the last write(), by the connector's position. Throws std::out_of_range.
     DataPortStatus getStatus(int index) { return m_status.at(static_cast<std::size_t>(index)); }
     DataPortStatusList getStatusList() { return m_status; }
+    /// Function objects called before a write, and to replace the value; NULL: none. They stay the caller's.
     void setOnWrite(OnWrite<DataType>* on_write) { m_onWrite = on_write; }
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
 
@@ -60,6 +64,7 @@ class OutPort : public OutPortBase {
                 if (m_status[i] == DataPortStatus::CONNECTION_LOST) lost.push_back(connector->id());
             }
         }
+        // Without the mutex, which disconnecting locks.
         if (!lost.empty()) dropLostConnections(lost);
         return all_accepted;
     }

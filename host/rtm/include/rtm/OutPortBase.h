@@ -10,29 +10,34 @@
 namespace RTC {
 class PullBuffer;
 
-/// A data port that sends. Derive from it for a port whose type is known at run time only.
+/// A data port that sends. Derive from it for a port whose data type is known at run time only.
 class OutPortBase : public PortBase {
   public:
     using ConnectorList = std::vector<OutPortConnector*>;
 
     OutPortBase(const char* name, const char* data_type);
     ~OutPortBase() override;
-    /// With the port's properties of rtc.conf, when the port is added to its component.
+    /// Called with the port's properties of rtc.conf when the port is added to its component.
     virtual void init(coil::Properties& prop);
     virtual bool write() = 0;
 
+    /// The port's configuration: the default for every connection's properties.
     coil::Properties& properties() { return m_properties; }
     const std::vector<OutPortConnector*>& connectors() { return m_connectors; }
     ConnectorInfoList getConnectorProfiles();
     coil::vstring getConnectorIds();
     coil::vstring getConnectorNames();
+    /// NULL when there is none. The connector is deleted when its connection ends: not for keeping.
     OutPortConnector* getConnectorById(const char* id);
     OutPortConnector* getConnectorByName(const char* name);
+    /// False when there is none.
     bool getConnectorProfileById(const char* id, ConnectorInfo& prof);
     bool getConnectorProfileByName(const char* name, ConnectorInfo& prof);
     void activateInterfaces() override;
     void deactivateInterfaces() override;
 
+    /// `autoclean`: the listener is deleted when it is removed or when the port is destroyed. Listeners run
+    /// in the thread that causes the event. [any-thread]
     void addConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener,
                                   bool autoclean = true);
     void removeConnectorDataListener(ConnectorDataListenerType type, ConnectorDataListener* listener);
@@ -41,14 +46,16 @@ class OutPortBase : public PortBase {
     ConnectorListenersBase* getListeners() { return &m_listeners; }
     bool isLittleEndian() { return m_littleEndian; }
 
-    /// Ours: the local end of a pull connector, for an InPort of this process; NULL when there is none.
+    /// Ours: from where an InPort of this process fetches the messages of that connection; NULL when it is
+    /// not a pull connection of this port. [any-thread]
     std::shared_ptr<PullBuffer> pullBuffer(const char* connector_id);
 
   protected:
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
-    /// Disconnects what a write has found dead. Not with m_connectorsMutex held.
+    /// Ends the connections of these ids, whose receiver a write has found to be gone. The caller does not
+    /// hold m_connectorsMutex.
     void dropLostConnections(const std::vector<std::string>& connector_ids);
 
     std::vector<OutPortConnector*> m_connectors;

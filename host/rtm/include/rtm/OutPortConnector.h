@@ -9,7 +9,9 @@
 
 namespace RTC {
 
-/// The sending end of a data connection. Its port writes it from one thread at a time.
+/// The sending end of a data connection, owned by its OutPort, which writes it from one thread at a time.
+/// Values go through the serializer of the connection's marshaling type (CDR unless it names another), except
+/// for the two short cuts: as they are into a DirectBuffer, or encoded straight into an InPlaceBuffer.
 class OutPortConnector : public ConnectorBase {
   public:
     OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* listeners);
@@ -27,6 +29,8 @@ class OutPortConnector : public ConnectorBase {
     virtual DataPortStatus write(ByteDataStreamBase* stream);
     /// Sends bytes that are already serialized (they say their byte order themselves).
     virtual DataPortStatus write(ByteData& bytes) = 0;
+    /// Sends a value. PORT_ERROR: it cannot be serialized; else what the receiver or the buffer has made of
+    /// it.
     template <class DataType>
     DataPortStatus write(DataType& data) {
         auto* stream = serializer<DataType>();
@@ -39,6 +43,7 @@ class OutPortConnector : public ConnectorBase {
             m_sentInPlace = writeDirect(TypedDirectWriter<DataType>(data), status);
             if (m_sentInPlace) return status;
         }
+        // The length of this message is not known before it is encoded: the last one's serves as a guess.
         if (m_bytes.getDataLength() >= m_minInPlaceLength && m_isStandardCdr && m_littleEndian && !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
             m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
@@ -47,7 +52,7 @@ class OutPortConnector : public ConnectorBase {
         stream->isLittleEndian(isLittleEndian());
         bool serialized = false;
         if (stamps) {
-            DataType stamped(data);
+            DataType stamped(data); // the component's variable stays as it is
             stampIfPossible(stamped, 0);
             serialized = stream->serialize(stamped);
         } else {
@@ -56,18 +61,20 @@ class OutPortConnector : public ConnectorBase {
         return serialized ? write(static_cast<ByteDataStreamBase*>(stream)) : DataPortStatus::PORT_ERROR;
     }
 
-    /// What waits to be fetched: for the OutPortProvider of a library, which tells the listeners itself.
+    /// Takes the oldest message that waits for the peer: for the OutPortProvider of a library, which calls
+    /// the listeners itself. PRECONDITION_NOT_MET: this connector keeps none.
     virtual BufferStatus read(ByteData& bytes);
 
     virtual void setEndian(bool little_endian) { m_littleEndian = little_endian; }
     virtual bool isLittleEndian() { return m_littleEndian; }
-    /// Ours: could this connector send the bytes another one has serialized?
+    /// Ours: would this connector send the very bytes that `other` has sent last? Byte order and marshaling
+    /// type are the same, neither stamps, and there were bytes.
     bool canShareBytesOf(const OutPortConnector& other) const;
-    /// Ours: what the last write(stream) sent; nothing else has, if that is what canShareBytesOf() was asked for.
+    /// Ours: the bytes of the last write of a value; valid when canShareBytesOf() said so.
     ByteData& serializedBytes() { return m_bytes; }
 
   protected:
-    // Looked up once: the type of a connector never changes.
+    // Looked up at the first write: the type of a connector does not change after that.
     template <class DataType>
     ByteDataStream<DataType>* serializer() {
         if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
@@ -83,11 +90,11 @@ class OutPortConnector : public ConnectorBase {
         return static_cast<ByteDataStream<DataType>*>(m_typedSerializer);
     }
 
-    /// Ours: a message that is probably long, as the last one was. False: it is not, or there is no place where
-    /// it could be made; nothing has happened.
+    /// Ours: encodes a message straight into the receiver's buffer. False when it is short or the receiver
+    /// has no InPlaceBuffer; nothing has happened then.
     virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
 
-    /// Ours: a value for an InPort of this process, unserialized. False as above.
+    /// Ours: hands a value to an InPort of this process without serializing it. False as above.
     virtual bool writeDirect(const DirectWriter& put, DataPortStatus& status);
 
     Logger rtclog{"OutPortConnector"};

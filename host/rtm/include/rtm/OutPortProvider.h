@@ -12,7 +12,8 @@
 
 namespace RTC {
 
-/// The sending end of a transport for pull: has what the OutPort's connector wrote fetched.
+/// The sending end of a transport for pull connections, which a library brings: gives its consumer the
+/// messages that wait in the OutPort's connector, after calling the ON_SEND listeners.
 class OutPortProvider {
   public:
     OutPortProvider();
@@ -21,9 +22,9 @@ class OutPortProvider {
     virtual void setBuffer(CdrBufferBase* buffer) = 0;
     virtual void setListener(ConnectorInfo& info, ConnectorListenersBase* listeners) = 0;
     virtual void setConnector(OutPortConnector* connector) = 0;
-    /// Its types, for the port's profile.
+    /// Publishes its types in the port's profile.
     virtual void publishInterfaceProfile(SDOPackage::NVList& prop);
-    /// Its address, for a connection of its interface type; false for others.
+    /// Publishes its address in the profile of a connection of its interface type; false for other types.
     virtual bool publishInterface(SDOPackage::NVList& prop);
 
   protected:
@@ -41,7 +42,7 @@ class OutPortProvider {
     std::string m_portType, m_dataType;
     std::string m_interfaceType, m_dataflowType, m_subscriptionType;
 };
-/// By interface type.
+/// The registered ones, by the interface type that a connection asks for.
 using OutPortProviderFactory = ::coil::GlobalFactory<OutPortProvider>;
 
 } // namespace RTC

@@ -64,7 +64,7 @@ class PeriodicECSharedComposite : public RTObject_impl {
 
 } // namespace RTC
 extern "C" {
-/// Makes the type known to the manager, which knows it anyway.
+/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
 void PeriodicECSharedCompositeInit(RTC::Manager* manager);
 }
 #endif

@@ -10,19 +10,20 @@ class Manager;
 
 namespace RTC_exp {
 
-/// A thread of its own with cycles in absolute time, on the grid of both hosts (rt::PeriodicTick) plus the phase;
-/// cycles that were overrun are skipped. While no component is active the thread sleeps.
+/// A context with a thread of its own. Cycles come in absolute time, on the grid that both hosts share
+/// (tandem::rt::PeriodicTick), plus the phase; the periods that an overrun has used up are skipped. While no
+/// component is active the thread sleeps.
 class PeriodicExecutionContext : public RTC::ExecutionContextServant<POA_RTC::ExecutionContextService> {
   public:
     PeriodicExecutionContext();
     ~PeriodicExecutionContext() override;
 
-    /// Ours: what has been counted since the context was started.
+    /// Ours: counted since the context was started; kept after it was stopped.
     struct TickStatistics {
         std::uint64_t cycles = 0;
         std::uint64_t overruns = 0; ///< cycles whose time had passed when the one before finished
-        std::uint64_t skipped = 0;  ///< periods without a cycle because of that
-        std::chrono::nanoseconds max_lateness{0}; ///< the latest that a cycle has begun after its time
+        std::uint64_t skipped = 0;  ///< periods without a cycle because of overruns
+        std::chrono::nanoseconds max_lateness{0}; ///< largest delay of a cycle's begin
     };
     TickStatistics tickStatistics() const;
 
@@ -51,7 +52,7 @@ namespace RTC {
 class Manager;
 }
 extern "C" {
-/// Makes the type known to the manager, which knows it anyway.
+/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
 void PeriodicExecutionContextInit(RTC::Manager* manager);
 }
 #endif

@@ -7,23 +7,25 @@
 
 namespace RTC {
 
-/// The ports of a component, in the order they were added. [any-thread]
+/// The ports of a component, in the order they were added, and those of others that it delegates to.
+/// [any-thread]
 class PortAdmin {
   public:
     PortServiceList* getPortServiceList() const;
     PortProfileList getPortProfileList() const;
     PortService_ptr getPortRef(const char* port_name) const;
-    /// By `port` or `<instance>.port`; NULL when there is none.
+    /// By `<port>` or `<instance>.<port>`; NULL when there is none. Own ports only.
     PortBase* getPort(const char* port_name) const;
-    /// False when there is one of that name.
+    /// The port stays its owner's. False when there is one of that name.
     bool addPort(PortBase& port);
+    /// Disconnects and deactivates the port first. False when it is not one of this component.
     bool removePort(PortBase& port);
-    /// Ports of other components, which are listed here as well; they stay theirs.
+    /// Ports of other components that this one lists as its own, as a composite does.
     bool addPort(PortService_ptr port);
     bool removePort(PortService_ptr port);
     void activatePorts();
     void deactivatePorts();
-    /// Disconnects all and lets no more calls in.
+    /// Removes and deactivates all own ports; no calls from outside after that.
     void finalizePorts();
 
   private:

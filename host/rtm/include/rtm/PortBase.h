@@ -13,9 +13,11 @@
 
 namespace RTC {
 
-/// A port: a PortService servant from construction to destruction, and the connection protocol of RTM:
-/// connect() asks the first port of the profile to notify_connect(), which publishes what it provides,
-/// passes the profile on to the next port, and then subscribes to what the others have published.
+/// A port: a servant of the IDL interface RTC::PortService from construction to destruction, with
+/// OpenRTM-aist's connection protocol: connect() calls notify_connect() of the first port in the profile;
+/// that port publishes what it provides, passes the profile on to the next port, and then subscribes to what
+/// the others have published. All functions [any-thread]. connect() and disconnect() of ports in other
+/// processes block for the ORB's time limit at most.
 class PortBase : public virtual POA_RTC::PortService, public virtual PortableServer::RefCountServantBase {
   public:
     explicit PortBase(const char* name = "");
@@ -24,14 +26,20 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     PortProfile* get_port_profile() override;
     const PortProfile& getPortProfile() const { return m_profile; }
     ConnectorProfileList* get_connector_profiles() override;
+    /// With an empty id when there is no such connection.
     ConnectorProfile* get_connector_profile(const char* connector_id) override;
+    /// Connects the ports of the profile and gives it an id when it has none. BAD_PARAMETER: the ports do not
+    /// fit; PRECONDITION_NOT_MET: the id is in use; else what a port has refused it with. connectError() says
+    /// why.
     ReturnCode_t connect(ConnectorProfile& connector_profile) override;
     ReturnCode_t notify_connect(ConnectorProfile& connector_profile) override;
+    /// Ends a connection at all its ports; at this one also when others do not answer. BAD_PARAMETER: no such
+    /// id.
     ReturnCode_t disconnect(const char* connector_id) override;
     ReturnCode_t notify_disconnect(const char* connector_id) override;
     ReturnCode_t disconnect_all() override;
 
-    /// Called when the component is activated, and before it is deactivated.
+    /// Called when the component is activated, and when it is deactivated.
     virtual void activateInterfaces() = 0;
     virtual void deactivateInterfaces() = 0;
 
@@ -40,11 +48,12 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     const PortProfile& getProfile() const { return m_profile; }
     void setPortRef(PortService_ptr port_ref);
     PortService_ptr getPortRef() const;
-    /// From now on the port is called `<instance>.<name>`.
+    /// Sets the component that has the port, whose name becomes `<instance>.<name>`.
     void setOwner(RTObject_ptr owner);
-    /// Ours: the name is known before the owner can be asked.
+    /// Ours: the same while the owner is being created and cannot be asked for its name.
     void setOwner(RTObject_ptr owner, const char* instance_name);
 
+    // Callbacks of 1.x at the steps of a connection; NULL: none. They stay the caller's.
     void setOnPublishInterfaces(ConnectionCallback* callback) { m_onPublishInterfaces = callback; }
     void setOnSubscribeInterfaces(ConnectionCallback* callback) { m_onSubscribeInterfaces = callback; }
     void setOnConnected(ConnectionCallback* callback) { m_onConnected = callback; }
@@ -67,27 +76,32 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
         m_connectListeners.at(type).removeListener(listener);
     }
 
-    /// Further listeners, the component's; NULL: none.
+    /// The component's listeners to all its ports, called after this port's own; NULL: none.
     void setPortConnectListenerHolder(PortConnectListeners* listeners) {
         m_componentConnectListeners = listeners;
     }
 
-    /// Ours: why the last connect() or notify_connect() was refused; one line, empty when it was not.
+    /// Ours: why the last connect() or notify_connect() of this port was refused, in one line; empty when it
+    /// was not.
     std::string connectError() const;
-    /// Ours: ends a connection whose other side was lost, without asking that side.
+    /// Ours: ends a connection whose peer is gone, without calling the peer.
     void dropLostConnection(const char* connector_id);
-    /// Ours: no more calls from outside; called by the component before it dies.
+    /// Ours: deactivates the CORBA object and waits (1 s at most) for calls under way. Called by the
+    /// component before it is destroyed.
     void retire();
 
   protected:
+    /// Steps of notify_connect() and of the disconnection, which each kind of port implements: publish writes
+    /// into the profile what this port provides, subscribe uses what the others have published.
     virtual ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) = 0;
     virtual ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
     virtual void unsubscribeInterfaces(const ConnectorProfile& connector_profile) = 0;
     virtual ReturnCode_t connectNext(ConnectorProfile& connector_profile);
     virtual ReturnCode_t disconnectNext(ConnectorProfile& connector_profile);
 
-    /// How many connectors at most; negative: any number.
+    /// The number of connections at most; negative: any number.
     virtual void setConnectionLimit(int limit_value) { m_connectionLimit = limit_value; }
+    /// RTC_ERROR when the connection limit is reached.
     virtual ReturnCode_t _publishInterfaces();
     /// Ours: makes `reason` the connectError() and returns `code`.
     ReturnCode_t refuse(ReturnCode_t code, const std::string& reason);

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Function objects a component may hang on a port.
+// Function objects that a component may set at a port, in the form of 1.x.
 #ifndef RTC_PORTCALLBACK_H
 #define RTC_PORTCALLBACK_H
 #include <rtm/RTC.h>
 
 namespace RTC {
 
+/// At a step of a connection; may change the profile.
 class ConnectionCallback {
   public:
     virtual ~ConnectionCallback() = default;
     virtual void operator()(RTC::ConnectorProfile& profile) = 0;
 };
 
-/// Before a value is written.
+/// Called before a value is written. [writer's thread]
 template <class DataType>
 struct OnWrite {
     virtual ~OnWrite() = default;
     virtual void operator()(const DataType& value) = 0;
 };
-/// Changes the value that is sent.
+/// Gives the value that is sent in the place of `value`. [writer's thread]
 template <class DataType>
 struct OnWriteConvert {
     virtual ~OnWriteConvert() = default;
     virtual DataType operator()(const DataType& value) = 0;
 };
-/// Before a buffer is read.
+/// Called before a buffer is read. [reader's thread]
 template <class DataType>
 struct OnRead {
     virtual ~OnRead() = default;
     virtual void operator()() = 0;
 };
-/// Changes the value that was read.
+/// Gives the value that the component gets in the place of the one read. [reader's thread]
 template <class DataType>
 struct OnReadConvert {
     virtual ~OnReadConvert() = default;

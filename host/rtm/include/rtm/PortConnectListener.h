@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Callbacks of the steps by which a port is connected and disconnected.
+// Callbacks at the steps by which a port is connected and disconnected.
 #ifndef RTC_PORTCONNECTLISTENER_H
 #define RTC_PORTCONNECTLISTENER_H
 #include <array>
@@ -9,13 +9,14 @@
 
 namespace RTC {
 
+/// Steps without a result.
 enum class PortConnectListenerType : std::uint8_t {
     ON_NOTIFY_CONNECT,
     ON_NOTIFY_DISCONNECT,
     ON_UNSUBSCRIBE_INTERFACES,
     PORT_CONNECT_LISTENER_NUM
 };
-/// Of steps with a result.
+/// Steps with a result.
 enum class PortConnectRetListenerType : std::uint8_t {
     ON_PUBLISH_INTERFACES,
     ON_CONNECT_NEXTPORT,
@@ -26,7 +27,7 @@ enum class PortConnectRetListenerType : std::uint8_t {
     PORT_CONNECT_RET_LISTENER_NUM
 };
 
-// Plain names, as components written for 1.x say them.
+// The unscoped names that components written for 1.x use.
 constexpr auto ON_NOTIFY_CONNECT = PortConnectListenerType::ON_NOTIFY_CONNECT;
 constexpr auto ON_NOTIFY_DISCONNECT = PortConnectListenerType::ON_NOTIFY_DISCONNECT;
 constexpr auto ON_UNSUBSCRIBE_INTERFACES = PortConnectListenerType::ON_UNSUBSCRIBE_INTERFACES;
@@ -39,12 +40,14 @@ constexpr auto ON_DISCONNECT_NEXT = PortConnectRetListenerType::ON_DISCONNECT_NE
 constexpr auto ON_DISCONNECTED = PortConnectRetListenerType::ON_DISCONNECTED;
 constexpr auto PORT_CONNECT_RET_LISTENER_NUM = PortConnectRetListenerType::PORT_CONNECT_RET_LISTENER_NUM;
 
+/// Called before the step, in the thread that connects. May change the profile.
 class PortConnectListener {
   public:
     static const char* toString(PortConnectListenerType type);
     virtual ~PortConnectListener() = default;
     virtual void operator()(const char* portname, RTC::ConnectorProfile& profile) = 0;
 };
+/// Called after the step, with its result.
 class PortConnectRetListener {
   public:
     static const char* toString(PortConnectRetListenerType type);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the interfaces of components an object has. All throw CORBA::SystemException.
+// Which IDL interface of components an object has. All throw CORBA::SystemException when it cannot be
+// reached.
 #ifndef RTC_UTILS_RTCUTIL_H
 #define RTC_UTILS_RTCUTIL_H
 #include <rtm/idl/OpenRTMSkel.h>

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-/// Handles of contexts a component only takes part in begin here.
+/// Handles of the contexts in which a component takes part but which it does not own begin here.
 #define ECOTHER_OFFSET 1000
 
 namespace SDOPackage {
@@ -31,14 +31,14 @@ class ExecutionContextBase;
 class Manager;
 class SdoServiceProviderBase;
 
-/// A component. Derive (from DataFlowComponentBase), override the on...() callbacks, add ports in
-/// onInitialize(). An execution context calls it; any result but RTC_OK, and any exception, of onActivated,
-/// onExecute and onStateUpdate leads to the ERROR state.
+/// A component. Users derive from DataFlowComponentBase, override the on...() callbacks and add ports in
+/// onInitialize(). An execution context calls the callbacks, one at a time, in its thread; any result but
+/// RTC_OK, and any exception, of onActivated, onExecute and onStateUpdate leads to the ERROR state.
 class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
                       public virtual PortableServer::RefCountServantBase {
   public:
     explicit RTObject_impl(Manager* manager);
-    /// A servant of this ORB and POA; the manager is the process's.
+    /// For a component that is a servant of this ORB and POA; its manager is that of the process.
     RTObject_impl(CORBA::ORB_ptr orb, PortableServer::POA_ptr poa);
     ~RTObject_impl() override;
 
@@ -74,7 +74,8 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     ComponentProfile* get_component_profile() override;
     PortServiceList* get_ports() override;
 
-    // RTC::ComponentAction and DataFlowComponentAction: what a context calls
+    // RTC::ComponentAction and DataFlowComponentAction, which contexts call: each calls the listeners and the
+    // callback above, and turns exceptions into RTC_ERROR.
     ReturnCode_t on_initialize() override;
     ReturnCode_t on_finalize() override;
     ReturnCode_t on_startup(UniqueId ec_id) override;
@@ -112,7 +113,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     std::vector<std::string> getNamingNames();
     void setObjRef(RTObject_ptr rtobj);
     RTObject_ptr getObjRef() const { return RTC::RTObject::_duplicate(m_objref.in()); }
-    /// Merges properties; the profile follows them.
+    /// Merges properties into those of the component, and updates its profile from them.
     void setProperties(const coil::Properties& prop);
     coil::Properties& getProperties() { return m_properties; }
 
@@ -127,7 +128,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
 
     bool addPort(PortBase& port);
     bool addPort(CorbaPort& port);
-    /// A port of another component, which is offered as if it were one of this one's.
+    /// Lists a port of another component among those of this one.
     bool addPort(PortService_ptr port);
     bool removePort(PortService_ptr port);
     bool addInPort(const char* name, InPortBase& inport);
@@ -146,10 +147,10 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
     /// Ours: all ports; get_ports() as local objects.
     PortAdmin& getPortAdmin() { return m_portAdmin; }
 
-    /// The provider is the component's from now on. False: there is one of that id, or its init() is.
+    /// Takes over the provider. False: there is one of that id, or its init() has failed.
     bool addSdoServiceProvider(const SDOPackage::ServiceProfile& profile, SdoServiceProviderBase* provider);
     bool removeSdoServiceProvider(const char* id);
-    /// False: no library has brought a consumer for its interface type.
+    /// False: no library has registered a consumer for its interface type.
     bool addSdoServiceConsumer(const SDOPackage::ServiceProfile& profile);
     bool removeSdoServiceConsumer(const char* id);
 
@@ -197,7 +198,8 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
                                            ExecutionContextActionListener* listener, bool autoclean = true);
     void removeExecutionContextActionListener(ExecutionContextActionListenerType type,
                                               ExecutionContextActionListener* listener);
-    /// Of all its ports; those of one port alone are the port's.
+    /// Listeners to the connections of all ports of the component; PortBase has the same functions for one
+    /// port.
     void addPortConnectListener(PortConnectListenerType type, PortConnectListener* listener,
                                 bool autoclean = true) {
         m_portConnectListeners.at(type).addListener(listener, autoclean);
@@ -262,7 +264,7 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
         m_configsets.removeConfigurationSetNameListener(type, listener);
     }
 
-    // The same with a member function; what is returned can be given to remove...().
+    // The same functions with a member function as listener; the result can be given to remove...().
     template <class Object>
     PreComponentActionListener* addPreComponentActionListener(PreComponentActionListenerType type,
                                                               Object& object,

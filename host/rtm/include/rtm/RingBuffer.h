@@ -10,7 +10,7 @@
 
 namespace RTC {
 
-/// A bounded queue with OpenRTM-aist's policies. Properties (all below `buffer.`): `length` (8),
+/// A bounded queue with OpenRTM-aist's policies. [any-thread] Properties (all below `buffer.`): `length` (8),
 /// `write.full_policy` overwrite | do_nothing | block, `read.empty_policy` readback | do_nothing | block,
 /// `write.timeout`, `read.timeout` in seconds (1). readback: an empty buffer gives the last value again.
 template <class DataType>
@@ -20,6 +20,7 @@ class RingBuffer : public BufferBase<DataType> {
 
     void init(const coil::Properties& prop) override {
         std::size_t n = 0;
+        // A length from another process must not exhaust the memory; what does not fit is ignored.
         if (coil::stringTo(n, prop.getProperty("length").c_str()) && n > 0 && n <= 1000000) length(n);
         read_policy(prop, "write.full_policy", "overwrite", overwrite_, block_write_);
         read_policy(prop, "read.empty_policy", "readback", readback_, block_read_);
@@ -31,6 +32,7 @@ class RingBuffer : public BufferBase<DataType> {
         Lock lock(mutex_);
         return slots_.size();
     }
+    /// Drops what is in the buffer.
     BufferStatus length(std::size_t n) override {
         if (n == 0) return BufferStatus::NOT_SUPPORTED;
         Lock lock(mutex_);
@@ -44,6 +46,8 @@ class RingBuffer : public BufferBase<DataType> {
         return BufferStatus::OK;
     }
 
+    // wptr(), rptr(), put() and get() reach slots without moving; the pointers are not protected by the
+    // mutex.
     DataType* wptr(long int n = 0) override {
         Lock lock(mutex_);
         return &slots_[wrapped_index(write_, n)];
@@ -63,6 +67,7 @@ class RingBuffer : public BufferBase<DataType> {
         slots_[write_] = value;
         return BufferStatus::OK;
     }
+    /// `timeout` > 0: wait so long for room whatever the policy; 0: do not wait; < 0: as the policy says.
     BufferStatus write(const DataType& value,
                        std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         Lock lock(mutex_);
@@ -83,7 +88,7 @@ class RingBuffer : public BufferBase<DataType> {
         write_ = wrapped_index(write_, 1);
         ++fill_;
         written_ = true;
-        if (block_read_) not_empty_.notify_all();
+        if (block_read_) not_empty_.notify_all(); // else nobody waits, and the call would cost for nothing
         return BufferStatus::OK;
     }
     /// 1.x: the timeout as seconds and nanoseconds.
@@ -121,6 +126,7 @@ class RingBuffer : public BufferBase<DataType> {
         Lock lock(mutex_);
         return slots_[read_];
     }
+    /// `timeout` as for write().
     BufferStatus read(DataType& value,
                       std::chrono::nanoseconds timeout = std::chrono::nanoseconds(-1)) override {
         Lock lock(mutex_);
@@ -131,6 +137,7 @@ class RingBuffer : public BufferBase<DataType> {
                 if (!not_empty_.wait_for(lock, bound, [this] { return fill_ > 0; }))
                     return BufferStatus::TIMEOUT;
             } else if (readback_ && written_) {
+                // readback: the slot behind the read position still has the last value.
                 value = slots_[wrapped_index(read_, -1)];
                 return BufferStatus::OK;
             } else {
@@ -175,7 +182,7 @@ class RingBuffer : public BufferBase<DataType> {
     std::size_t write_ = 0;
     std::size_t read_ = 0;
     std::size_t fill_ = 0;
-    bool written_ = false;
+    bool written_ = false; // since the last reset: readback has a value
     bool overwrite_ = true;
     bool block_write_ = false;
     bool readback_ = true;

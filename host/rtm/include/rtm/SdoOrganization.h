@@ -7,7 +7,7 @@
 
 namespace SDOPackage {
 
-/// An organization that only knows its members. Derive from it for one that does something with them.
+/// An SDO organization that just lists its members. Derive from it for one that acts on them. [ORB threads]
 class Organization_impl : public POA_SDOPackage::Organization, public PortableServer::RefCountServantBase {
   public:
     explicit Organization_impl(SDOSystemElement_ptr owner);

@@ -5,14 +5,14 @@
 
 namespace RTC {
 
-/// OpenHRPExecutionContext under the name that simulators ask for.
+/// The same as OpenHRPExecutionContext, under another name of OpenRTM-aist.
 class SimulatorExecutionContext : public OpenHRPExecutionContext {};
 
 class Manager;
 
 } // namespace RTC
 extern "C" {
-/// Makes the type known to the manager, which knows it anyway.
+/// The module function of OpenRTM-aist, which registers the type. The manager has registered it before.
 void SimulatorExecutionContextInit(RTC::Manager* manager);
 }
 #endif

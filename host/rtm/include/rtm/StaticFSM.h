@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// State machines of components: Macho's, with onEntry(), onInit() and onExit() for the states, which the
-// component's FSM listeners hear of.
+// State machines of components: Macho's, whose states have onEntry(), onInit() and onExit(); the component's
+// FSM listeners are called around them.
 #ifndef RTC_STATICFSM_H
 #define RTC_STATICFSM_H
 #include <deque>
@@ -12,19 +12,20 @@
 #define FSM_TOPSTATE(TOP) struct TOP : public ::RTC::Link<TOP, ::Macho::TopBase<TOP>>
 #define FSM_SUBSTATE(STATE, SUPERSTATE) struct STATE : public ::RTC::Link<STATE, SUPERSTATE>
 #define FSM_STATE(S) TANDEM_MACHO_STATE(S, TANDEM_MACHO_SINGLE(::RTC::Link<S, SUPER>))
-/// Says of each state, once, in a source file, that there is one. Nothing is needed here.
+/// In OpenRTM-aist a source file uses it once for each state, to define the state's data. Nothing is needed
+/// here.
 #define FSM_INIT_VALUE(S) static_assert(sizeof(S) > 0, "FSM_INIT_VALUE: not a state");
 
 namespace RTC {
 
-/// Events that ports have received and the machine has not handled yet. [any-thread]
+/// The queue of events that ports have received and the machine has not handled yet. [any-thread]
 class FsmEvents {
   public:
     /// Properties `length` and `write.full_policy` (overwrite | do_nothing) of `buffer`; 8 and overwrite.
     void init(const coil::Properties& buffer);
-    /// False: full, and the event is not kept.
+    /// False: the queue is full and the event is dropped.
     bool put(std::function<void()> event);
-    /// False: there is none.
+    /// Takes the oldest event; false when there is none.
     bool take(std::function<void()>& event);
     std::size_t readable() const;
 
@@ -41,7 +42,7 @@ class Machine : public Macho::Machine<TOP> {
   public:
     explicit Machine(RTObject_impl* comp) : rtComponent(comp) {}
     FsmEvents& getBuffer() { return m_events; }
-    /// Handles all events that have come.
+    /// Handles the events that are in the queue now; later ones wait for the next call.
     virtual void run_event() {
         std::function<void()> event;
         for (std::size_t n = m_events.readable(); n > 0 && m_events.take(event); --n) event();
@@ -54,7 +55,8 @@ class Machine : public Macho::Machine<TOP> {
     FsmEvents m_events;
 };
 
-/// A state. While the machine is constructed, its component is not there to be told.
+/// A state. While the machine is being constructed its listeners cannot be called: the component is not known
+/// yet.
 template <class C, class P>
 class Link : public Macho::Link<C, P> {
   protected:

@@ -11,8 +11,8 @@
 namespace RTC {
 using LogStreamBuf = coil::LogStreamBuffer;
 
-/// A named source of log lines. One level and one set of outputs serve the whole process (logger.* of
-/// rtc.conf; standard error when nothing is said). [any-thread]
+/// A named source of log lines. Level and outputs are those of the process (logger.* of rtc.conf; standard
+/// error by default). [any-thread]
 class Logger {
   public:
     enum {
@@ -29,10 +29,10 @@ class Logger {
 
     explicit Logger(const char* name = "") : m_name(name) {}
 
-    /// Level of the process, `SILENT` .. `PARANOID`; false when there is no such level.
+    /// Sets the level of the process, `SILENT` .. `PARANOID`; false when there is no such level.
     bool setLevel(const char* level);
     void setName(const char* name) { m_name = name; }
-    /// Of the process: codes of strftime, %Q milliseconds, %q microseconds.
+    /// Sets the date format of the process: the codes of strftime, %Q milliseconds, %q microseconds.
     void setDateFormat(const char* format);
     void setClockType(const std::string&) {}
     bool isValid(int level) const { return level <= processLevel(); }
@@ -41,15 +41,15 @@ class Logger {
     void write(int level, const std::string& message) const;
     void write(int level, const coil::Properties& properties) const;
 
-    /// `RTL_ERROR` ...; empty for what is no level.
+    /// `RTL_ERROR` ...; empty for a number that is not a level.
     static const char* getLevelString(int level);
-    /// RTL_SILENT for what is no name of a level.
+    /// RTL_SILENT for a name that is not a level's.
     static int strToLevel(const char* level);
 
     static int processLevel();
     /// Adds a file, `stdout` or `stderr`, in place of standard error.
     static bool addOutput(const std::string& file_name);
-    /// Ours: every line goes to the streams in it, too.
+    /// Ours: the streams that get every log line of the process in addition.
     static coil::LogStreamBuffer& processStreams();
 
   private:

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The number of this API as compiled code sees it: tests/architecture/abi_number.py sets and checks it.
+// The ABI number of this API, which goes up with every change of these headers that a compiler sees;
+// tests/architecture/abi_number.py sets and checks it.
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 3 // headers: 3044440f8fd5c38f
+#define TANDEM_RTM_ABI 4 // headers: 8170451f5315bd5c
 
-// Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
-// or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.
+// Written into every object file as an ELF note, which the loader of modules reads before it loads one. A
+// note rather than a symbol: it need not be linked and cannot clash, and no linker option or strip removes it
+// (--gc-sections, version scripts, hidden visibility, LTO).
 #define TANDEM_ABI_LONG_OF(number) ".long " #number "\n"
 #define TANDEM_ABI_LONG(number) TANDEM_ABI_LONG_OF(number)
 __asm__(".pushsection .note.tandem,\"a\",%note\n"

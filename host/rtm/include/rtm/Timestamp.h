@@ -4,7 +4,7 @@
 #include <chrono>
 #include <rtm/ConnectorListener.h>
 
-/// Puts the system clock's time into data.tm.
+/// Sets data.tm to the time of the system clock.
 template <class DataType>
 void setTimestamp(DataType& data) {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -16,7 +16,8 @@ void setTimestamp(DataType& data) {
 
 namespace RTC {
 
-// setTimestamp() for types that have a tm, nothing for those that have none.
+// setTimestamp() for types with a member tm, nothing for others. Call it with 0, which prefers the first
+// overload.
 template <class DataType>
 auto stampIfPossible(DataType& data, int) -> decltype(data.tm.nsec, void()) {
     setTimestamp(data);
@@ -24,11 +25,11 @@ auto stampIfPossible(DataType& data, int) -> decltype(data.tm.nsec, void()) {
 template <class DataType>
 void stampIfPossible(DataType&, long) {}
 
-/// When a connector with property `timestamp_policy` puts the time into its data.
+/// The step at which a connector sets the time in its messages, by the property `timestamp_policy`.
 enum class TimestampPolicy : std::uint8_t { none, on_write, on_send, on_received, on_read };
 TimestampPolicy timestampPolicy(const coil::Properties& connector_properties);
 
-/// The same as a listener, for those who add it by hand.
+/// The same as a listener, which a component adds itself.
 template <class DataType>
 class Timestamp : public ConnectorDataListenerT<DataType> {
     USE_CONNLISTENER_STATUS;

@@ -12,7 +12,7 @@ struct RtmAnyProbe : T {
     RtmAnyProbe() : T() {}
 };
 
-/// The same for references to an interface, of which omniORB's class does not say whose it is.
+/// The same for references to an interface: omniORB's class for them is outside the interface's namespace.
 template <class T>
 struct RtmAnyReference {
     operator T*() const {

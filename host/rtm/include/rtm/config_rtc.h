@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What component sources ask about version, ORB and system.
+// Macros by which component sources ask for the version, the ORB and the system.
 #ifndef CONFIG_RTC_H
 #define CONFIG_RTC_H
 

@@ -19,8 +19,8 @@ using DataFlowStub = std::remove_pointer_t<RTC::DataFlowComponentAction_ptr>;
 
 } // namespace
 
-/// One callback of a component and the ways to call it: `local` in this process; in another process by the one
-/// of the two IDL interfaces that declares it, the other pointer is NULL.
+/// One callback of a component and the ways to call it: `local` in this process; in another process by the
+/// one of the two IDL interfaces that declares it, the other pointer is NULL.
 struct RTObjectStateMachine::Action {
     RTC::ReturnCode_t (RTC::RTObject_impl::*local)(RTC::UniqueId);
     RTC::ReturnCode_t (ComponentStub::*remote)(RTC::UniqueId);

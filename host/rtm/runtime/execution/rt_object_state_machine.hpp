@@ -10,20 +10,20 @@ class RTObject_impl;
 namespace RTC_impl {
 
 /// The life-cycle state machine of one component in one execution context (OMG RTC 1.0: INACTIVE, ACTIVE,
-/// ERROR). A component of this process is called through its C++ object, any other by CORBA.
-/// state(), hasPendingTransition(), requestTransition() and isRequested() [any-thread]; startup(), shutdown()
-/// and rateChanged() in the thread that changes the context; the steps of the cycle in the thread that runs it.
+/// ERROR). A component of this process is called through its C++ object, any other by CORBA. state(),
+/// hasPendingTransition(), requestTransition() and isRequested() [any-thread]; startup(), shutdown() and
+/// rateChanged() in the thread that changes the context; the steps of the cycle in the thread that runs it.
 class RTObjectStateMachine {
   public:
-    /// `id` is the component's handle of the context. Throws CORBA::SystemException when a component of another
-    /// process cannot be asked for its interface.
+    /// `id` is the component's handle of the context. Throws CORBA::SystemException when a component of
+    /// another process cannot be asked for its interface.
     RTObjectStateMachine(RTC::UniqueId id, RTC::LightweightRTObject_ptr component);
     ~RTObjectStateMachine();
 
     RTC::LifeCycleState state() const;
     bool hasPendingTransition() const;
-    /// Requests a transition, which the next applyTransition() carries out. False when the component is not in
-    /// state `from`, or when a transition is pending already.
+    /// Requests a transition, which the next applyTransition() carries out. False when the component is not
+    /// in state `from`, or when a transition is pending already.
     bool requestTransition(RTC::LifeCycleState from, RTC::LifeCycleState to);
     /// Is exactly this transition pending?
     bool isRequested(RTC::LifeCycleState from, RTC::LifeCycleState to) const;
@@ -31,9 +31,9 @@ class RTObjectStateMachine {
     /// Not duplicated: valid as long as this object.
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 
-    // The steps of one cycle, in this order. With `warm_up` a step takes the same path through the code, which
-    // brings code and data into the caches shortly before the cycle, but it calls nothing of the component and
-    // changes nothing.
+    // The steps of one cycle, in this order. With `warm_up` a step takes the same path through the code,
+    // which brings code and data into the caches shortly before the cycle, but it calls nothing of the
+    // component and changes nothing.
 
     /// Carries out the pending transition, if there is one. One that fails leads to the ERROR state.
     void applyTransition(bool warm_up = false);

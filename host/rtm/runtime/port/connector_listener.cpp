@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Listeners of data connectors: names, conversions between their three forms, and the table of a port.
 #include <algorithm>
 #include <rtm/ConnectorListener.h>
 #include <rtm/Timestamp.h>
@@ -21,6 +22,8 @@ const char* ConnectorListener::toString(ConnectorListenerType type) {
 }
 
 ConnectorDataListener::~ConnectorDataListener() = default;
+// The default of each form calls the next older one (2.x bytes, 1.2 stream, 1.0 const stream), so that a
+// listener written for any version overrides just its own.
 ConnectorDataListener::ReturnCode ConnectorDataListener::operator()(ConnectorInfo& info, ByteData& data,
                                                                     const std::string&) {
     cdrMemoryStream stream;
@@ -45,12 +48,14 @@ ConnectorListener::ReturnCode ConnectorListener::operator()(ConnectorInfo& info)
 }
 void ConnectorListener::operator()(const ConnectorInfo&) {}
 
+// The second of each entry is `autoclean`: the holder deletes the listener.
 template <class Listener>
 ConnectorListeners::Holder<Listener>::~Holder() {
     for (auto& entry : listeners)
         if (entry.second) delete entry.first;
 }
 
+// `count` follows the list, so that notify() without listeners need not lock.
 template <class Listener>
 void ConnectorListeners::Holder<Listener>::add(Listener* listener, bool autoclean) {
     std::lock_guard<std::recursive_mutex> lock(mutex);
@@ -72,6 +77,7 @@ bool ConnectorListeners::Holder<Listener>::remove(Listener* listener) {
 
 ConnectorListeners::~ConnectorListeners() = default;
 
+// The same order as connector_properties(): this side's own word first.
 std::string ConnectorListeners::marshalingType(const ConnectorInfo& info, const std::string& end) {
     return info.properties.getProperty(end + ".marshaling_type",
                                        info.properties.getProperty("marshaling_type", "cdr"));
@@ -96,6 +102,7 @@ bool ConnectorListeners::removeListener(ConnectorListenerType type, ConnectorLis
     return index(type) < info_.size() && info_[index(type)].remove(listener);
 }
 
+// By index, and the mutex is recursive: a running listener may add or remove others of its kind.
 ConnectorListenerStatus::Enum ConnectorListeners::call(ConnectorDataListenerType type, ConnectorInfo& info,
                                                        ByteData& data, const std::string& marshalingtype) {
     auto& holder = data_[index(type)];

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking connectors up, and listeners: the same for both kinds of data ports.
+// The functions of InPortBase and OutPortBase that find connectors and add listeners. Both are public classes
+// of OpenRTM-aist without a common base for data ports, hence one macro that defines them for each.
 #include <rtm/InPortBase.h>
 #include <rtm/OutPortBase.h>
 
 namespace RTC {
 namespace {
 
+/// What `get` returns for each connector. The caller's lists are copies: connectors may go at any time.
 template <class Connectors, class Get>
 auto collect(std::mutex& mutex, Connectors& connectors, Get get) {
     std::lock_guard<std::mutex> lock(mutex);
@@ -14,6 +16,7 @@ auto collect(std::mutex& mutex, Connectors& connectors, Get get) {
     return all;
 }
 
+/// NULL when none matches. As in OpenRTM-aist the connector is not protected after the lock is released.
 template <class Connectors, class Matches>
 auto first_of(std::mutex& mutex, Connectors& connectors, Matches matches) -> typename Connectors::value_type {
     std::lock_guard<std::mutex> lock(mutex);

@@ -7,7 +7,9 @@
 namespace RTC {
 namespace {
 
-// A service may take its time: an arm moves, a user is asked. Longer than what the framework's calls get.
+// The time limit of service calls, in ms. A service may take long (an arm moves, a user is asked), so the
+// default is 600 s, far longer than that of the framework's own calls. Bounded by what the ORB's ULong of ms
+// can hold.
 CORBA::ULong service_call_timeout_ms() {
     double seconds = 600;
     const auto& config = Manager::instance().getConfig();
@@ -19,12 +21,14 @@ CORBA::ULong service_call_timeout_ms() {
 
 } // namespace
 
-/// A servant with an object id of its own, reachable while it is activated.
+/// A provided service: a servant that is reachable while its component is active. Its IOR stays the same over
+/// all activations, so consumers that got it before find the provider when it is activated.
 class CorbaPort::Provider {
   public:
     Provider(const char* type, const char* instance, PortableServer::ServantBase& servant)
         : descriptor_(std::string(type) + "." + instance), servant_(&servant),
           poa_(Manager::instance().getShortCutPOA()) {
+        // Activated once for its object id and IOR; from then on by that id.
         id_ = poa_->activate_object(servant_);
         CORBA::Object_var reference = poa_->id_to_reference(id_.in());
         CORBA::String_var ior = Manager::instance().theORB()->object_to_string(reference.in());
@@ -44,7 +48,7 @@ class CorbaPort::Provider {
         try {
             poa_->deactivate_object(id_.in());
         } catch (const CORBA::Exception&) {
-            // the ORB has gone down before: nothing is left to deactivate
+            // The ORB was shut down first: nothing is left to deactivate.
         }
     }
     const std::string& descriptor() const { return descriptor_; }
@@ -78,6 +82,7 @@ bool CorbaPort::registerProvider(const char* instance_name, const char* type_nam
         return true;
     } catch (const CORBA::Exception& e) {
         RTC_ERROR(("provider %s.%s cannot be activated: %s", type_name, instance_name, e._name()));
+        // The profile must not offer what cannot be called.
         deleteInterface(instance_name, PROVIDED);
         return false;
     }
@@ -103,6 +108,7 @@ void CorbaPort::deactivateInterfaces() {
     for (auto& provider : m_providers) provider->deactivate();
 }
 
+// The key of an interface in a connection's profile, as OpenRTM-aist 1.1 and later build it:
 // <component>.port.<port>.<polarity>.<type>.<instance>
 std::string CorbaPort::propertyKey(const char* polarity, const std::string& descriptor) const {
     const std::string name(m_profile.name);
@@ -114,6 +120,7 @@ ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
     for (auto& provider : m_providers) {
+        // Under the key of 1.1 and later, and under the short one of 1.0.
         CORBA_SeqUtil::push_back(
             profile.properties,
             NVUtil::newNV(propertyKey("provided", provider->descriptor()).c_str(), provider->ior().c_str()));
@@ -123,7 +130,9 @@ ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
     return RTC_OK;
 }
 
-// An explicit mapping first, else the provider of the same type and instance name; empty when there is none.
+// The IOR of the provider for a consumer: the one that the profile maps to it explicitly, otherwise the one
+// of the same type and instance name. Empty when there is none; `nil` or `null` when the mapping leaves it
+// without.
 std::string CorbaPort::findProviderIor(const NVList& properties, const Consumer& consumer) const {
     const std::string mapped =
         NVUtil::toString(properties, propertyKey("required", consumer.descriptor()).c_str());
@@ -145,11 +154,13 @@ ReturnCode_t CorbaPort::subscribeInterfaces(const ConnectorProfile& profile) {
     return RTC_OK;
 }
 
+// Gives the consumer its reference. False, and logged, when it cannot be called; true for an explicit `nil`.
 bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
     if (ior == "nil" || ior == "null") return true;
     try {
         CORBA::Object_var object = Manager::instance().theORB()->string_to_object(ior.c_str());
-        omniORB::setClientCallTimeout(object.in(), service_call_timeout_ms()); // narrowing keeps it
+        omniORB::setClientCallTimeout(object.in(),
+                                      service_call_timeout_ms()); // setObject()'s _narrow keeps it
         if (!consumer.consumer->setObject(object.in())) {
             RTC_ERROR(("%s: what %s was given is not a %s", getName(), consumer.instance.c_str(),
                        consumer.type.c_str()));
@@ -166,6 +177,7 @@ bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
 
 void CorbaPort::unsubscribeInterfaces(const ConnectorProfile& profile) {
     for (auto& consumer : m_consumers) {
+        // A later connection may have given the consumer another provider: that one stays.
         if (consumer.ior.empty() || findProviderIor(profile.properties, consumer) != consumer.ior) continue;
         consumer.consumer->releaseObject();
         consumer.ior.clear();

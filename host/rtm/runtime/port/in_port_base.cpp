@@ -8,6 +8,14 @@
 #include <rtm/OutPortBase.h>
 
 namespace RTC {
+namespace {
+
+// Who publishes is who is called: the InPort for push, the OutPort for pull.
+bool is_pull(const coil::Properties& connector_properties) {
+    return coil::normalize(connector_properties.getProperty("dataflow_type", "push")) == "pull";
+}
+
+} // namespace
 
 InPortBase::InPortBase(const char* name, const char* data_type)
     : PortBase(name), m_thebuffer(new CdrRingBuffer) {
@@ -40,40 +48,40 @@ ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
     const coil::Properties prop = connector_properties(m_properties, profile, "inport");
     const std::string reason = unsupported_reason(prop);
     if (!reason.empty()) return refuse(BAD_PARAMETER, std::string(getName()) + ": " + reason);
-    const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
-    return flow == "pull" ? RTC_OK : addPushConnector(profile, prop);
+    return is_pull(prop) ? RTC_OK : addPushConnector(profile, prop);
 }
 
 ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
     const std::string type = coil::eraseBothEndsBlank(prop.getProperty("buffer_type", "ring_buffer"));
-    CdrBufferBase* buffer = m_thebuffer;
     const bool owns_buffer = type != "ring_buffer" || !m_singlebuffer;
-    if (owns_buffer) {
-        buffer = CdrBufferFactory::instance().createObject(type);
-        if (buffer == nullptr)
-            return refuse(BAD_PARAMETER, std::string(getName()) + ": there is no buffer type " + type +
-                                             "; add it to RTC::CdrBufferFactory before connecting");
-    }
+    CdrBufferBase* buffer = owns_buffer ? CdrBufferFactory::instance().createObject(type) : m_thebuffer;
+    if (buffer == nullptr)
+        return refuse(BAD_PARAMETER, std::string(getName()) + ": there is no buffer type " + type +
+                                         "; add it to RTC::CdrBufferFactory before connecting");
+    // The shared buffer keeps its settings unless the connection has some: then the last connection decides.
     if (owns_buffer || info.properties.findNode("buffer") != nullptr)
         buffer->init(info.properties.getNode("buffer"));
-    const bool direct = !owns_buffer && coil::normalize(prop.getProperty("interface_type")) == "direct" &&
-                        !uses_custom_serializer(profile);
-    const auto direct_buffer = direct ? directBuffer() : nullptr;
+
+    // Values go unserialized only when no buffer of a library and no serializer of a user wants their bytes.
+    const bool is_direct = !owns_buffer && coil::normalize(prop.getProperty("interface_type")) == "direct" &&
+                           !uses_custom_serializer(profile);
+    const auto direct_buffer = is_direct ? directBuffer() : nullptr;
     if (direct_buffer != nullptr)
         if (const auto* node = info.properties.findNode("buffer")) direct_buffer->init(*node);
-    auto* connector = new InPortPushConnector(*this, info, buffer, owns_buffer, direct_buffer);
+
+    auto connector = std::make_unique<InPortPushConnector>(*this, info, buffer, owns_buffer, direct_buffer);
     const std::string registered = registered_push_type(prop);
-    if (!registered.empty()) return addPushProvider(profile, prop, registered, connector);
+    if (!registered.empty()) return addPushProvider(profile, prop, registered, std::move(connector));
     publish_object(profile, "dataport." + corba_interface_type(prop) + ".inport",
                    connector->servant().reference(), connector->servant().ior());
-    addConnector(connector);
+    addConnector(connector.release());
     return RTC_OK;
 }
 
 ReturnCode_t InPortBase::addPushProvider(ConnectorProfile& profile, const coil::Properties& prop,
-                                         const std::string& type, InPortPushConnector* made) {
-    std::unique_ptr<InPortPushConnector> connector(made);
+                                         const std::string& type,
+                                         std::unique_ptr<InPortPushConnector> connector) {
     auto provider = create_registered_in_provider(type, prop);
     if (provider == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": interface type " + type +
@@ -92,8 +100,7 @@ ReturnCode_t InPortBase::addPushProvider(ConnectorProfile& profile, const coil::
 
 ReturnCode_t InPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
     const coil::Properties prop = connector_properties(m_properties, profile, "inport");
-    if (coil::normalize(prop.getProperty("dataflow_type", "push")) != "pull") return RTC_OK;
-    return addPullConnector(profile, prop);
+    return is_pull(prop) ? addPullConnector(profile, prop) : RTC_OK;
 }
 
 ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const coil::Properties& prop) {
@@ -107,6 +114,7 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
         addConnector(new InPortPullConnector(*this, info, std::move(sender)));
         return RTC_OK;
     }
+    // An OutPort of this process gives its buffer, so that reading is no CORBA call.
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto port = local_object<OutPortBase>(profile.ports[i]);
         auto buffer = port ? port->pullBuffer(profile.connector_id) : nullptr;
@@ -143,7 +151,7 @@ void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
         }
     }
     if (!removed) return;
-    // Outside the lock: a listener on its way may be reading this port.
+    // Without the lock: disconnect() waits for messages under way, whose listeners may be reading this port.
     removed->disconnect();
     ConnectorInfo info = removed->profile();
     m_listeners.notify(ConnectorListenerType::ON_DISCONNECT, info);
@@ -151,7 +159,7 @@ void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
 
 std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id) {
     auto* connector = dynamic_cast<InPortPushConnector*>(getConnectorById(connector_id));
-    return connector ? connector->pushReceiver() : nullptr;
+    return connector ? connector->receiver() : nullptr;
 }
 
 InPortConnector* InPortBase::findReadable() {
@@ -164,13 +172,14 @@ InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fa
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;
         if (first == nullptr) first = connector;
-        // The only one is what the caller gets, new data or not, and reading it shows which.
+        // With one connector the caller gets it in any case and reading it shows whether it has data: one
+        // look less.
         if (fallback_to_first && m_connectors.size() == 1) return first;
         if (connector->readableCount() > 0) return connector;
     }
     if (!fallback_to_first) return nullptr;
-    // A sender in another process does not say whether it has something: each is asked, since the first may
-    // be empty, hang or be dead.
+    // Whether a sender in another process has a message shows only when it is asked for one. All are asked:
+    // the first may be empty, hang or be dead. Only its failure is kept, as the result of the port's read.
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;
         auto* pull = dynamic_cast<InPortPullConnector*>(connector);
@@ -179,6 +188,7 @@ InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fa
     return first;
 }
 
+// A port without a type cannot stamp; InPort<T> does.
 void InPortBase::stampOnReceive(ByteData&) {}
 void InPortBase::activateInterfaces() {}
 void InPortBase::deactivateInterfaces() {}

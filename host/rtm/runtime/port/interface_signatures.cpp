@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// The signature alphabet is that of the D-Bus type system (D-Bus specification, "Type system"), with three
+// letters and an array of fixed length that CDR needs beyond it: c char, f float, w wide string, [N]<T>.
 #include <map>
 #include <mutex>
 #include <rtm/InterfaceSignatures.h>
@@ -6,34 +8,40 @@
 namespace RTC {
 namespace {
 
+/// Everything that is registered in this process. Entries are only added, so that pointers to them stay
+/// valid.
 struct Registry {
     std::mutex mutex;
-    std::map<std::string, InterfaceSignatures::Operations> interfaces; // never erased: results stay valid
-    std::map<std::string, std::string> types;
+    std::map<std::string, InterfaceSignatures::Operations> interfaces; // by repository id
+    std::map<std::string, std::string> types;                          // by repository id
 };
 Registry& registry() {
     static auto* instance = new Registry; // static initialisers of plugins come before and after everything
     return *instance;
 }
 
-// IDL:omg.org/M/I:1.0 -> omg.org/M/I
+// IDL:omg.org/M/I:1.0 -> omg.org/M/I; a name that is not a repository id stays as it is.
 std::string repository_path(const std::string& id) {
     const std::size_t begin = id.compare(0, 4, "IDL:") == 0 ? 4 : 0;
     const std::size_t end = begin == 0 ? id.size() : id.rfind(':');
     return id.substr(begin, end - begin);
 }
 
+// ::M::I -> M/I, the form of repository ids.
 std::string scopes_to_slashes(std::string name) {
     for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "/");
     return !name.empty() && name[0] == '/' ? name.substr(1) : name;
 }
 
+// Whole path elements only: `alculator` is not the end of `Testing/Calculator`.
 bool ends_with_path(const std::string& path, const std::string& name) {
     if (path == name) return true;
     return path.size() > name.size() && path[path.size() - name.size() - 1] == '/' &&
            path.compare(path.size() - name.size(), name.size(), name) == 0;
 }
 
+// The exact repository id, otherwise the first interface whose path ends with the name. The caller holds the
+// mutex.
 auto find_interface(Registry& signatures, const std::string& name) {
     auto exact = signatures.interfaces.find(name);
     if (exact != signatures.interfaces.end()) return exact;
@@ -43,8 +51,9 @@ auto find_interface(Registry& signatures, const std::string& name) {
     return it;
 }
 
+// ((uu)d) -> (uu)d: a message is one struct, whose parentheses say nothing.
 std::string strip_outer_parentheses(const std::string& signature) {
-    // The signature of one struct begins and ends with its own pair.
+    // The signature of a struct begins and ends with its own pair.
     return signature.size() >= 2 && signature.front() == '(' ? signature.substr(1, signature.size() - 2)
                                                              : signature;
 }
@@ -59,7 +68,7 @@ std::string signature_of_struct(CORBA::TypeCode_ptr code, int depth) {
 }
 
 std::string signature_of(CORBA::TypeCode_ptr code, int depth) {
-    if (depth > 64) return "?"; // recursive type
+    if (depth > 64) return "?"; // a type that contains itself would never end
     switch (code->kind()) {
     case CORBA::tk_void:
     case CORBA::tk_null:

@@ -9,6 +9,7 @@
 namespace RTC {
 namespace {
 
+// Tells each push connector whether it is the port's only one. The caller holds m_connectorsMutex.
 void update_sole_connector(const std::vector<OutPortConnector*>& connectors) {
     for (auto* connector : connectors)
         if (auto* push = dynamic_cast<OutPortPushConnector*>(connector))
@@ -90,15 +91,15 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
         addConnector(new OutPortPushConnector(*this, info, std::move(receiver)));
         return RTC_OK;
     }
-    bool local = false;
+    bool is_local = false; // an InPort of this process takes the messages directly
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
         auto port = local_object<InPortBase>(profile.ports[i]);
         auto receiver = port ? port->pushReceiver(profile.connector_id) : nullptr;
         if (receiver == nullptr) continue;
         addConnector(new OutPortPushConnector(*this, info, receiver));
-        local = true;
+        is_local = true;
     }
-    if (local || profile.ports.length() < 2) return RTC_OK;
+    if (is_local || profile.ports.length() < 2) return RTC_OK; // less than two: only this port
     auto remote = RemoteReceiver::find(profile, corba_interface_type(prop));
     if (remote == nullptr)
         return refuse(RTC_ERROR, std::string(getName()) + ": the other side offers no " +
@@ -121,6 +122,7 @@ void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
     std::vector<std::unique_ptr<OutPortConnector>> removed;
     {
         std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        // A connection with several InPorts of this process has several connectors of one id.
         for (std::size_t i = m_connectors.size(); i-- > 0;) {
             if (std::string(m_connectors[i]->id()) != static_cast<const char*>(profile.connector_id))
                 continue;
@@ -129,6 +131,7 @@ void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
         }
         update_sole_connector(m_connectors);
     }
+    // Without the lock: disconnect() waits for a delivery under way, whose listeners may use this port.
     for (auto& connector : removed) {
         connector->disconnect();
         ConnectorInfo info = connector->profile();

@@ -4,6 +4,7 @@
 
 namespace RTC {
 
+// Copies: the functions below call ports, which may call back, without the mutex.
 std::vector<PortBase*> PortAdmin::ports() const {
     std::lock_guard<std::mutex> lock(mutex_);
     return ports_;
@@ -28,12 +29,13 @@ PortProfileList PortAdmin::getPortProfileList() const {
         try {
             CORBA_SeqUtil::push_back(list, PortProfile_var(delegated->get_port_profile()).in());
         } catch (const CORBA::SystemException&) {
-            continue; // its component is gone
+            continue; // the port's component, in another process, is gone
         }
     }
     return list;
 }
 
+// The name without its instance name is unique within one component.
 PortBase* PortAdmin::getPort(const char* port_name) const {
     const std::string wanted(port_name);
     for (auto* port : ports()) {
@@ -56,6 +58,7 @@ bool PortAdmin::addPort(PortBase& port) {
 }
 
 bool PortAdmin::removePort(PortBase& port) {
+    // While it is still listed: peers that are told of it may ask for the component's ports.
     port.disconnect_all();
     port.deactivateInterfaces();
     std::lock_guard<std::mutex> lock(mutex_);

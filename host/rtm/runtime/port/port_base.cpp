@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A port as an object: identity, profile, list of connectors.
+// A port as a CORBA object: identity, profile, list of connection profiles. How it is connected is in
+// port_connect.cpp.
 #include <chrono>
 #include <coil/UUID.h>
 #include <coil/stringutil.h>
@@ -10,9 +11,9 @@
 namespace RTC {
 namespace {
 
-/// A deactivated servant is let go by the ORB when the last call from outside has left it. A port is a member
-/// of its component and dies when told to, so it is waited for; not for ever, since the call may be one that
-/// waits for us.
+/// Waits up to 1 s until the ORB gives up its reference to a deactivated servant, which it does when the last
+/// call from outside has returned. A port is a member of its component and is destroyed with it, so calls
+/// must have left it before. The wait is bounded because the call may itself wait for this thread.
 void wait_for_calls_to_end(PortableServer::ServantBase& servant) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(1);
     while (servant._refcount_value() > 1 && std::chrono::steady_clock::now() < deadline)
@@ -38,7 +39,7 @@ void PortBase::retire() {
         m_poa->deactivate_object(m_oid.in());
         wait_for_calls_to_end(*this);
     } catch (const CORBA::Exception&) {
-        // the ORB has gone down before: nothing is left to deactivate
+        // The ORB was shut down first: nothing is left to deactivate.
     }
 }
 
@@ -79,6 +80,7 @@ void PortBase::setOwner(RTObject_ptr owner) {
 
 void PortBase::setOwner(RTObject_ptr owner, const char* instance_name) {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
+    // The port may have had an owner: only what follows the last dot is its own name.
     const std::string former(m_profile.name);
     const std::string name = std::string(instance_name) + "." + former.substr(former.rfind('.') + 1);
     m_ownerInstanceName = instance_name;
@@ -92,6 +94,7 @@ std::string PortBase::connectError() const {
     return m_connectError;
 }
 
+// Its own mutex: connect() may be refused while another thread reads the profile.
 ReturnCode_t PortBase::refuse(ReturnCode_t code, const std::string& reason) {
     RTC_DEBUG(("%s", reason.c_str()));
     std::lock_guard<std::mutex> lock(m_errorMutex);
@@ -147,6 +150,8 @@ bool PortBase::eraseConnectorProfile(const char* id) {
     return true;
 }
 
+// False when the port has an interface of that name and polarity already: the profile could not tell them
+// apart.
 bool PortBase::appendInterface(const char* instance_name, const char* type_name,
                                PortInterfacePolarity polarity) {
     std::lock_guard<std::mutex> lock(m_profile_mutex);

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The connection protocol: connect -> notify_connect along the ports of the profile, and back.
+// The connection protocol of the OMG RTC specification's introspection services, as OpenRTM-aist does it:
+// connect() and disconnect() call the first port of the profile, and each port passes notify_connect() or
+// notify_disconnect() on to the next one. The profile collects on its way what the ports publish.
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include <coil/stringutil.h>
+#include <optional>
 #include <rtm/PortBase.h>
 
 namespace RTC {
 namespace {
 
+/// What decides whether two ports fit. `kind` is the port.port_type; empty properties are those of a foreign
+/// port.
 struct PortDescription {
     std::string name, kind, data_type;
 };
@@ -20,7 +25,8 @@ PortDescription describe_port(PortService_ptr port) {
             NVUtil::toString(profile->properties, "dataport.data_type")};
 }
 
-// Why two ports can never be joined; empty when they may.
+// Why two ports cannot be connected, in one line; empty when they can. Ports of unknown kind are let through:
+// the ports themselves decide.
 std::string incompatibility(const PortDescription& a, const PortDescription& b,
                             const ConnectorProfile& profile) {
     const bool services = a.kind == "CorbaPort" && b.kind == "CorbaPort";
@@ -35,6 +41,7 @@ std::string incompatibility(const PortDescription& a, const PortDescription& b,
     return "";
 }
 
+// The same for all ports of a connection, each against the first one.
 std::string incompatibility(const ConnectorProfile& profile) {
     const PortServiceList& ports = profile.ports;
     if (ports.length() < 2) return "";
@@ -52,10 +59,39 @@ bool has_remote_port(const ConnectorProfile& profile) {
     return false;
 }
 
-// Who is told of the end of a connection may be the reason for it.
-void set_disconnect_timeout(PortService_ptr port) {
-    const auto bound = Manager::instance().impl().connection_keeper->disconnect_timeout();
-    omniORB::setClientCallTimeout(port, static_cast<CORBA::ULong>(bound.count()));
+// Where `port` is in the list of the profile; -1 when it is not.
+CORBA::Long position_of(PortService_ptr port, const ConnectorProfile& profile) {
+    return CORBA_SeqUtil::find(profile.ports,
+                               [port](PortService_ptr other) { return port->_is_equivalent(other); });
+}
+
+// Calls a port of this process directly, any other by CORBA.
+ReturnCode_t notify_connect_at(PortService_ptr port, ConnectorProfile& profile) {
+    const auto local = local_object<PortBase>(port);
+    return local ? local->notify_connect(profile) : port->notify_connect(profile);
+}
+
+// The same; by CORBA with the short time limit of disconnections, since a peer that hangs may be their
+// reason.
+ReturnCode_t notify_disconnect_at(PortService_ptr port, const char* connector_id) {
+    if (const auto local = local_object<PortBase>(port)) return local->notify_disconnect(connector_id);
+    const auto timeout = Manager::instance().impl().connection_keeper->disconnect_timeout();
+    omniORB::setClientCallTimeout(port, static_cast<CORBA::ULong>(timeout.count()));
+    return port->notify_disconnect(connector_id);
+}
+
+// Notifies the first port from position `begin` on that can be reached; it passes the call on to those behind
+// it. Empty when there is none.
+std::optional<ReturnCode_t> notify_disconnect_from(CORBA::ULong begin, const ConnectorProfile& profile,
+                                                   const char* port_name, const Logger& rtclog) {
+    for (CORBA::ULong i = begin; i < profile.ports.length(); ++i) {
+        try {
+            return notify_disconnect_at(profile.ports[i], profile.connector_id);
+        } catch (const CORBA::SystemException& e) {
+            RTC_WARN(("disconnecting %s: a peer: %s", port_name, describe_exception(e).c_str()));
+        }
+    }
+    return std::nullopt;
 }
 
 } // namespace
@@ -68,16 +104,18 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         return refuse(PRECONDITION_NOT_MET, std::string("there is a connection with id ") +
                                                 static_cast<const char*>(profile.connector_id));
     try {
-        const std::string reason = incompatibility(profile);
-        if (!reason.empty()) return refuse(BAD_PARAMETER, reason);
-        auto first = local_object<PortBase>(profile.ports[0]);
-        const ReturnCode_t result =
-            first ? first->notify_connect(profile) : profile.ports[0]->notify_connect(profile);
+        const std::string mismatch = incompatibility(profile);
+        if (!mismatch.empty()) return refuse(BAD_PARAMETER, mismatch);
+        const ReturnCode_t result = notify_connect_at(profile.ports[0], profile);
         if (result == RTC_OK) return clearConnectError();
+        // A port of this process knows the reason; by CORBA only the code comes back.
+        const auto first = local_object<PortBase>(profile.ports[0]);
         if (first && first.get() != this) refuse(result, first->connectError());
+        // Taken before disconnect(), which has an error of its own when this port has no part of the
+        // connection.
         const std::string id(profile.connector_id);
         const std::string reason = connectError();
-        disconnect(id.c_str()); // whatever part of it was established
+        disconnect(id.c_str()); // the ports that were connected before the one that refused
         return refuse(result, reason.empty() ? "the other side has refused the connection" : reason);
     } catch (const CORBA::SystemException& e) {
         releaseConnection(profile.connector_id);
@@ -105,7 +143,8 @@ void PortBase::notifyListeners(PortConnectRetListenerType type, ConnectorProfile
 }
 
 ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
-    // Twice would be a circle: each passes the call on to the next one.
+    // Each port passes the call on to the one behind it: a port that is listed twice would call itself for
+    // ever.
     const auto occurrences = occurrencesIn(profile);
     if (occurrences != 1)
         return refuse(BAD_PARAMETER, std::string(getName()) + " is " + std::to_string(occurrences) +
@@ -129,14 +168,15 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
     if (m_onSubscribeInterfaces != nullptr) (*m_onSubscribeInterfaces)(profile);
     const ReturnCode_t subscribed = notified == RTC_OK ? subscribeInterfaces(profile) : notified;
     notifyListeners(Step::ON_SUBSCRIBE_INTERFACES, profile, subscribed);
-    // Kept even when it has failed later: the disconnection that follows finds by it what to undo.
+    // Kept even when a later step has failed: disconnect() finds in it what to undo.
     if (published == RTC_OK) updateConnectorProfile(profile);
+    // A peer in another process may die without disconnecting: the manager looks after it from now on.
     if (subscribed == RTC_OK && has_remote_port(profile)) Manager::instance().impl().connection_keeper->start();
     return subscribed;
 }
 
-// A peer that dies or hangs in its notify_connect() leaves us with half a connection, which connect() takes
-// back.
+// A peer that dies or hangs in its notify_connect() leaves this side with half a connection, which connect()
+// at the first port undoes.
 ReturnCode_t PortBase::notifyNextPort(ConnectorProfile& profile) {
     try {
         return connectNext(profile);
@@ -145,6 +185,7 @@ ReturnCode_t PortBase::notifyNextPort(ConnectorProfile& profile) {
     }
 }
 
+// Only checks the limit; the ports of each kind publish.
 ReturnCode_t PortBase::_publishInterfaces() {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
     if (m_connectionLimit < 0 ||
@@ -173,34 +214,24 @@ CORBA::ULong PortBase::occurrencesIn(const ConnectorProfile& profile) const {
 }
 
 ReturnCode_t PortBase::connectNext(ConnectorProfile& profile) {
-    const CORBA::Long me =
-        CORBA_SeqUtil::find(profile.ports, [this](PortService_ptr p) { return m_objref->_is_equivalent(p); });
-    const CORBA::ULong next = static_cast<CORBA::ULong>(me) + 1;
+    const auto next = static_cast<CORBA::ULong>(position_of(m_objref.in(), profile)) + 1;
     if (next >= profile.ports.length()) return RTC_OK;
+    // Duplicated: the call replaces the profile, and with it the reference in its list.
     PortService_var port = RTC::PortService::_duplicate(profile.ports[next]);
-    auto local = local_object<PortBase>(port.in());
-    const ReturnCode_t result = local ? local->notify_connect(profile) : port->notify_connect(profile);
-    return result == RTC_OK || !local ? result : refuse(result, local->connectError());
+    const ReturnCode_t result = notify_connect_at(port.in(), profile);
+    if (result == RTC_OK) return result;
+    const auto local = local_object<PortBase>(port.in());
+    return local ? refuse(result, local->connectError()) : result;
 }
 
 ReturnCode_t PortBase::disconnect(const char* connector_id) {
     const ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
-    ReturnCode_t result = RTC_ERROR;
-    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
-        try {
-            auto local = local_object<PortBase>(profile.ports[i]);
-            if (local == nullptr) set_disconnect_timeout(profile.ports[i]);
-            result = local ? local->notify_disconnect(connector_id)
-                           : profile.ports[i]->notify_disconnect(connector_id);
-            break;
-        } catch (const CORBA::SystemException& e) {
-            RTC_WARN(("disconnecting %s: a peer: %s", getName(), describe_exception(e).c_str()));
-        }
-    }
-    if (releaseConnection(connector_id)) result = RTC_OK; // the peers have not passed it on to us
-    return result;
+    const auto result = notify_disconnect_from(0, profile, getName(), rtclog);
+    // Still connected: a peer has not passed the call on to this port. This side ends all the same.
+    if (releaseConnection(connector_id)) return RTC_OK;
+    return result.value_or(RTC_ERROR);
 }
 
 ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
@@ -214,6 +245,7 @@ ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     return result;
 }
 
+// Ends this port's part of a connection. False when it has none (any more).
 bool PortBase::releaseConnection(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return false;
@@ -230,34 +262,25 @@ void PortBase::dropLostConnection(const char* connector_id) {
     if (profile.ports.length() == 0) return;
     RTC_WARN(("%s: the other side of connection %s is gone", getName(), connector_id));
     if (m_onConnectionLost != nullptr) (*m_onConnectionLost)(profile);
+    // Ports of this process are not reached through the lost one, which would have passed the call on.
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
         if (auto local = local_object<PortBase>(profile.ports[i])) local->releaseConnection(connector_id);
     Manager::instance().impl().connection_keeper->report_lost(profile);
 }
 
 ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
-    const CORBA::Long me =
-        CORBA_SeqUtil::find(profile.ports, [this](PortService_ptr p) { return m_objref->_is_equivalent(p); });
-    if (me < 0) return BAD_PARAMETER;
-    for (CORBA::ULong next = static_cast<CORBA::ULong>(me) + 1; next < profile.ports.length(); ++next) {
-        try {
-            auto local = local_object<PortBase>(profile.ports[next]);
-            if (local == nullptr) set_disconnect_timeout(profile.ports[next]);
-            return local ? local->notify_disconnect(profile.connector_id)
-                         : profile.ports[next]->notify_disconnect(profile.connector_id);
-        } catch (const CORBA::SystemException& e) {
-            RTC_WARN(("disconnecting %s: a peer: %s", getName(), describe_exception(e).c_str()));
-        }
-    }
-    return RTC_OK;
+    const CORBA::Long position = position_of(m_objref.in(), profile);
+    if (position < 0) return BAD_PARAMETER;
+    const auto next = static_cast<CORBA::ULong>(position) + 1;
+    return notify_disconnect_from(next, profile, getName(), rtclog).value_or(RTC_OK);
 }
 
 ReturnCode_t PortBase::disconnect_all() {
     ConnectorProfileList_var profiles = get_connector_profiles();
     ReturnCode_t result = RTC_OK;
     for (CORBA::ULong i = 0; i < profiles->length(); ++i) {
-        const ReturnCode_t one = disconnect(profiles[i].connector_id);
-        if (one != RTC_OK) result = one;
+        const ReturnCode_t disconnected = disconnect(profiles[i].connector_id);
+        if (disconnected != RTC_OK) result = disconnected;
     }
     return result;
 }

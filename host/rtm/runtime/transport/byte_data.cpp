@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serialized messages: ByteData, ByteDataStreamBase, CORBA_CdrMemoryStream, and the factories of buffers and
-// serializers, whose one instance must live in this library.
+// Serialized messages: ByteData, ByteDataStreamBase, CORBA_CdrMemoryStream; and the global factories of
+// buffers and serializers, instantiated here so that all libraries of a process share one instance.
 #include <algorithm>
 #include <cstring>
 #include <rtm/ByteData.h>
@@ -24,6 +24,7 @@ ByteData& ByteData::operator=(const ByteData& other) {
     return *this;
 }
 
+// The byte order stays as it was: a stream does not say its own.
 ByteData& ByteData::operator=(const ByteDataStreamBase& stream) {
     const unsigned long length = stream.getDataLength();
     reserve(length);
@@ -34,6 +35,7 @@ ByteData& ByteData::operator=(const ByteDataStreamBase& stream) {
 
 void ByteData::reserve(unsigned long length) {
     if (length <= m_capacity) return;
+    // Doubling: a port whose messages grow slowly does not allocate each time.
     const unsigned long capacity = std::max(length, 2 * m_capacity);
     auto* grown = new unsigned char[capacity];
     if (m_len > 0) std::memcpy(grown, m_buf, m_len);
@@ -55,6 +57,7 @@ void ByteData::writeData(const unsigned char* data, unsigned long length) {
 
 void ByteData::setDataLength(unsigned long length) {
     reserve(length);
+    // Never hand out bytes of an earlier message.
     if (length > m_len) std::memset(m_buf + m_len, 0, length - m_len);
     m_len = length;
 }
@@ -68,6 +71,8 @@ const unsigned char* CORBA_CdrMemoryStream::getBuffer() {
 }
 unsigned long CORBA_CdrMemoryStream::getCdrDataLength() const { return m_cdr.bufSize(); }
 
+// omniORB's stream marshals in this machine's byte order unless told to swap; its flag says which order the
+// bytes have (true: little-endian).
 void CORBA_CdrMemoryStream::writeCdrData(const unsigned char* buffer, unsigned long length) {
     m_cdr.rewindPtrs();
     m_cdr.setByteSwapFlag(m_endian);

@@ -6,6 +6,7 @@ namespace RTC {
 
 namespace {
 
+// CdrData and OctetSeq of the two IDL files are different types with the same base.
 OpenRTM::PortStatus receive_message(PushReceiver& receiver, bool little_endian,
                                     const _CORBA_Unbounded_Sequence_Octet& data) {
     ByteData bytes;
@@ -14,6 +15,8 @@ OpenRTM::PortStatus receive_message(PushReceiver& receiver, bool little_endian,
     return to_port_status(receiver.receive(bytes));
 }
 
+// `data` is the out argument of an IDL operation: CORBA's C++ mapping wants a new sequence in any case, also
+// when there is no message.
 template <class Data>
 OpenRTM::PortStatus fetch_message(PullBuffer& buffer, Data*& data) {
     ByteData bytes;
@@ -25,6 +28,7 @@ OpenRTM::PortStatus fetch_message(PullBuffer& buffer, Data*& data) {
     return to_port_status(status);
 }
 
+/// corba_cdr, push. [ORB thread]
 class InPortCdrServant : public POA_OpenRTM::InPortCdr {
   public:
     InPortCdrServant(std::shared_ptr<PushReceiver> receiver, bool little_endian)
@@ -38,6 +42,7 @@ class InPortCdrServant : public POA_OpenRTM::InPortCdr {
     bool little_endian_;
 };
 
+/// data_service, push. Its PortStatus has the same values as that of corba_cdr. [ORB thread]
 class DataPushServant : public POA_RTC::DataPushService {
   public:
     DataPushServant(std::shared_ptr<PushReceiver> receiver, bool little_endian)
@@ -51,6 +56,7 @@ class DataPushServant : public POA_RTC::DataPushService {
     bool little_endian_;
 };
 
+/// corba_cdr, pull. [ORB thread]
 class OutPortCdrServant : public POA_OpenRTM::OutPortCdr {
   public:
     explicit OutPortCdrServant(std::shared_ptr<PullBuffer> buffer) : buffer_(std::move(buffer)) {}
@@ -62,6 +68,7 @@ class OutPortCdrServant : public POA_OpenRTM::OutPortCdr {
     std::shared_ptr<PullBuffer> buffer_;
 };
 
+/// data_service, pull. [ORB thread]
 class DataPullServant : public POA_RTC::DataPullService {
   public:
     explicit DataPullServant(std::shared_ptr<PullBuffer> buffer) : buffer_(std::move(buffer)) {}
@@ -88,7 +95,7 @@ PortableServer::ServantBase* create_servant(const std::string& interface_type,
 }
 
 ServantHolder::ServantHolder(PortableServer::ServantBase* servant) : poa_(Manager::instance().getPOA()) {
-    PortableServer::ServantBase_var owned(servant);
+    PortableServer::ServantBase_var owned(servant); // the POA holds a reference of its own after this
     id_ = poa_->activate_object(servant);
     reference_ = poa_->id_to_reference(id_.in());
 }
@@ -97,7 +104,7 @@ ServantHolder::~ServantHolder() {
     try {
         poa_->deactivate_object(id_.in());
     } catch (const CORBA::Exception&) {
-        // the ORB has gone down before: nothing is left to deactivate
+        // The ORB was shut down first: nothing is left to deactivate.
     }
 }
 

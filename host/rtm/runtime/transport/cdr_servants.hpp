@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ends of data connectors that peers in other processes call: corba_cdr and data_service.
+// The CORBA objects through which peers in other processes push messages to an InPort or pull them from an
+// OutPort: corba_cdr (DataPort_OpenRTM.idl) and data_service (DataPort.idl).
 #pragma once
 #include "host/rtm/runtime/transport/pull_buffer.hpp"
 #include "host/rtm/runtime/transport/push_receiver.hpp"
@@ -9,20 +10,24 @@
 
 namespace RTC {
 
-/// What lets peers in other processes put messages into an receiver, or fetch them from an buffer.
-/// `interface_type`: corba_cdr or data_service.
+/// A servant that passes pushed messages to `receiver`. `interface_type`: corba_cdr or data_service.
+/// `little_endian`: the byte order agreed for the connection; the octets on the wire do not carry it.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PushReceiver> receiver, bool little_endian);
+/// A servant that gives the messages of `buffer` to whoever pulls.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PullBuffer> buffer);
 
-/// Activates a servant in the root POA for as long as it lives; the servant is deleted with its last call.
+/// Keeps a servant activated in the root POA during its own lifetime. Takes over the servant, which the POA
+/// deletes after the last call in it has ended. Construction throws CORBA::SystemException.
 class ServantHolder {
   public:
     explicit ServantHolder(PortableServer::ServantBase* servant);
     ~ServantHolder();
     ServantHolder(const ServantHolder&) = delete;
     ServantHolder& operator=(const ServantHolder&) = delete;
+
+    /// Not duplicated: valid as long as this object.
     CORBA::Object_ptr reference() const { return reference_.in(); }
     std::string ior() const;
 
@@ -32,6 +37,9 @@ class ServantHolder {
     CORBA::Object_var reference_;
 };
 
+/// What a servant answers for the outcome of a call in this process, and what a caller makes of such an
+/// answer. The IDL has fewer codes, so that to_port_status() loses some; from_port_status() gives the
+/// caller's view of them: the peer's full buffer is SEND_FULL here, its empty one RECV_EMPTY.
 OpenRTM::PortStatus to_port_status(DataPortStatus status);
 DataPortStatus from_port_status(OpenRTM::PortStatus status);
 

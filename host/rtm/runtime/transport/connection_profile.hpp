@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What data ports and their connectors read from, and write to, the profile of a connection. The keys are those
-// of OpenRTM-aist. All functions [any-thread].
+// What data ports and their connectors read from, and write to, the profile of a connection. The keys are
+// those of OpenRTM-aist. All functions [any-thread].
 #pragma once
 #include <rtm/ConnectorBase.h>
 #include <string>
@@ -15,8 +15,8 @@ coil::Properties connector_properties(const coil::Properties& port, const Connec
 /// Name, id, ports (as IORs) of the connection, with `properties` of connector_properties().
 ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Properties& properties);
 
-/// Is the first byte order that `serializer.cdr.endian` names (`little`, `big`, or a list) little-endian? Also
-/// true when it names none, as in OpenRTM-aist.
+/// Is the first byte order that `serializer.cdr.endian` names (`little`, `big`, or a list) little-endian?
+/// Also true when it names none, as in OpenRTM-aist.
 bool is_little_endian(const coil::Properties& connector_properties);
 
 /// Why a connection with these properties cannot be made, in one line; empty when it can.

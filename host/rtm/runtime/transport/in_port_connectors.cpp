@@ -14,6 +14,7 @@ InPortConnector::InPortConnector(ConnectorInfo& info, ConnectorListenersBase* li
     m_littleEndian = is_little_endian(info.properties);
 }
 
+// m_cdr came from the factory, in serializer(); NULL when nothing was ever read.
 InPortConnector::~InPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
 
 DataPortStatus InPortConnector::read(ByteDataStreamBase* stream) {
@@ -29,6 +30,7 @@ DataPortStatus InPortConnector::read(ByteData& bytes) {
 }
 
 DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place) {
+    // A listener needs the bytes, and may change them: then the message is copied out.
     if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
     const DataPortStatus status =
         notifyReadResult(m_inPlace->readInPlace(m_bytes, reader, read_in_place), m_bytes);
@@ -38,6 +40,7 @@ DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& read
     return status;
 }
 
+// Calls the listeners of what a read has come to, and says the same as a port's status.
 DataPortStatus InPortConnector::notifyReadResult(BufferStatus status, ByteData& bytes) {
     switch (status) {
     case BufferStatus::OK:
@@ -68,7 +71,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
 }
 
 InPortPushConnector::~InPortPushConnector() {
-    provider_.reset(); // nothing comes after that
+    provider_.reset(); // first: the transport writes into this connector until its provider is gone
     disconnect();
     if (owns_buffer_) CdrBufferFactory::instance().deleteObject(m_buffer);
 }
@@ -79,6 +82,7 @@ DataPortStatus InPortPushConnector::disconnect() {
 }
 
 BufferStatus InPortPushConnector::write(ByteData& bytes) {
+    // A library's provider calls the ON_RECEIVED listeners itself; PushReceiver would call them once more.
     if (provider_ != nullptr) return InPortConnector::write(bytes);
     return receiver_->receive(bytes) == DataPortStatus::PORT_OK ? BufferStatus::OK
                                                                 : BufferStatus::BUFFER_ERROR;
@@ -96,27 +100,31 @@ InPortPullConnector::InPortPullConnector(InPortBase& port, ConnectorInfo& info,
 }
 
 DataPortStatus InPortPullConnector::read(ByteData& bytes) {
-    const bool asked = prefetched_status_.has_value();
-    const DataPortStatus status = asked ? *prefetched_status_ : local_ ? local_->fetch(bytes) : fetch(bytes);
-    if (asked) {
+    DataPortStatus status;
+    if (prefetched_status_) {
+        status = *prefetched_status_;
         bytes = prefetched_bytes_;
         prefetched_status_.reset();
+    } else {
+        status = local_ ? local_->fetch(bytes) : fetch(bytes);
     }
     if (status == DataPortStatus::PORT_OK)
         m_listeners->notify(ConnectorDataListenerType::ON_RECEIVED, m_profile, bytes, m_marshaling_type);
     return status;
 }
 
-bool InPortPullConnector::prefetch(bool final) {
-    if (local_) return false;
+bool InPortPullConnector::prefetch(bool keep_failure) {
+    if (local_) return false; // its buffer says whether there is a message
     if (prefetched_status_ != DataPortStatus::PORT_OK) prefetched_status_ = fetch(prefetched_bytes_);
     if (prefetched_status_ == DataPortStatus::PORT_OK) return true;
-    if (!final) prefetched_status_.reset();
+    if (!keep_failure) prefetched_status_.reset();
     return false;
 }
 
-// The reader, often a component's cycle, waits for a sender that hangs once for long, then rarely and shortly
-// until that answers again: to a question that takes no message from it.
+// The reader is often a component's cycle, which a sender that hangs must not stop. So the reader waits for
+// the full answer_timeout_ only once. After that it probes the sender, with a time limit that grows from 10
+// to 200 ms and a pause of ten times as long, until the sender answers again. A probe takes no message: an
+// answer that came too late would lose one.
 std::optional<DataPortStatus> InPortPullConnector::requestMessage(ByteData& bytes) {
     using namespace std::chrono_literals;
     if (probe_timeout_ == 0ms || remote_->isResponding()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two kinds of receiving ends.
+// The two kinds of connectors of an InPort: the peer pushes, or this side pulls.
 #pragma once
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
@@ -9,19 +9,24 @@
 
 namespace RTC {
 
-/// The other end pushes into an inlet.
+/// The peer pushes, into the PushReceiver of this connector: an OutPort of this process calls it directly,
+/// another process through the servant, a library's transport through the connector itself.
 class InPortPushConnector : public InPortConnector {
   public:
-    /// `owns_buffer`: the buffer came from CdrBufferFactory for this connector alone.
-    /// `direct_buffer` of a direct connection, else NULL.
+    /// `owns_buffer`: the buffer came from CdrBufferFactory for this connector alone, and goes back to it.
+    /// `direct_buffer`: of the port, for a direct connection; else NULL.
     InPortPushConnector(InPortBase& port, ConnectorInfo& info, CdrBufferBase* buffer, bool owns_buffer,
                         std::shared_ptr<DirectBufferBase> direct_buffer = nullptr);
     ~InPortPushConnector() override;
+
+    /// Returns when no message is being received. [any-thread but a listener's of this connection]
     DataPortStatus disconnect() override;
+    /// What a library's InPortProvider calls with a message. [transport's thread]
     BufferStatus write(ByteData& bytes) override;
     std::shared_ptr<PushReceiver> receiver() const { return receiver_; }
     const ServantHolder& servant() const { return servant_; }
-    /// A library's end writes into this connector, and tells the listeners itself.
+    /// The connection uses a library's transport: its provider writes into this connector and calls the
+    /// listeners itself.
     void setProvider(RegisteredInPortProvider provider) { provider_ = std::move(provider); }
 
   private:
@@ -31,31 +36,34 @@ class InPortPushConnector : public InPortConnector {
     ServantHolder servant_;
 };
 
-/// This end fetches: from an outlet of this process or by CORBA.
+/// This side pulls: from the PullBuffer of an OutPort of this process, or by CORBA. [port's reading thread]
 class InPortPullConnector : public InPortConnector {
   public:
     InPortPullConnector(InPortBase& port, ConnectorInfo& info, std::shared_ptr<PullBuffer> local);
     InPortPullConnector(InPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteSender> remote);
+
     using InPortConnector::read;
+    /// One message, the prefetched one first; RECV_TIMEOUT when the sender does not answer.
     DataPortStatus read(ByteData& bytes) override;
     DataPortStatus disconnect() override { return DataPortStatus::PORT_OK; }
-    /// Asks a sender in another process for a message, which the next read() returns; true: there is one.
-    /// That there is none is what the next read() says only if `final`.
-    bool prefetch(bool final);
+    /// Fetches a message from a sender in another process and keeps it for the next read(). True: there is
+    /// one. With `keep_failure` the next read() returns the failure instead of asking the sender once more.
+    bool prefetch(bool keep_failure);
 
   private:
     DataPortStatus fetch(ByteData& bytes);
     std::optional<DataPortStatus> requestMessage(ByteData& bytes);
 
-    std::shared_ptr<PullBuffer> local_;
-    std::unique_ptr<RemoteSender> remote_;
-    std::chrono::milliseconds answer_timeout_{0}; // for an answer
-    std::chrono::milliseconds probe_timeout_{
-        0}; // after one that did not come: how long is waited for a sign of life
-    std::chrono::steady_clock::time_point next_request_time_{}; // the sender is left alone until then
-    std::optional<DataPortStatus> prefetched_status_;           // what came of prefetch()
+    std::shared_ptr<PullBuffer> local_;    // one of the two is NULL
+    std::unique_ptr<RemoteSender> remote_; //
+    std::chrono::milliseconds answer_timeout_{0};
+    // After a missing answer: the time limit of the probes for a sign of life. 0: the last request was
+    // answered.
+    std::chrono::milliseconds probe_timeout_{0};
+    std::chrono::steady_clock::time_point next_request_time_{}; // no request or probe before that
+    std::optional<DataPortStatus> prefetched_status_;           // result of prefetch() for the next read()
     ByteData prefetched_bytes_;
-    CdrRingBuffer unused_buffer_;
+    CdrRingBuffer unused_buffer_; // getBuffer() must return one, though a remote sender fills none
 };
 
 } // namespace RTC

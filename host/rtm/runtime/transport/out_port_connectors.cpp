@@ -23,11 +23,13 @@ BufferStatus OutPortConnector::read(ByteData& bytes) {
     return buffer == nullptr ? BufferStatus::PRECONDITION_NOT_MET : buffer->read(bytes);
 }
 
+// Connectors that cannot do so fall back to write(bytes).
 bool OutPortConnector::writeInPlace(const Marshal&, DataPortStatus&) { return false; }
 
 bool OutPortConnector::writeDirect(const DirectWriter&, DataPortStatus&) { return false; }
 
 bool OutPortConnector::canShareBytesOf(const OutPortConnector& other) const {
+    // A message that was sent in place was never bytes, and a stamp makes each connector's message its own.
     auto stamps = [](TimestampPolicy p) {
         return p == TimestampPolicy::on_write || p == TimestampPolicy::on_send;
     };
@@ -39,7 +41,9 @@ OutPortPushConnector::OutPortPushConnector(OutPortBase& port, ConnectorInfo& inf
                                            std::shared_ptr<PushReceiver> local)
     : OutPortConnector(info, port.getListeners()), local_receiver_(std::move(local)) {
     m_direct = local_receiver_->directBuffer() != nullptr;
-    if (!m_direct) // who wants values as they are wants them at once
+    // A publisher's thread takes bytes. A direct connection carries unserialized values, in the writer's
+    // thread.
+    if (!m_direct)
         publisher_ =
             Publisher::create(m_profile.properties, [this](ByteData& bytes) { return publish(bytes); });
     if (local_receiver_->inPlace() != nullptr && !publisher_)
@@ -77,12 +81,14 @@ DataPortStatus OutPortPushConnector::write(ByteData& bytes) {
     return status;
 }
 
-// In the publisher's thread, which runs before publisher_ is set and ends after it is reset.
+// [publisher's thread] It may run before publisher_ is set and until publisher_.reset() returns: so nothing
+// here uses publisher_.
 DataPortStatus OutPortPushConnector::publish(ByteData& bytes) {
     m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);
     return deliver(bytes);
 }
 
+// Sends one message, in the writer's or the publisher's thread, and calls the listeners of the outcome.
 DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
     m_listeners->notify(Type::ON_SEND, m_profile, bytes, m_marshaling_type);
@@ -122,7 +128,7 @@ OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& inf
       servant_(create_servant(corba_interface_type(info.properties), pull_buffer_)) {}
 
 OutPortPullConnector::~OutPortPullConnector() {
-    provider_.reset(); // nobody reads after that
+    provider_.reset(); // first: the transport reads from this connector until its provider is gone
     disconnect();
 }
 

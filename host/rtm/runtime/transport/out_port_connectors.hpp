@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kinds of sending ends.
+// The two kinds of connectors of an OutPort: this side pushes, or the peer pulls.
 #pragma once
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/publisher.hpp"
@@ -8,48 +8,57 @@
 #include <rtm/OutPortConnector.h>
 
 namespace RTC {
+
 class OutPortBase;
 
-/// Pushes to an receiver of this process, or by CORBA to another; at once or through a publisher thread,
-/// as the property subscription_type says (flush, new, periodic).
+/// Pushes to a PushReceiver of this process or, by CORBA or a library's transport, to another process: in the
+/// writer's thread (subscription_type flush) or in a publisher's thread (new, periodic).
 class OutPortPushConnector : public OutPortConnector {
   public:
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::shared_ptr<PushReceiver> local);
     OutPortPushConnector(OutPortBase& port, ConnectorInfo& info, std::unique_ptr<RemoteReceiver> remote);
     ~OutPortPushConnector() override;
+
     using OutPortConnector::write;
     DataPortStatus write(ByteData& bytes) override;
     bool writeInPlace(const Marshal& marshal, DataPortStatus& status) override;
     bool writeDirect(const DirectWriter& writer, DataPortStatus& status) override;
+    /// Ends the publisher's thread, after a delivery under way.
     DataPortStatus disconnect() override;
+    /// The publisher's buffer; NULL without a publisher.
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
-
-    /// Is it the only connector of its port? Others must not wait for a receiver that hangs.
+    /// Is it the only connector of its port? The port's other connectors must not wait for a receiver that
+    /// hangs. [with the port's m_connectorsMutex held, as write()]
     void setSoleConnector(bool is_sole) { is_sole_connector_ = is_sole; }
 
   private:
     DataPortStatus publish(ByteData& bytes);
     DataPortStatus deliver(ByteData& bytes);
 
+    // One of the three is set: of this process; of another process with a publisher's thread, which may wait
+    // for answers; of another process without one.
     std::shared_ptr<PushReceiver> local_receiver_;
-    std::unique_ptr<RemoteReceiver> remote_receiver_; // a publisher's thread sends: it may wait
-    std::unique_ptr<RemotePush> remote_push_;         // the writer sends
+    std::unique_ptr<RemoteReceiver> remote_receiver_;
+    std::unique_ptr<RemotePush> remote_push_;
     std::unique_ptr<Publisher> publisher_;
     bool is_sole_connector_ = true;
 };
 
-/// Keeps messages until the other end fetches them.
+/// Keeps messages until the peer pulls them: an InPort of this process from the PullBuffer directly, another
+/// process through the servant, a library's transport through OutPortConnector::read().
 class OutPortPullConnector : public OutPortConnector {
   public:
     OutPortPullConnector(OutPortBase& port, ConnectorInfo& info);
     ~OutPortPullConnector() override;
+
     using OutPortConnector::write;
     DataPortStatus write(ByteData& bytes) override;
+    /// Returns when no message is being fetched.
     DataPortStatus disconnect() override;
     CdrBufferBase* getBuffer() override { return &pull_buffer_->buffer(); }
     std::shared_ptr<PullBuffer> pullBuffer() const { return pull_buffer_; }
     const ServantHolder& servant() const { return servant_; }
-    /// A library's end reads what waits here.
+    /// The connection uses a library's transport: its provider reads from this connector.
     void setProvider(RegisteredOutPortProvider provider) { provider_ = std::move(provider); }
 
   private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Factories of transports that component libraries bring along.
+// InPortProvider and OutPortProvider, base classes for the transports of component libraries, and the
+// factories of such transports, instantiated here so that all libraries of a process share one instance.
 #include <rtm/InPortConsumer.h>
 #include <rtm/InPortProvider.h>
 #include <rtm/OutPortConsumer.h>
@@ -30,6 +31,7 @@ void InPortProvider::setSubscriptionType(const char* subs_type) { m_subscription
 void InPortProvider::publishInterfaceProfile(SDOPackage::NVList& prop) {
     publish_types(prop, m_interfaceType, m_dataflowType, m_subscriptionType);
 }
+// Several providers are asked in turn; only the one of the connection's interface type publishes its address.
 bool InPortProvider::publishInterface(SDOPackage::NVList& prop) {
     if (!NVUtil::isStringValue(prop, "dataport.interface_type", m_interfaceType.c_str())) return false;
     NVUtil::append(prop, m_properties);

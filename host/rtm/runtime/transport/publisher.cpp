@@ -12,6 +12,7 @@ std::unique_ptr<Publisher> Publisher::create(const coil::Properties& properties,
 Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver deliver)
     : deliver_(std::move(deliver)) {
     if (const auto* node = properties.findNode("buffer")) buffer_.init(*node);
+    // Systems made with different versions of OpenRTM-aist have the keys with or without `publisher.`.
     const std::string policy = coil::normalize(
         properties.getProperty("publisher.push_policy", properties.getProperty("push_policy")));
     policy_ = policy == "fifo"   ? Policy::fifo
@@ -21,7 +22,7 @@ Publisher::Publisher(const coil::Properties& properties, bool periodic, Deliver 
     coil::stringTo(
         skip_count_,
         properties.getProperty("publisher.skip_count", properties.getProperty("skip_count")).c_str());
-    double rate = 10; // Hz, when periodic is asked for without a rate
+    double rate = 10; // Hz, for the type periodic without a rate
     coil::stringTo(
         rate, properties.getProperty("publisher.push_rate", properties.getProperty("push_rate")).c_str());
     if (periodic && rate > 0) period_ = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
@@ -46,10 +47,11 @@ DataPortStatus Publisher::write(const ByteData& bytes) {
         std::lock_guard<std::mutex> lock(mutex_);
         written_ = true;
     }
-    if (period_.count() == 0) wake_.notify_one();
+    if (period_.count() == 0) wake_.notify_one(); // a periodic thread wakes up by itself
     return DataPortStatus::PORT_OK;
 }
 
+// Publisher's thread. Times are absolute, so that the period does not drift by the time a delivery takes.
 void Publisher::run() {
     auto next = std::chrono::steady_clock::now() + period_;
     std::unique_lock<std::mutex> lock(mutex_);
@@ -63,19 +65,20 @@ void Publisher::run() {
         if (stopping_) return;
         written_ = false;
         lock.unlock();
-        push();
+        deliverReadable();
         lock.lock();
     }
 }
 
-void Publisher::push() {
+// Takes the messages that are readable and delivers those that the policy chooses; the others are dropped.
+void Publisher::deliverReadable() {
     ByteData bytes;
     for (std::size_t readable = buffer_.readable(); readable > 0; readable = buffer_.readable()) {
         if (buffer_.read(bytes) != BufferStatus::OK) return;
         if (policy_ == Policy::newest && readable > 1) continue;
-        if (policy_ == Policy::skip && skipped_++ % (skip_count_ + 1) != skip_count_) continue;
+        if (policy_ == Policy::skip && skip_position_++ % (skip_count_ + 1) != skip_count_) continue;
         if (deliver_(bytes) == DataPortStatus::CONNECTION_LOST) connection_lost_ = true;
-        if (policy_ == Policy::fifo && period_.count() > 0) return;
+        if (policy_ == Policy::fifo && period_.count() > 0) return; // one message per period
     }
 }
 

@@ -9,36 +9,43 @@
 
 namespace RTC {
 
-/// A thread between a writer and a slow receiver (subscription types new and periodic). Properties:
-/// `push_policy` all | fifo | skip | new (new), `skip_count`, `push_rate` (Hz, periodic), `buffer.*`.
+/// A thread that delivers messages in the place of the writer (subscription types new and periodic), so that
+/// a slow receiver does not hold the writer up. Properties, as in OpenRTM-aist, with or without `publisher.`:
+/// `push_policy` all | fifo | skip | new (default new), `skip_count`, `push_rate` (Hz, periodic); `buffer.*`.
+/// Of the waiting messages, `all` delivers every one, `fifo` (periodic) the oldest, `skip` every (skip_count
+/// + 1)th, `new` the newest.
 class Publisher {
   public:
+    /// Delivers one message; called in the publisher's thread.
     using Deliver = std::function<DataPortStatus(ByteData&)>;
-    /// NULL for the subscription type flush, which needs none.
-    static std::unique_ptr<Publisher> create(const coil::Properties& properties, Deliver deliver);
-    Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
-    ~Publisher();
 
+    /// NULL for the subscription type flush, which delivers in the writer's thread.
+    static std::unique_ptr<Publisher> create(const coil::Properties& properties, Deliver deliver);
+    /// Starts the thread.
+    Publisher(const coil::Properties& properties, bool periodic, Deliver deliver);
+    /// Waits for a delivery under way; messages that are still waiting are dropped.
+    ~Publisher();
+    /// [writer's thread] Queues one message. CONNECTION_LOST once a delivery has returned it.
     DataPortStatus write(const ByteData& bytes);
     CdrBufferBase& buffer() { return buffer_; }
 
   private:
     enum class Policy { all, fifo, skip, newest };
     void run();
-    void push();
+    void deliverReadable();
 
     Deliver deliver_;
-    CdrRingBuffer buffer_;
+    CdrRingBuffer buffer_; // has a mutex of its own
     Policy policy_ = Policy::newest;
     unsigned skip_count_ = 0;
-    unsigned skipped_ = 0;
-    std::chrono::nanoseconds period_{0}; // 0: at each write
-    std::mutex mutex_;
+    unsigned skip_position_ = 0;         // counts messages under the policy skip
+    std::chrono::nanoseconds period_{0}; // 0: deliver at each write
+    std::mutex mutex_;                   // guards written_ and stopping_
     std::condition_variable wake_;
-    bool written_ = false;
+    bool written_ = false; // since the thread looked last
     bool stopping_ = false;
     std::atomic<bool> connection_lost_{false};
-    std::thread thread_;
+    std::thread thread_; // last member: run() uses all others
 };
 
 } // namespace RTC

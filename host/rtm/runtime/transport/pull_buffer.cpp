@@ -28,6 +28,7 @@ DataPortStatus PullBuffer::put(ByteData& bytes) {
     }
 }
 
+// The listeners of both the buffer and the sender are called: the two are one place on this side.
 DataPortStatus PullBuffer::fetch(ByteData& bytes) {
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
     if (!open_) return DataPortStatus::CONNECTION_LOST;
@@ -50,6 +51,7 @@ DataPortStatus PullBuffer::fetch(ByteData& bytes) {
     }
 }
 
+// The exclusive lock is granted when all put() and fetch() have returned.
 void PullBuffer::close() {
     std::unique_lock<std::shared_mutex> lock(open_mutex_);
     open_ = false;

@@ -6,19 +6,23 @@
 
 namespace RTC {
 
-/// Where messages of one pull connector wait to be fetched, by a reader of this process or by the ORB. It
-/// outlives the connector. [any-thread]
+/// The buffer of one pull connection, on the OutPort's side: the writer puts messages in, a reader of this
+/// process or an ORB thread fetches them. Shared with the servant that fetches, so it may outlive the
+/// connector: after close() both get CONNECTION_LOST. [any-thread]
 class PullBuffer {
   public:
+    /// The ring buffer is set up from `info.properties`, node `buffer`. `listeners` are the OutPort's.
     PullBuffer(ConnectorListeners& listeners, const ConnectorInfo& info);
-
+    /// Stores one message; BUFFER_FULL or BUFFER_TIMEOUT when the full-policy refuses it.
     DataPortStatus put(ByteData& bytes);
+    /// Takes the oldest message; BUFFER_EMPTY or BUFFER_TIMEOUT when there is none.
     DataPortStatus fetch(ByteData& bytes);
     CdrBufferBase& buffer() { return buffer_; }
+    /// Returns when no put() or fetch() is under way; the listeners are not called after that.
     void close();
 
   private:
-    std::shared_mutex open_mutex_;
+    std::shared_mutex open_mutex_; // shared by put() and fetch(), exclusive to close()
     bool open_ = true;
     ConnectorListeners& listeners_;
     ConnectorInfo info_;

@@ -19,12 +19,14 @@ DataPortStatus PushReceiver::receive(ByteData& bytes) {
     return store(bytes);
 }
 
+// A listener reads and may change the serialized message, and the time is stamped into it.
+bool PushReceiver::needsBytes() const {
+    return timestamp_ == TimestampPolicy::on_received || listeners_.hasDataListener();
+}
+
 bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
-    // Whoever wants to see or stamp the bytes needs them as ByteData.
-    if (!open_ || in_place_ == nullptr || timestamp_ == TimestampPolicy::on_received ||
-        listeners_.hasDataListener())
-        return false;
+    if (!open_ || in_place_ == nullptr || needsBytes()) return false;
     const BufferStatus written = in_place_->writeInPlace(marshal);
     status = written == BufferStatus::OK     ? DataPortStatus::PORT_OK
              : written == BufferStatus::FULL ? DataPortStatus::BUFFER_FULL
@@ -34,10 +36,7 @@ bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status
 
 bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& status) {
     std::shared_lock<std::shared_mutex> lock(open_mutex_);
-    // Whoever wants to see or stamp the bytes needs them.
-    if (!open_ || direct_buffer_ == nullptr || timestamp_ == TimestampPolicy::on_received ||
-        listeners_.hasDataListener())
-        return false;
+    if (!open_ || direct_buffer_ == nullptr || needsBytes()) return false;
     const BufferStatus written = writer(*direct_buffer_);
     status = written == BufferStatus::OK        ? DataPortStatus::PORT_OK
              : written == BufferStatus::FULL    ? DataPortStatus::BUFFER_FULL
@@ -46,8 +45,10 @@ bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& sta
     return written != BufferStatus::NOT_SUPPORTED;
 }
 
+// Buffer and receiver events come in pairs: OpenRTM-aist calls listeners of both kinds on the receiving side.
 DataPortStatus PushReceiver::store(ByteData& bytes) {
     using Type = ConnectorDataListenerType;
+    // Asking whether the buffer is full locks it: only for a listener that wants to know.
     if (listeners_.has(Type::ON_BUFFER_OVERWRITE) && full())
         listeners_.notify(Type::ON_BUFFER_OVERWRITE, info_, bytes, marshaling_type_);
     switch (direct_buffer_ ? direct_buffer_->writeBytes(bytes) : buffer_.write(bytes)) {

@@ -7,39 +7,46 @@
 #include <shared_mutex>
 
 namespace RTC {
+
 class InPortBase;
 
-/// Where messages for one connector arrive, from a writer of this process or from the ORB. It outlives the
-/// connector: who still holds it when the connection is gone gets CONNECTION_LOST. [any-thread]
+/// Where the messages of one push connection arrive on the InPort's side, from an OutPort of this process or
+/// from an ORB thread. Shared with the sender, so it may outlive the connector: after close() every call
+/// reports that the connection is lost, and the port is not touched any more. [any-thread]
 class PushReceiver {
   public:
-    /// `direct_buffer`: where values go instead of the buffer, when the connection is direct; else NULL.
+    /// `buffer` takes the messages, or `direct_buffer` the values when the connection is direct (else NULL).
     PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBufferBase& buffer,
                  std::shared_ptr<DirectBufferBase> direct_buffer = nullptr);
-
-    /// ON_RECEIVED listeners, then the buffer, then ON_BUFFER_WRITE (or what came of it).
+    /// Calls the ON_RECEIVED listeners, stores the message, then calls the listeners of the outcome.
+    /// BUFFER_FULL or BUFFER_TIMEOUT when the full-policy refuses it, CONNECTION_LOST after close().
     DataPortStatus receive(ByteData& bytes);
-    /// The same for a message that is made in the buffer. False: it cannot be, and nothing has happened.
+    /// Lets `marshal` write the message straight into the buffer. False when that is not possible (no
+    /// InPlaceBuffer, a short message, or somebody needs the bytes); nothing has happened then: use
+    /// receive().
     bool receiveInPlace(const Marshal& marshal, DataPortStatus& status);
+    /// NULL when the buffer is not an InPlaceBuffer.
     InPlaceBuffer* inPlace() const { return in_place_; }
-    /// The same for a value of this process that goes as it is.
+    /// Stores a value without serializing it. False when that is not possible (not a direct connection,
+    /// another type, or somebody needs the bytes); nothing has happened then: use receive().
     bool receiveDirect(const DirectWriter& writer, DataPortStatus& status);
     const std::shared_ptr<DirectBufferBase>& directBuffer() const { return direct_buffer_; }
-    /// Returns when no message is on its way through.
+    /// Returns when no message is being received; later ones are refused.
     void close();
 
   private:
     DataPortStatus store(ByteData& bytes);
     bool full() const { return direct_buffer_ ? direct_buffer_->full() : buffer_.full(); }
+    bool needsBytes() const;
 
-    std::shared_mutex open_mutex_; // shared by receivers, exclusive to close
+    std::shared_mutex open_mutex_; // shared by receivers, exclusive to close()
     bool open_ = true;
     InPortBase& port_;
     ConnectorListeners& listeners_;
     ConnectorInfo info_;
     CdrBufferBase& buffer_;
     std::shared_ptr<DirectBufferBase> direct_buffer_;
-    InPlaceBuffer* const in_place_; // the buffer, if it is one
+    InPlaceBuffer* const in_place_; // buffer_, when it is one
     std::string marshaling_type_;
     TimestampPolicy timestamp_;
 };

@@ -7,6 +7,7 @@
 namespace RTC {
 namespace {
 
+// Objects go back to the factory that made them: the library that defines the class must delete them.
 template <class Object>
 void return_to_factory(Object* object) {
     coil::GlobalFactory<Object>::instance().deleteObject(object);
@@ -18,7 +19,7 @@ FactoryPtr<Object> create(const std::string& type) {
     return {coil::GlobalFactory<Object>::instance().createObject(type), &return_to_factory<Object>};
 }
 
-// Either end of a type may be here alone: the other is in the peer's process.
+// A connection may ask for a type of which only one end is registered here: the peer's process has the other.
 template <class Consumer, class Provider>
 std::string registered_type(const coil::Properties& connector_properties) {
     const std::string type = coil::eraseBothEndsBlank(connector_properties.getProperty("interface_type"));
@@ -27,28 +28,31 @@ std::string registered_type(const coil::Properties& connector_properties) {
     return is_registered ? type : "";
 }
 
+/// A library's consumer for push, as our connectors use receivers.
 class Receiver : public RemoteReceiver {
   public:
     Receiver(FactoryPtr<InPortConsumer> consumer, const SDOPackage::NVList& properties)
         : consumer_(std::move(consumer)), properties_(properties) {}
     ~Receiver() override { consumer_->unsubscribeInterface(properties_); }
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
-        ByteData copy(bytes); // the consumer's to change
+        ByteData copy(bytes); // put() takes it by non-const reference and may change it
         return consumer_->put(copy);
     }
-    void setTimeout(std::chrono::milliseconds) override {} // its own affair
+    void setTimeout(std::chrono::milliseconds) override {} // InPortConsumer has no such function
 
   private:
     FactoryPtr<InPortConsumer> consumer_;
     SDOPackage::NVList properties_;
 };
 
+/// A library's consumer for pull, as our connectors use senders.
 class Sender : public RemoteSender {
   public:
     Sender(FactoryPtr<OutPortConsumer> consumer, const SDOPackage::NVList& properties)
         : consumer_(std::move(consumer)), properties_(properties) {}
     ~Sender() override { consumer_->unsubscribeInterface(properties_); }
     std::optional<DataPortStatus> get(ByteData& bytes) override { return consumer_->get(bytes); }
+    // An OutPortConsumer cannot be asked without taking a message.
     bool isResponding() override { return true; }
     void setTimeout(std::chrono::milliseconds) override {}
 
@@ -72,6 +76,7 @@ void append_registered_types(SDOPackage::NVList& port_properties, bool in_port) 
         for (const auto& type : types)
             NVUtil::appendStringValue(port_properties, "dataport.interface_type", type.c_str());
     };
+    // Push: an InPort provides, an OutPort consumes; pull: the other way round.
     append(in_port ? InPortProviderFactory::instance().getIdentifiers()
                    : InPortConsumerFactory::instance().getIdentifiers());
     append(in_port ? OutPortConsumerFactory::instance().getIdentifiers()

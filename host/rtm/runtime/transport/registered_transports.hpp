@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interface types that component libraries have registered in the factories of InPortConsumer,
-// InPortProvider, OutPortConsumer and OutPortProvider.
+// Transports (interface types) that component libraries have registered in the factories of InPortConsumer,
+// InPortProvider, OutPortConsumer and OutPortProvider. A provider publishes its address in the profile of a
+// connection; the consumer at the other port finds it there. A library may bring either or both.
 #pragma once
 #include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include <rtm/ConnectorListener.h>
@@ -9,20 +10,25 @@
 
 namespace RTC {
 
-/// The registered type that a connection's properties ask for; empty when they ask for one of ours.
+/// The registered interface type that a push (a pull) connection asks for with `interface_type`; empty when
+/// it asks for one of ours or for one that nobody has registered.
 std::string registered_push_type(const coil::Properties& connector_properties);
 std::string registered_pull_type(const coil::Properties& connector_properties);
-/// What a port of this kind says of itself beyond our own types.
+
+/// Adds the registered types to `dataport.interface_type` in the profile of an InPort or an OutPort, from
+/// where tools offer them.
 void append_registered_types(SDOPackage::NVList& port_properties, bool in_port);
 
-/// The ends that find their peer in the profile; NULL: it is not there.
+/// The consumer of that type as the sending end of a push (the receiving end of a pull) connection. NULL when
+/// there is no such consumer, or when it does not find its provider's address in the profile.
 std::unique_ptr<RemoteReceiver>
 create_registered_receiver(const std::string& type, const ConnectorProfile& profile, coil::Properties prop);
 std::unique_ptr<RemoteSender>
 create_registered_sender(const std::string& type, const ConnectorProfile& profile, const ConnectorInfo& info,
                          ConnectorListenersBase& listeners, CdrBufferBase& buffer, coil::Properties prop);
 
-/// The ends that publish themselves. They go with the connector that holds them.
+/// A provider of that type; it goes back to its factory when the connector that holds it is deleted. NULL
+/// when there is none.
 using RegisteredInPortProvider = std::unique_ptr<InPortProvider, void (*)(InPortProvider*)>;
 using RegisteredOutPortProvider = std::unique_ptr<OutPortProvider, void (*)(OutPortProvider*)>;
 RegisteredInPortProvider create_registered_in_provider(const std::string& type, coil::Properties prop);

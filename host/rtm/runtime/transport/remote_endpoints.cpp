@@ -6,7 +6,9 @@
 namespace RTC {
 namespace {
 
-// What an exception of a call means: no answer, nobody there, or an answer that is no good.
+// What an exception of a call means: no answer in time (empty), no such object, or an answer that is an
+// error. omniORB throws TRANSIENT and COMM_FAILURE when the process is gone, OBJECT_NOT_EXIST, OBJ_ADAPTER
+// and INV_OBJREF when the object is.
 std::optional<DataPortStatus> status_of(const CORBA::SystemException& e) {
     const CORBA::Exception* thrown = &e;
     if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return std::nullopt;
@@ -21,18 +23,23 @@ void set_call_timeout(CORBA::Object_ptr object, std::chrono::milliseconds timeou
     omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
 }
 
+// The two IDL interfaces differ only in the names of their operations and types.
 auto call_put(OpenRTM::InPortCdr_ptr object, const OpenRTM::CdrData& data) { return object->put(data); }
 auto call_put(RTC::DataPushService_ptr object, const RTC::OctetSeq& data) { return object->push(data); }
 auto call_get(OpenRTM::OutPortCdr_ptr object, OpenRTM::CdrData_out data) { return object->get(data); }
 auto call_get(RTC::DataPullService_ptr object, RTC::OctetSeq_out data) { return object->pull(data); }
 
+/// A receiver by the IDL interface `Interface`, whose messages are sequences `Data`.
 template <class Interface, class Data>
 class CorbaReceiver : public RemoteReceiver {
   public:
+    // Unchecked: the profile names the interface, and a checked _narrow() would call the peer while
+    // connecting.
     explicit CorbaReceiver(CORBA::Object_ptr object) : object_(Interface::_unchecked_narrow(object)) {}
     std::optional<DataPortStatus> put(const ByteData& bytes) override {
         const auto length = static_cast<CORBA::ULong>(bytes.getDataLength());
         try {
+            // A sequence over the bytes where they are: `false` leaves them to their owner.
             return from_port_status(static_cast<OpenRTM::PortStatus>(
                 call_put(object_.in(), Data(length, length, bytes.getBuffer(), false))));
         } catch (const CORBA::SystemException& e) {
@@ -45,6 +52,7 @@ class CorbaReceiver : public RemoteReceiver {
     typename Interface::_var_type object_;
 };
 
+/// A sender by the IDL interface `Interface`, whose messages are sequences `Data`.
 template <class Interface, class Data>
 class CorbaSender : public RemoteSender {
   public:
@@ -60,6 +68,7 @@ class CorbaSender : public RemoteSender {
             return status_of(e);
         }
     }
+    // _non_existent() is CORBA's ping: any answer, an error too, is a sign of life.
     bool isResponding() override {
         try {
             object_->_non_existent();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The other end of a data connection when it is in another process, by interface type: corba_cdr,
-// data_service.
+// The peer's end of a data connection when the peer is in another process. The interface types are those of
+// OpenRTM-aist: corba_cdr (DataPort_OpenRTM.idl) and data_service (DataPort.idl); both carry the CDR of one
+// message as an octet sequence.
 #pragma once
 #include <chrono>
 #include <memory>
@@ -12,35 +13,43 @@
 
 namespace RTC {
 
-/// Takes messages. One caller at a time.
+/// The receiving end of a push connection. One caller at a time; every call blocks up to the time limit.
 class RemoteReceiver {
   public:
     virtual ~RemoteReceiver() = default;
-    /// Nothing: no answer in time, and nobody knows whether the message arrives. CONNECTION_LOST: there is no
-    /// such object any more. SEND_TIMEOUT: its buffer was full for too long, as it says itself.
+    /// Sends one message. Empty: no answer within the time limit, and whether the message arrives is unknown.
+    /// CONNECTION_LOST: the object does not exist (any more). SEND_FULL, SEND_TIMEOUT: the receiver's buffer
+    /// has refused the message.
     virtual std::optional<DataPortStatus> put(const ByteData& bytes) = 0;
-    /// Bound of each following call; at first it is the ORB's.
+    /// The time limit of each following call; before the first setTimeout() the ORB's own limit holds.
     virtual void setTimeout(std::chrono::milliseconds timeout) = 0;
-    /// What the profile of a connection offers; NULL when that is nothing for this interface type.
+
+    /// The receiver that the InPort has published in the profile for this interface type (corba_cdr or
+    /// data_service); NULL when there is none.
     static std::unique_ptr<RemoteReceiver> find(const ConnectorProfile& profile,
                                                 const std::string& interface_type);
 };
 
-/// Gives messages.
+/// The sending end of a pull connection. One caller at a time; every call blocks up to the time limit.
 class RemoteSender {
   public:
     virtual ~RemoteSender() = default;
-    /// RECV_EMPTY: it has none. Nothing, CONNECTION_LOST: as above.
+    /// Fetches one message. RECV_EMPTY: the sender has none. Empty: no answer within the time limit.
+    /// CONNECTION_LOST: the object does not exist (any more).
     virtual std::optional<DataPortStatus> get(ByteData& bytes) = 0;
-    /// False: no answer in time. Takes no message.
+    /// Does the sender answer within the time limit? Takes no message from it.
     virtual bool isResponding() = 0;
+    /// As for RemoteReceiver.
     virtual void setTimeout(std::chrono::milliseconds timeout) = 0;
+
+    /// The sender that the OutPort has published in the profile for this interface type; NULL when there is
+    /// none.
     static std::unique_ptr<RemoteSender> find(const ConnectorProfile& profile,
                                               const std::string& interface_type);
 };
 
-/// The interface type that carries a connection between processes: data_service if that is what its
-/// properties ask for, else corba_cdr.
+/// The interface type that carries a connection between processes: data_service when the connection's
+/// `interface_type` says so, else corba_cdr (also for `direct`, which works within a process only).
 std::string corba_interface_type(const coil::Properties& connector_properties);
 
 } // namespace RTC

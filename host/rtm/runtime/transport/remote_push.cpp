@@ -14,8 +14,8 @@ namespace RTC {
 struct RemotePush::SendQueue {
     std::unique_ptr<RemoteReceiver> receiver; // the writer calls it, or the thread while uses_thread is set
     Limits limits;
-    // Set by the writer, cleared by the thread under the mutex. The writer may read it without the mutex: while
-    // it is false the thread has no message to send and touches neither it nor the receiver.
+    // Set by the writer, cleared by the thread under the mutex. The writer may read it without the mutex:
+    // while it is false the thread has no message to send and touches neither it nor the receiver.
     std::atomic<bool> uses_thread{false};
 
     std::mutex mutex; // guards what follows
@@ -104,7 +104,8 @@ void RemotePush::SendQueue::switchToThread() {
     uses_thread.store(true, std::memory_order_release);
 }
 
-/// Queues one message and waits for its answer, unless others are waiting before it. The caller holds the mutex.
+/// Queues one message and waits for its answer, unless others are waiting before it. The caller holds the
+/// mutex.
 DataPortStatus RemotePush::SendQueue::add(std::unique_lock<std::mutex>& lock, const ByteData& message) {
     // One deadline for both waits: the writer is held up for this long at most.
     const auto deadline = std::chrono::steady_clock::now() + limits.shared_answer_timeout;

@@ -7,10 +7,11 @@ namespace RTC {
 
 /// Sends messages to a receiver in another process, such that a receiver that hangs delays nobody for long.
 ///
-/// The only connector of its port sends in the writer's thread, which costs least. After an answer that did not
-/// come in time, and always when the port has several connectors, messages are queued and sent by a thread of
-/// this connector; the writer waits for the answer only briefly, then serves the other connectors. A call under
-/// way is never broken off for that, so that no message arrives twice or out of order. [one writer at a time]
+/// The only connector of its port sends in the writer's thread, which costs least. After an answer that did
+/// not come in time, and always when the port has several connectors, messages are queued and sent by a
+/// thread of this connector; the writer waits for the answer only briefly, then serves the other connectors.
+/// A call under way is never broken off for that, so that no message arrives twice or out of order. [one
+/// writer at a time]
 class RemotePush {
   public:
     struct Limits {
