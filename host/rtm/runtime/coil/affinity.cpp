@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// On which processors the process or the calling thread may run: sched_setaffinity(2) and its thread form.
 #include <coil/Affinity.h>
 #include <coil/stringutil.h>
 #include <pthread.h>
@@ -8,6 +9,7 @@
 namespace coil {
 namespace {
 
+// The processors of a set, in ascending order.
 CpuMask numbers(const cpu_set_t& set) {
     CpuMask mask;
     for (unsigned int cpu = 0; cpu < CPU_SETSIZE; ++cpu)
@@ -15,6 +17,7 @@ CpuMask numbers(const cpu_set_t& set) {
     return mask;
 }
 
+// False for a processor number that cpu_set_t cannot hold.
 bool to_set(const CpuMask& mask, cpu_set_t& set) {
     CPU_ZERO(&set);
     for (unsigned int cpu : mask) {
@@ -26,6 +29,7 @@ bool to_set(const CpuMask& mask, cpu_set_t& set) {
 
 } // namespace
 
+// Linux has no affinity of processes: that of the main thread, which new threads inherit, stands for it.
 bool getProcCpuAffinity(CpuMask& cpu_mask) {
     cpu_set_t set;
     CPU_ZERO(&set);

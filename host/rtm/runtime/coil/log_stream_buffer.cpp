@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+// The default LogStreamBuffer: passes log lines on to a list of streams.
 #include <algorithm>
 #include <coil/Logger.h>
 
 namespace coil {
 
+// The second of each entry is `cleanup`: the stream is deleted with this object.
 LogStreamBuffer::~LogStreamBuffer() {
     for (const auto& entry : m_streams)
         if (entry.second) delete entry.first;
@@ -31,6 +33,8 @@ std::vector<LogStreamBuffer*> LogStreamBuffer::getBuffers() {
     return streams;
 }
 
+// With the mutex held, so that streams get one line at a time and removeStream() waits for a write under way.
+// Over a copy of the list: a stream's write() may add or remove streams in this thread.
 void LogStreamBuffer::write(int level, const std::string& name, const std::string& date,
                             const std::string& mes) {
     std::lock_guard<std::recursive_mutex> lock(m_mutex);

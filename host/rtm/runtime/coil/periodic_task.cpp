@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// A function called periodically in a thread of its own; timed by the steady clock, without real-time
+// priority.
 #include <coil/PeriodicTask.h>
 
 namespace coil {
@@ -7,7 +9,7 @@ namespace {
 using Lock = std::unique_lock<std::mutex>;
 using Clock = std::chrono::steady_clock;
 
-// The next multiple of the period that is still to come.
+// The next multiple of the period that is not over yet: calls that are overdue are skipped, the grid is kept.
 Clock::time_point next_due(Clock::time_point due, std::chrono::nanoseconds period) {
     const auto now = Clock::now();
     due += period;
@@ -18,10 +20,12 @@ Clock::time_point next_due(Clock::time_point due, std::chrono::nanoseconds perio
 } // namespace
 
 PeriodicTask::~PeriodicTask() {
+    // Before the members are destroyed, which the thread uses.
     PeriodicTask::finalize();
     wait();
 }
 
+// Does nothing without a function, or when the thread runs already.
 void PeriodicTask::activate() {
     {
         Lock lock(m_mutex);
@@ -45,6 +49,7 @@ int PeriodicTask::suspend() {
 
 int PeriodicTask::resume() {
     Lock lock(m_mutex);
+    // The pause must not count as a long period.
     m_cycle.time.reset();
     m_exec.time.reset();
     m_suspended = false;
@@ -52,6 +57,7 @@ int PeriodicTask::resume() {
     return 0;
 }
 
+// Signals are counted: each makes one call of a suspended task.
 void PeriodicTask::signal() {
     Lock lock(m_mutex);
     if (m_suspended) ++m_signals;
@@ -93,6 +99,7 @@ TimeMeasure::Statistics PeriodicTask::getPeriodStat() {
     return m_cycle.last;
 }
 
+// [task's thread]
 int PeriodicTask::svc() {
     Lock lock(m_mutex);
     auto due = Clock::now();
@@ -100,9 +107,10 @@ int PeriodicTask::svc() {
         m_changed.wait(lock, [this] { return !m_alive || !m_suspended || m_signals > 0; });
         if (!m_alive) break;
         if (m_signals > 0) --m_signals;
-        m_cycle.tack();
+        m_cycle.tack(); // from the last call's begin to this one's
         m_cycle.tick();
         m_exec.tick();
+        // A copy, called without the mutex: the function may call setTask(), suspend() or finalize().
         const auto function = m_func;
         lock.unlock();
         function();
@@ -119,6 +127,7 @@ void PeriodicTask::Measure::tick() {
     if (on) time.tick();
 }
 
+// Publishes the statistics after every `every` measurements, so that readers see complete sets.
 void PeriodicTask::Measure::tack() {
     if (!on) return;
     time.tack();

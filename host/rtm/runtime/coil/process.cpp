@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Child processes for components that start programs. Neither function is for commands from untrusted
+// sources.
 #include "host/process/child_process.hpp"
 #include <coil/Process.h>
 #include <cstdio>
@@ -7,11 +9,13 @@ namespace coil {
 
 // In a session of its own: a manager's child should outlive its terminal.
 int launch_shell(const std::string& command) {
+    // Split at blanks without a shell: the name is OpenRTM-aist's, quotes and variables have no meaning.
     const vstring arguments = split(command, " ", true);
     return !arguments.empty() && tandem::process::start_detached(arguments) ? 0 : -1;
 }
 
 int create_process(const std::string& command, std::vector<std::string>& out) {
+    // "e": close-on-exec, so that processes started meanwhile do not keep the pipe open.
     std::FILE* output = ::popen(command.c_str(), "re");
     if (output == nullptr) return -1;
     char* line = nullptr;

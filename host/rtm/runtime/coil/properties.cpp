@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Properties as a tree of nodes: keys, values, defaults, merging. As text: properties_text.cpp.
 #include <coil/Properties.h>
 #include <coil/stringutil.h>
 #include <istream>
@@ -7,18 +8,18 @@
 namespace coil {
 namespace {
 
-const std::string nothing;
+const std::string empty_string; // what getProperty() refers to when there is no such key
 
-// `a.b\.c` -> {a, b.c}. A key comes from files and from other processes: its depth is bounded, since a tree
-// is copied and deleted by recursion. What is deeper is one name with dots.
-std::vector<std::string> path_of(const std::string& key) {
-    constexpr std::size_t deepest = 100;
+// `a.b\.c` -> {a, b.c}. Keys come from files and from other processes, and a tree is copied and deleted by
+// recursion: so the depth is bounded, and what is deeper becomes one name with dots.
+std::vector<std::string> split_key(const std::string& key) {
+    constexpr std::size_t max_depth = 100;
     std::vector<std::string> path;
     std::string part;
     for (std::size_t i = 0; i < key.size(); ++i) {
         if (key[i] == '\\' && i + 1 < key.size() && key[i + 1] == '.') {
             part += key[++i];
-        } else if (key[i] == '.' && path.size() + 1 < deepest) {
+        } else if (key[i] == '.' && path.size() + 1 < max_depth) {
             path.push_back(part);
             part.clear();
         } else {
@@ -29,7 +30,8 @@ std::vector<std::string> path_of(const std::string& key) {
     return path;
 }
 
-Properties* child(const std::vector<Properties*>& leaf, const std::string& name) {
+// The child node of that name; NULL when there is none.
+Properties* find_child(const std::vector<Properties*>& leaf, const std::string& name) {
     for (auto* node : leaf)
         if (name == node->getName()) return node;
     return nullptr;
@@ -49,6 +51,7 @@ Properties::Properties(const char* defaults[], std::size_t num) {
     setDefaults(const_cast<const char* const*>(defaults), num);
 }
 
+// A copy is a root: the parent of `other` is not copied.
 Properties::Properties(const Properties& other)
     : name_(other.name_), value_(other.value_), default_value_(other.default_value_), is_set_(other.is_set_) {
     for (auto* node : other.leaf_) {
@@ -59,7 +62,7 @@ Properties::Properties(const Properties& other)
 
 Properties& Properties::operator=(const Properties& other) {
     if (this == &other) return *this;
-    Properties copy(other);
+    Properties copy(other); // first: `other` may be a node of this tree, which clear() deletes
     clear();
     name_ = copy.name_;
     value_ = copy.value_;
@@ -72,15 +75,17 @@ Properties& Properties::operator=(const Properties& other) {
 
 Properties::~Properties() { clear(); }
 
+// Children only: value and default stay.
 void Properties::clear() {
     for (auto* node : leaf_) delete node;
     leaf_.clear();
 }
 
+// The node of a dotted key below this one; NULL when there is none.
 const Properties* Properties::find(const std::string& key) const {
     const Properties* node = this;
-    for (const auto& part : path_of(key)) {
-        node = child(node->leaf_, part);
+    for (const auto& part : split_key(key)) {
+        node = find_child(node->leaf_, part);
         if (node == nullptr) return nullptr;
     }
     return node;
@@ -90,11 +95,12 @@ Properties* Properties::findNode(const std::string& key) const {
     return key.empty() ? nullptr : const_cast<Properties*>(find(key));
 }
 
+// Creates the nodes on the way: the only function that does, so that reading does not grow the tree.
 Properties& Properties::getNode(const std::string& key) {
     if (key.empty()) return *this;
     Properties* node = this;
-    for (const auto& part : path_of(key)) {
-        Properties* next = child(node->leaf_, part);
+    for (const auto& part : split_key(key)) {
+        Properties* next = find_child(node->leaf_, part);
         if (next == nullptr) {
             next = new Properties(part.c_str());
             next->root_ = node;
@@ -111,6 +117,7 @@ bool Properties::createNode(const std::string& key) {
     return true;
 }
 
+// Direct children only, by name: `leaf_name` is not a dotted key.
 Properties* Properties::removeNode(const char* leaf_name) {
     for (auto it = leaf_.begin(); it != leaf_.end(); ++it) {
         if ((*it)->name_ != leaf_name) continue;
@@ -122,11 +129,12 @@ Properties* Properties::removeNode(const char* leaf_name) {
     return nullptr;
 }
 
-Properties* Properties::hasKey(const char* key) const { return child(leaf_, key); }
+Properties* Properties::hasKey(const char* key) const { return find_child(leaf_, key); }
 
+// A value that was set counts also when it is empty, and hides the default then.
 const std::string& Properties::getProperty(const std::string& key) const {
     const Properties* node = findNode(key);
-    if (node == nullptr) return nothing;
+    if (node == nullptr) return empty_string;
     return node->is_set_ || !node->value_.empty() ? node->value_ : node->default_value_;
 }
 
@@ -145,9 +153,10 @@ std::string& Properties::operator[](const std::string& key) {
 
 const std::string& Properties::getDefault(const std::string& key) const {
     const Properties* node = findNode(key);
-    return node == nullptr ? nothing : node->default_value_;
+    return node == nullptr ? empty_string : node->default_value_;
 }
 
+// Returns the former value, as java.util.Properties does.
 std::string Properties::setProperty(const std::string& key, const std::string& value) {
     Properties& node = getNode(key);
     std::string former = node.value_;
@@ -161,11 +170,13 @@ std::string Properties::setDefault(const std::string& key, const std::string& va
     return value;
 }
 
+// Ends at an empty key, as a component's module spec does, or at a NULL pointer.
 void Properties::setDefaults(const char* const defaults[], std::size_t num) {
     for (std::size_t i = 0; i + 1 < num && defaults[i] != nullptr && defaults[i][0] != '\0'; i += 2)
         setDefault(eraseBothEndsBlank(defaults[i]), eraseBothEndsBlank(defaults[i + 1]));
 }
 
+// Leaves, and inner nodes with a value of their own.
 void Properties::names(const std::string& prefix, std::vector<std::string>& out) const {
     for (auto* node : leaf_) {
         const std::string name = prefix.empty() ? node->name_ : prefix + "." + node->name_;
@@ -186,6 +197,7 @@ std::vector<std::string> Properties::propertyNames() const {
 
 std::size_t Properties::size() const { return propertyNames().size(); }
 
+// Takes effective values: a default of `prop` becomes a value here.
 Properties& Properties::operator<<(const Properties& prop) {
     for (const auto& key : prop.propertyNames()) setProperty(key, prop.getProperty(key));
     return *this;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Properties as text: reading, writing, printing.
+// Properties as text: read, write, print. The format is that of java.util.Properties, as in OpenRTM-aist:
+// lines `key: value` or `key = value`, comments with # or !, \ at the end of a line continues it.
 #include <coil/Properties.h>
 #include <coil/stringutil.h>
 #include <istream>
@@ -13,11 +14,12 @@ void Properties::load(std::istream& in) {
     while (in) {
         std::string line = eraseHeadBlank(getlinePortable(in));
         if (pending.empty() && (line.empty() || line[0] == '#' || line[0] == '!')) continue;
-        pending += line;
+        pending += line; // `pending`: the lines so far that end with a backslash
         if (!pending.empty() && pending.back() == '\\' && !isEscaped(pending, pending.size() - 1)) {
             pending.pop_back();
             continue;
         }
+        // The first separator that is not escaped ends the key.
         std::size_t at = 0;
         while (at < pending.size() &&
                !((pending[at] == ':' || pending[at] == '=') && !isEscaped(pending, at)))
@@ -38,6 +40,7 @@ void Properties::store(std::ostream& out, const std::string& header) {
     for (const auto& key : propertyNames()) out << key << ": " << escape(getProperty(key)) << '\n';
 }
 
+// An indented tree, for people: it cannot be read back.
 void Properties::dump(std::ostream& out, std::size_t depth) const {
     for (auto* node : leaf_) {
         out << std::string(2 * depth, ' ') << "- " << node->name_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// A POSIX shared memory object for components that share memory among themselves; nothing of Tandem uses it.
 #include <coil/SharedMemory.h>
 #include <cstring>
 #include <fcntl.h>
@@ -8,11 +9,13 @@
 
 namespace coil {
 
+// Who created the object removes its name; mappings of others stay valid until they close them.
 SharedMemory::~SharedMemory() {
     SharedMemory::close();
     if (m_created) SharedMemory::unlink();
 }
 
+// Maps the object and closes the descriptor, which the mapping does not need.
 int SharedMemory::map(int descriptor, unsigned long long size, const std::string& address) {
     void* data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
     ::close(descriptor);
@@ -23,6 +26,7 @@ int SharedMemory::map(int descriptor, unsigned long long size, const std::string
     return 0;
 }
 
+// Opens the object when it exists already, and sets its size: the form of OpenRTM-aist's.
 int SharedMemory::create(std::string shm_address, unsigned long long memory_size) {
     SharedMemory::close();
     const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
@@ -41,7 +45,7 @@ int SharedMemory::open(std::string shm_address, unsigned long long memory_size) 
     const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CLOEXEC, 0);
     if (descriptor < 0) return -1;
     struct stat state {};
-    // Touching what lies behind the end would end the process.
+    // Access beyond the object's end would raise SIGBUS.
     if (::fstat(descriptor, &state) != 0 || memory_size == 0 ||
         static_cast<unsigned long long>(state.st_size) < memory_size) {
         ::close(descriptor);
@@ -50,6 +54,7 @@ int SharedMemory::open(std::string shm_address, unsigned long long memory_size) 
     return map(descriptor, memory_size, shm_address);
 }
 
+// Bounds are checked; that two processes do not write at the same time is up to them.
 int SharedMemory::write(const char* data, unsigned long long pos, unsigned long long size) {
     if (!within(pos, size)) return -1;
     std::memcpy(m_data + pos, data, size);
@@ -70,6 +75,7 @@ int SharedMemory::close() {
     return result;
 }
 
+// Removes the name: existing mappings stay, the next create() makes a new object.
 int SharedMemory::unlink() {
     m_created = false;
     return ::shm_unlink(m_address.c_str());

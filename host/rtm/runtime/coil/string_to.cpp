@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// The conversions from text that operator>> does not do as configuration files need them: whole strings,
+// words for bool, durations.
 #include <cmath>
 #include <coil/stringutil.h>
 
 namespace coil {
 namespace {
 
+// Seconds with fractions. False for what does not fit into 64 bits of nanoseconds, infinity and NaN included.
 template <class Duration>
 bool seconds_to(Duration& val, const char* str) {
     double seconds = 0;
@@ -15,6 +18,7 @@ bool seconds_to(Duration& val, const char* str) {
 
 } // namespace
 
+// The whole text, where operator>> would stop at the first blank.
 template <>
 bool stringTo<std::string>(std::string& val, const char* str) {
     if (str == nullptr) return false;
@@ -26,9 +30,11 @@ template <>
 bool stringTo<bool>(bool& val, const char* str) {
     if (str == nullptr) return false;
     const std::string text = normalize(str);
-    if (text == "true" || text == "1" || text == "yes" || text == "on") return val = true, true;
-    if (text == "false" || text == "0" || text == "no" || text == "off") return val = false, true;
-    return false;
+    const bool is_true = text == "true" || text == "1" || text == "yes" || text == "on";
+    const bool is_false = text == "false" || text == "0" || text == "no" || text == "off";
+    if (!is_true && !is_false) return false; // `val` keeps its value
+    val = is_true;
+    return true;
 }
 
 template <>

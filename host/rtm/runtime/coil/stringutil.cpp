@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// String functions of coil, with the behaviour that components written for OpenRTM-aist expect of each.
+// Strings are sequences of bytes; only ASCII characters have an upper and a lower case here.
 #include <algorithm>
 #include <arpa/inet.h>
 #include <cctype>
@@ -10,10 +12,12 @@
 namespace coil {
 namespace {
 
-bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+// Without vertical tab and form feed, which std::isspace() would add.
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 } // namespace
 
+// Byte by byte, as in OpenRTM-aist: only for ASCII.
 std::wstring string2wstring(const std::string& str) { return std::wstring(str.begin(), str.end()); }
 std::string wstring2string(const std::wstring& wstr) {
     std::string narrow;
@@ -30,6 +34,7 @@ std::string toLower(std::string str) noexcept {
     return str;
 }
 
+// Lines of files that were written on Windows end with CR LF.
 std::string getlinePortable(std::istream& in) {
     std::string line;
     std::getline(in, line);
@@ -37,12 +42,14 @@ std::string getlinePortable(std::istream& in) {
     return line;
 }
 
+// A backslash that is itself escaped does not escape the next character.
 bool isEscaped(const std::string& str, std::string::size_type pos) {
     std::size_t backslashes = 0;
     while (pos > 0 && str[--pos] == '\\') ++backslashes;
     return backslashes % 2 == 1;
 }
 
+// The escapes of unescape(), so that unescape(escape(s)) is s.
 std::string escape(const std::string& str) {
     std::string out;
     for (char c : str) {
@@ -62,6 +69,7 @@ std::string escape(const std::string& str) {
     return out;
 }
 
+// \t \n \f \r; any other escaped character is itself; a single backslash at the end stays.
 std::string unescape(std::string str) noexcept {
     std::string out;
     for (std::size_t i = 0; i < str.size(); ++i) {
@@ -89,16 +97,18 @@ std::string unescape(std::string str) noexcept {
     return out;
 }
 
+// All blanks, also those between words.
 std::string eraseBlank(std::string str) noexcept {
-    str.erase(std::remove_if(str.begin(), str.end(), blank), str.end());
+    str.erase(std::remove_if(str.begin(), str.end(), is_blank), str.end());
     return str;
 }
 std::string eraseHeadBlank(std::string str) noexcept {
-    str.erase(str.begin(), std::find_if_not(str.begin(), str.end(), blank));
+    str.erase(str.begin(), std::find_if_not(str.begin(), str.end(), is_blank));
     return str;
 }
+// An escaped blank at the end is part of the text.
 std::string eraseTailBlank(std::string str) noexcept {
-    while (!str.empty() && blank(str.back()) && !isEscaped(str, str.size() - 1)) str.pop_back();
+    while (!str.empty() && is_blank(str.back()) && !isEscaped(str, str.size() - 1)) str.pop_back();
     return str;
 }
 std::string eraseBothEndsBlank(std::string str) noexcept {
@@ -106,12 +116,14 @@ std::string eraseBothEndsBlank(std::string str) noexcept {
 }
 std::string normalize(std::string str) noexcept { return toLower(eraseBothEndsBlank(std::move(str))); }
 
+// The replacement is not searched again, so `a` -> `aa` ends.
 std::string replaceString(std::string str, const std::string& from, const std::string& to) {
     for (std::size_t at = 0; !from.empty() && (at = str.find(from, at)) != std::string::npos; at += to.size())
         str.replace(at, from.size(), to);
     return str;
 }
 
+// `a,,b` has an empty part in the middle unless `ignore_empty`; an empty delimiter does not split.
 vstring split(const std::string& input, const std::string& delimiter, bool ignore_empty) {
     vstring parts;
     if (input.empty()) return parts;
@@ -125,6 +137,7 @@ vstring split(const std::string& input, const std::string& delimiter, bool ignor
     return parts;
 }
 
+// Finds the words anywhere in the text, `yes` first: "YES, please" is true.
 bool toBool(std::string str, std::string yes, std::string no, bool default_value) {
     str = toUpper(str);
     if (str.find(toUpper(yes)) != std::string::npos) return true;
@@ -132,6 +145,7 @@ bool toBool(std::string str, std::string yes, std::string no, bool default_value
     return default_value;
 }
 
+// Is the value an element of the list? The list may also be text with commas.
 bool includes(const vstring& list, std::string value, bool ignore_case) {
     if (ignore_case) value = toLower(value);
     return std::any_of(list.begin(), list.end(),
@@ -142,10 +156,12 @@ bool includes(const std::string& list, std::string value, bool ignore_case) {
 }
 
 bool isAbsolutePath(const std::string& str) { return !str.empty() && str[0] == '/'; }
+// A scheme before `://`; what follows is not checked.
 bool isURL(const std::string& str) {
     std::size_t at = str.find("://");
     return at != 0 && at != std::string::npos;
 }
+// Numeric addresses in the forms of inet_pton(3); names are not resolved.
 bool isIPv4(const std::string& str) {
     in_addr address;
     return inet_pton(AF_INET, str.c_str(), &address) == 1;
@@ -154,11 +170,13 @@ bool isIPv6(const std::string& str) {
     in6_addr address;
     return inet_pton(AF_INET6, str.c_str(), &address) == 1;
 }
+// A decimal port number of TCP or UDP.
 bool isIPPort(const std::string& str) {
     int port = 0;
     return stringTo(port, str.c_str()) && port >= 0 && port < 65536;
 }
 
+// A parameter without `=` has an empty value.
 mapstring urlparam2map(const std::string& str) {
     mapstring map;
     std::size_t question = str.find('?');
@@ -173,6 +191,7 @@ mapstring urlparam2map(const std::string& str) {
     return map;
 }
 
+// A command line: blanks separate words, except within double quotes; a backslash escapes the next character.
 vstring parseArgs(const std::string& args) {
     vstring words;
     std::string word;
@@ -181,7 +200,7 @@ vstring parseArgs(const std::string& args) {
         if (args[i] == '"' && !isEscaped(args, i)) {
             quoted = !quoted;
             started = true;
-        } else if (blank(args[i]) && !quoted) {
+        } else if (is_blank(args[i]) && !quoted) {
             if (started) words.push_back(unescape(word));
             word.clear();
             started = false;
@@ -194,6 +213,7 @@ vstring parseArgs(const std::string& args) {
     return words;
 }
 
+// Keeps the first of equal strings, in their order.
 vstring unique_sv(vstring sv) {
     vstring out;
     for (auto& s : sv)
@@ -201,12 +221,14 @@ vstring unique_sv(vstring sv) {
     return out;
 }
 
+// The opposite of split().
 std::string flatten(vstring sv, const std::string& delimiter) {
     std::string out;
     for (std::size_t i = 0; i < sv.size(); ++i) out += (i ? delimiter : "") + sv[i];
     return out;
 }
 
+// The caller deletes it: for components written for 1.x. New code uses Argv.
 char** toArgv(const vstring& args) {
     char** argv = new char*[args.size() + 1];
     for (std::size_t i = 0; i < args.size(); ++i) {
@@ -218,6 +240,7 @@ char** toArgv(const vstring& args) {
     return argv;
 }
 
+// The strings are writable, with their terminating NUL, as main() and exec functions want them.
 Argv::Argv(const vstring& args) {
     for (const auto& arg : args) {
         args_.emplace_back(arg.begin(), arg.end());
@@ -227,6 +250,7 @@ Argv::Argv(const vstring& args) {
     argv_.push_back(nullptr);
 }
 
+// Formats twice: once to learn the length.
 std::string sprintf(const char* fmt, ...) {
     va_list args, again;
     va_start(args, fmt);
@@ -239,6 +263,7 @@ std::string sprintf(const char* fmt, ...) {
     return text;
 }
 
+// ${NAME} becomes the variable's value, or nothing when it is not set; an unclosed ${ stays as it is.
 std::string replaceEnv(std::string str) {
     std::string out;
     for (std::size_t at = 0; at < str.size();) {

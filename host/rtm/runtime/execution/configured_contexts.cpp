@@ -6,11 +6,12 @@
 namespace RTC {
 namespace {
 
+// Merges a node of the component's properties into `to`, when it exists.
 void add_node(coil::Properties& to, const coil::Properties& from, const std::string& node) {
     if (const auto* found = from.findNode(node)) to << *found;
 }
 
-// What is said of all contexts.
+// The options below `exec_cxt` that hold for contexts of all types.
 coil::Properties common_options(const coil::Properties& component) {
     coil::Properties options;
     for (const char* key :
@@ -28,10 +29,13 @@ std::vector<coil::Properties> configured_contexts(const coil::Properties& compon
     std::vector<coil::Properties> contexts;
     const auto listed = coil::split(component.getProperty("execution_contexts"), ",", true);
     for (const auto& entry : listed) {
+        // `none` anywhere in the list: the component is driven by contexts of others, as a composite's
+        // member.
         if (coil::normalize(entry) == "none") return {};
         const std::size_t open = entry.find('(');
         if (open != std::string::npos && entry.back() != ')')
             throw ManagerError("execution_contexts: expected type or type(name), found " + entry);
+        // From the general to the particular, so that the later overwrite the earlier.
         coil::Properties options = common_options(component);
         add_node(options, component, "exec_cxt.periodic");
         const std::string type = coil::eraseBothEndsBlank(entry.substr(0, open));
@@ -46,6 +50,7 @@ std::vector<coil::Properties> configured_contexts(const coil::Properties& compon
         contexts.push_back(options);
     }
     if (!listed.empty()) return contexts;
+    // The form of OpenRTM-aist 1.x: one context, periodic unless exec_cxt.periodic.type names another.
     coil::Properties options = common_options(component);
     add_node(options, component, "exec_cxt.periodic");
     const std::string type = options.getProperty("type", "PeriodicExecutionContext");

@@ -5,9 +5,11 @@
 
 namespace RTC {
 
-/// The contexts a component with these properties is to own, each as its options with `type` and, when it has
-/// one, `name`: what `execution_contexts` lists (`type(name), ...`, or none), otherwise the one of
-/// `exec_cxt`. Options come from `exec_cxt`, `ec.<type>` and `ec.<name>`; the later win. Throws ManagerError.
+/// The execution contexts that a component with these properties is to own, each as the properties for
+/// ExecutionContextBase::init() with `type` and, when it has one, `name`. The property `execution_contexts`
+/// lists them (`type(name), ...`, or `none`); without it there is one, of the type `exec_cxt.periodic.type`.
+/// Options come from `exec_cxt`, `ec.<type>` and `ec.<name>`; the later win. Throws ManagerError for a
+/// malformed list.
 std::vector<coil::Properties> configured_contexts(const coil::Properties& component);
 
 } // namespace RTC

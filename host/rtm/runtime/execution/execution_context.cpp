@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all execution contexts share: participants, transitions, the cycle.
+// What all execution contexts share, but for the cycle (execution_cycle.cpp): options, start and stop,
+// participants, profile.
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <cmath>
@@ -15,15 +16,19 @@ ExecutionContextBase::ExecutionContextBase(const char* name) : rtclog(name) {}
 ExecutionContextBase::~ExecutionContextBase() = default;
 
 void deleteExecutionContext(ExecutionContextBase* context) {
+    // Contexts are reference-counted servants: the last reference, maybe an ORB thread's, deletes it.
     if (auto* servant = dynamic_cast<PortableServer::ServantBase*>(context)) servant->_remove_ref();
 }
 
 void ExecutionContextBase::init(coil::Properties& props) {
     m_properties << props;
+    // Values come from files and from tools of other processes: those out of range leave the default. The
+    // phase is bounded so that its nanoseconds fit into 64 bits.
     double rate = 0, phase_ms = 0;
     if (coil::stringTo(rate, m_properties.getProperty("rate").c_str()) && isRate(rate)) m_rate = rate;
     if (coil::stringTo(phase_ms, m_properties.getProperty("phase").c_str()) && std::abs(phase_ms) < 9e12)
         m_phase = std::chrono::nanoseconds(static_cast<std::int64_t>(phase_ms * 1e6));
+    // `sync_transition` and `transition_timeout` first, as the default of the three kinds of transitions.
     auto set_wait = [this](const std::string& kind, TransitionWait& wait) {
         wait.sync = coil::toBool(m_properties.getProperty("sync_" + kind), "YES", "NO", wait.sync);
         std::chrono::nanoseconds timeout{0};
@@ -48,7 +53,7 @@ ReturnCode_t ExecutionContextBase::bindComponent(RTObject_impl* rtc) {
     return RTC_OK;
 }
 
-// The caller holds m_mutex.
+// The caller holds m_mutex. A cycle under way keeps the old list.
 void ExecutionContextBase::addParticipant(Participant participant) {
     auto all = *m_participants;
     all.push_back(std::move(participant));
@@ -60,15 +65,17 @@ bool ExecutionContextBase::isRunning() const {
     return m_running;
 }
 
-// Tools start and stop at the same time: one after the other, or a thread is left that nobody stops. Within a
-// cycle stop() only asks, since another that stops waits for that cycle; a start would have to wait for its
-// own end.
+// Several tools may start and stop a context at the same time. Both take m_startStopMutex, or a thread could
+// be left running that nobody stops. Inside a cycle stop() must not wait for it, since another stop() may
+// hold it while waiting for this very cycle; start() inside a cycle would have to wait for the cycle to end,
+// and is refused. The time limit is twice that of a stop, so that a hanging callback does not block callers
+// for ever.
 ReturnCode_t ExecutionContextBase::start() {
     if (isInsideCycle()) return PRECONDITION_NOT_MET;
     std::unique_lock<std::recursive_timed_mutex> transition(m_startStopMutex,
                                                             2 * host_options().stop_timeout);
     if (!transition || isRunning()) return PRECONDITION_NOT_MET;
-    if (onStopping() != RTC_OK) return PRECONDITION_NOT_MET; // what a stop within a cycle has left
+    if (onStopping() != RTC_OK) return PRECONDITION_NOT_MET; // joins the thread of a stop() inside a cycle
     setRunning(true);
     forEach(&RTC_impl::RTObjectStateMachine::startup);
     return isRunning() ? onStarted() : RTC_OK; // a callback may have stopped it
@@ -97,6 +104,7 @@ std::chrono::nanoseconds ExecutionContextBase::getPeriod() const {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / getRate() + 0.5));
 }
 
+// The hook and the callbacks run without m_mutex: they may ask for the rate.
 ReturnCode_t ExecutionContextBase::setRate(double rate) {
     if (!isRate(rate)) return BAD_PARAMETER;
     {
@@ -128,6 +136,7 @@ ReturnCode_t ExecutionContextBase::addComponent(LightweightRTObject_ptr comp) {
     if (CORBA::is_nil(comp)) return BAD_PARAMETER;
     if (find(comp)) return PRECONDITION_NOT_MET;
     try {
+        // Without m_mutex: the component, maybe of another process, may call this context back.
         const UniqueId id = comp->attach_context(m_objref.in());
         std::lock_guard<std::mutex> lock(m_mutex);
         addParticipant(std::make_shared<RTC_impl::RTObjectStateMachine>(id, comp));
@@ -171,6 +180,7 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
     profile->rate = getRate();
     profile->owner = RTObject::_duplicate(m_owner.in());
     for (auto& participant : *participants()) {
+        // The profile lists the owner apart from the participants.
         RTObject_var component = RTObject::_narrow(participant->reference());
         if (!CORBA::is_nil(component.in()) && !component->_is_equivalent(m_owner.in()))
             CORBA_SeqUtil::push_back(profile->participants, component);
@@ -193,7 +203,7 @@ void ExecutionContextBase::retire() {
         PortableServer::ObjectId_var id = poa->servant_to_id(servant());
         poa->deactivate_object(id.in());
     } catch (const CORBA::Exception&) {
-        // deactivated before, or the ORB is gone
+        // Deactivated before, or the ORB was shut down first.
     }
 }
 

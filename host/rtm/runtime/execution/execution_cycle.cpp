@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cycle of an execution context, and how requested transitions get done.
+// The cycle of an execution context, and how requested transitions are carried out.
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include <algorithm>
 #include <rtm/ExecutionContextBase.h>
@@ -12,15 +12,18 @@ bool ExecutionContextBase::isInsideCycle() const {
 
 void ExecutionContextBase::invokeWorker() {
     cycle(false);
+    // Locking once orders the cycle's changes before a waiter's check, so that no notification is missed.
     { std::lock_guard<std::mutex> lock(m_cycleDoneMutex); }
     m_cycleDone.notify_all();
 }
 
+// The same function as the cycle's, so that the code it brings into the caches is the code that will run.
 void ExecutionContextBase::warmUp() { cycle(true); }
 
 void ExecutionContextBase::cycle(bool warm_up) {
     std::lock_guard<std::timed_mutex> lock(m_cycleMutex);
     m_cycleThread = std::this_thread::get_id();
+    // All executions, then all updates: the two passes of OMG RTC's periodic sampled data processing.
     const auto all = participants();
     for (auto& participant : *all) participant->applyTransition(warm_up);
     for (auto& participant : *all) participant->execute(warm_up);
@@ -49,23 +52,25 @@ ReturnCode_t ExecutionContextBase::requestTransition(LightweightRTObject_ptr com
                                                      LifeCycleState to, const TransitionWait& wait) {
     Participant participant = find(comp);
     if (!participant) return BAD_PARAMETER;
-    // Its component is still being created, or was stopped for good: onActivated belongs between start and
-    // stop.
+    // Before start() the component is still being created, after stop() it has had its onShutdown:
+    // onActivated belongs between the two.
     if (to == ACTIVE_STATE && !isRunning()) return PRECONDITION_NOT_MET;
-    // Asked for already in a callback of a context whose cycles are over: that is done now.
+    // The same transition may be pending already: requested inside a cycle that was the last one. Then it is
+    // carried out here.
     if (!participant->requestTransition(from, to) && !participant->isRequested(from, to))
         return PRECONDITION_NOT_MET;
     if (hasThread()) {
         onTransitionRequested();
         return !wait.sync || isInsideCycle() ? RTC_OK : waitForTransition(participant, to, wait.timeout);
     }
-    if (isInsideCycle()) return RTC_OK; // done at the beginning of the next cycle
+    if (isInsideCycle()) return RTC_OK; // carried out at the beginning of the next cycle
+    // No thread runs cycles: the transition is carried out here, between two cycles of others.
     std::unique_lock<std::timed_mutex> lock(m_cycleMutex, wait.timeout);
     if (!lock.owns_lock()) return RTC_ERROR;
     m_cycleThread = std::this_thread::get_id();
     participant->applyTransition();
-    // A component that cannot be activated, or not be reset, is to be in the error state when the call
-    // returns.
+    // A failed activation or reset leaves a second transition, to the ERROR state, which the caller should
+    // find done.
     if (participant->hasPendingTransition()) participant->applyTransition();
     m_cycleThread = std::thread::id();
     return participant->state() == to ? RTC_OK : RTC_ERROR;
@@ -73,7 +78,8 @@ ReturnCode_t ExecutionContextBase::requestTransition(LightweightRTObject_ptr com
 
 ReturnCode_t ExecutionContextBase::waitForTransition(const Participant& participant, LifeCycleState to,
                                                      std::chrono::nanoseconds timeout) {
-    // A slow context cannot be expected to be done before its next cycle; but nobody waits for days.
+    // A transition needs a cycle, which a slow context begins up to a period later; one minute is the limit
+    // for contexts with periods of hours.
     const std::chrono::nanoseconds cycle_wait =
         std::min<std::chrono::nanoseconds>(2 * getPeriod(), std::chrono::minutes(1));
     const auto bound = timeout + cycle_wait;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// PeriodicExecutionContext: a thread per context, which sleeps while no component is active.
 #include "host/rt/periodic_tick.hpp"
 #include "host/rt/thread.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
@@ -11,7 +12,8 @@ namespace RTC_exp {
 
 using tandem::rt::PeriodicTick;
 
-/// What the thread and its context share; the context may be gone before a thread that hangs in a component.
+/// What the thread and its context share. Shared ownership: a thread that hangs in a component's callback may
+/// outlive the context.
 struct PeriodicExecutionContext::Worker {
     std::mutex mutex;
     std::condition_variable wake;
@@ -20,7 +22,7 @@ struct PeriodicExecutionContext::Worker {
     bool stop_requested = false;
     bool finished = false;
     bool transition_requested = false;
-    bool callback_hangs = false; // a stop has waited in vain
+    bool callback_hangs = false; // a stop has waited for it without success
     std::thread thread;
 
     TickStatistics tickStatistics() const; // with the mutex held
@@ -42,7 +44,8 @@ PeriodicExecutionContext::TickStatistics PeriodicExecutionContext::Worker::tickS
             std::max(previous.max_lateness, std::chrono::nanoseconds(now.lateness_ns_max))};
 }
 
-// The caller holds the worker's mutex, or is the only one to know it.
+// Begins a new grid of ticks with the present rate, and keeps the sum of the former ones' statistics. The
+// caller holds the worker's mutex, or the worker is not shared yet.
 void PeriodicExecutionContext::createTick(Worker& worker) {
     if (worker.tick) worker.previous = worker.tickStatistics();
     const auto spin = RTC::host_options().tick_spin;
@@ -71,13 +74,14 @@ void PeriodicExecutionContext::addStatistics(coil::Properties& properties) {
 RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
     auto started = std::make_shared<Worker>();
     createTick(*started);
-    // Known before its first cycle goes far: a stop within that must find it.
+    // Under the mutex: a stop() in the thread's first cycle must find m_worker set.
     std::lock_guard<std::mutex> lock(m_workerMutex);
     started->thread = std::thread([this, started] { run(*started); });
     m_worker = started;
     return RTC::RTC_OK;
 }
 
+// [context's thread]
 void PeriodicExecutionContext::run(Worker& worker) {
     int priority = 0;
     std::vector<int> cpus;
@@ -91,6 +95,8 @@ void PeriodicExecutionContext::run(Worker& worker) {
     std::unique_lock<std::mutex> lock(worker.mutex);
     while (!worker.stop_requested) {
         worker.transition_requested = false;
+        // Without the mutex, on a tick of its own: setRate() may replace it meanwhile, and interrupts it
+        // then.
         const auto tick = worker.tick;
         lock.unlock();
         const bool has_work = hasWork();
@@ -101,7 +107,7 @@ void PeriodicExecutionContext::run(Worker& worker) {
         lock.lock();
         if (has_work) continue;
         worker.wake.wait(lock, [&] { return worker.stop_requested || worker.transition_requested; });
-        createTick(worker); // periods slept through were not missed
+        createTick(worker); // periods that were slept through do not count as skipped
     }
     const TickStatistics counted = worker.tickStatistics();
     if (counted.overruns > 0)
@@ -121,13 +127,14 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStopping() {
         stopping->stop_requested = true;
         stopping->tick->interrupt();
         stopping->wake.notify_all();
-        if (isInsideCycle()) return RTC::RTC_OK; // the thread ends after this cycle
+        if (isInsideCycle()) return RTC::RTC_OK; // this is that thread: it ends after the cycle
         if (stopping->callback_hangs && !stopping->finished) return RTC::RTC_ERROR;
         stopping->callback_hangs = !stopping->wake.wait_for(lock, RTC::host_options().stop_timeout,
                                                             [&] { return stopping->finished; });
         if (stopping->callback_hangs)
-            return RTC::RTC_ERROR; // in a callback; its component must be left behind
+            return RTC::RTC_ERROR; // the thread is in a callback: its component cannot be deleted
     }
+    // Another thread may have stopped it at the same time; only one joins.
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == stopping) {
         stopping->thread.join();
@@ -141,6 +148,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onSetRate(double) {
     auto running = worker();
     if (running == nullptr) return RTC::RTC_OK;
     std::lock_guard<std::mutex> lock(running->mutex);
+    // The thread may be waiting for a tick of the old rate: interrupted, it goes on with the new one.
     auto old_tick = running->tick;
     createTick(*running);
     old_tick->interrupt();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contexts that run when somebody says so.
+// The execution contexts whose cycles are triggered from outside by tick(): in the caller's thread
+// (OpenHRPExecutionContext, SimulatorExecutionContext) or in a thread of the context
+// (ExtTrigExecutionContext).
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <condition_variable>
 #include <rtm/ExtTrigExecutionContext.h>
@@ -12,15 +14,17 @@ OpenHRPExecutionContext::OpenHRPExecutionContext() : ExecutionContextServant("sy
     m_kind = OTHER;
 }
 
+// Nothing happens in a stopped context, nor in a callback, where a cycle would wait for itself.
 void OpenHRPExecutionContext::tick() {
     if (isRunning() && !isInsideCycle()) invokeWorker();
 }
 
-/// Shared with the thread, which may hang in a component when the context is gone.
+/// What the thread and its context share. Shared ownership: a thread that hangs in a component's callback may
+/// outlive the context.
 struct ExtTrigExecutionContext::Worker {
     std::mutex mutex;
     std::condition_variable wake;
-    unsigned long pending_ticks = 0;
+    unsigned long pending_ticks = 0; // ticks whose cycle has not begun
     bool stop_requested = false;
     bool finished = false;
     std::thread thread;
@@ -47,6 +51,7 @@ ReturnCode_t ExtTrigExecutionContext::onStarted() {
     return RTC_OK;
 }
 
+// [context's thread]
 void ExtTrigExecutionContext::run(Worker& worker) {
     std::unique_lock<std::mutex> lock(worker.mutex);
     while (!worker.stop_requested) {
@@ -72,10 +77,11 @@ ReturnCode_t ExtTrigExecutionContext::onStopping() {
         std::unique_lock<std::mutex> lock(stopping->mutex);
         stopping->stop_requested = true;
         stopping->wake.notify_all();
-        if (isInsideCycle()) return RTC_OK; // the thread ends after this cycle
+        if (isInsideCycle()) return RTC_OK; // this is that thread: it ends after the cycle
         if (!stopping->wake.wait_for(lock, host_options().stop_timeout, [&] { return stopping->finished; }))
-            return RTC_ERROR; // in a callback; its component must be left behind
+            return RTC_ERROR; // the thread is in a callback: its component cannot be deleted
     }
+    // Another thread may have stopped it at the same time; only one joins.
     std::lock_guard<std::mutex> lock(m_workerMutex);
     if (m_worker == stopping) {
         stopping->thread.join();

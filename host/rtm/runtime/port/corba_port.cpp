@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// CorbaPort: service ports, whose providers publish IORs and whose consumers get them.
 #include <algorithm>
 #include <coil/stringutil.h>
 #include <rtm/CorbaPort.h>
@@ -95,6 +96,7 @@ bool CorbaPort::registerConsumer(const char* instance_name, const char* type_nam
     return true;
 }
 
+// One provider that fails does not keep the others, nor the component, from becoming active.
 void CorbaPort::activateInterfaces() {
     for (auto& provider : m_providers) {
         try {
@@ -141,6 +143,7 @@ std::string CorbaPort::findProviderIor(const NVList& properties, const Consumer&
     return ior.empty() ? NVUtil::toString(properties, ("port." + consumer.descriptor()).c_str()) : ior;
 }
 
+// A consumer without a provider is an error only for a strict connection (port.connection.strictness).
 ReturnCode_t CorbaPort::subscribeInterfaces(const ConnectorProfile& profile) {
     const bool strict = NVUtil::isStringValue(profile.properties, "port.connection.strictness", "strict");
     for (auto& consumer : m_consumers) {
@@ -175,6 +178,7 @@ bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
     return true;
 }
 
+// Consumers of this connection have no provider any more: calls through them throw.
 void CorbaPort::unsubscribeInterfaces(const ConnectorProfile& profile) {
     for (auto& consumer : m_consumers) {
         // A later connection may have given the consumer another provider: that one stays.

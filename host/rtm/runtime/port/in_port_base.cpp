@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// InPortBase: makes the connectors of an InPort when it is connected, and chooses the one to read from.
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
@@ -19,6 +20,7 @@ bool is_pull(const coil::Properties& connector_properties) {
 
 InPortBase::InPortBase(const char* name, const char* data_type)
     : PortBase(name), m_thebuffer(new CdrRingBuffer) {
+    // What tools and peers read in the port's profile; init() adds the transports of libraries.
     addProperty("port.port_type", "DataInPort");
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "Any");
@@ -27,7 +29,7 @@ InPortBase::InPortBase(const char* name, const char* data_type)
 }
 
 InPortBase::~InPortBase() {
-    retire();
+    retire(); // first: no call from outside may reach what is deleted now
     for (auto* connector : m_connectors) delete connector;
     delete m_thebuffer;
 }
@@ -42,6 +44,7 @@ void InPortBase::init(coil::Properties& prop) {
         setConnectionLimit(limit);
 }
 
+// Push: the receiver must exist before the OutPort subscribes to it, so its connector is made in this step.
 ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
@@ -51,6 +54,7 @@ ReturnCode_t InPortBase::publishInterfaces(ConnectorProfile& profile) {
     return is_pull(prop) ? RTC_OK : addPushConnector(profile, prop);
 }
 
+// The connector of a push connection, whose address goes into the profile.
 ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
     const std::string type = coil::eraseBothEndsBlank(prop.getProperty("buffer_type", "ring_buffer"));
@@ -79,6 +83,7 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     return RTC_OK;
 }
 
+// The same for a library's transport: its provider publishes the address and writes into the connector.
 ReturnCode_t InPortBase::addPushProvider(ConnectorProfile& profile, const coil::Properties& prop,
                                          const std::string& type,
                                          std::unique_ptr<InPortPushConnector> connector) {
@@ -98,6 +103,7 @@ ReturnCode_t InPortBase::addPushProvider(ConnectorProfile& profile, const coil::
     return RTC_OK;
 }
 
+// Pull: the OutPort has published where to fetch from.
 ReturnCode_t InPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
     const coil::Properties prop = connector_properties(m_properties, profile, "inport");
     return is_pull(prop) ? addPullConnector(profile, prop) : RTC_OK;
@@ -130,6 +136,7 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
     return RTC_OK;
 }
 
+// Takes over the connector. The listeners are called without the lock: they may read the port.
 void InPortBase::addConnector(InPortConnector* connector) {
     ConnectorInfo info = connector->profile();
     {

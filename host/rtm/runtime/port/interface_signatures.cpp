@@ -60,6 +60,7 @@ std::string strip_outer_parentheses(const std::string& signature) {
 
 std::string signature_of(CORBA::TypeCode_ptr code, int depth);
 
+// The members' signatures in parentheses; the TypeCode has them in the order of the IDL.
 std::string signature_of_struct(CORBA::TypeCode_ptr code, int depth) {
     std::string parts;
     for (CORBA::ULong i = 0; i < code->member_count(); ++i)
@@ -86,7 +87,7 @@ std::string signature_of(CORBA::TypeCode_ptr code, int depth) {
     case CORBA::tk_long:
         return "i";
     case CORBA::tk_ulong:
-    case CORBA::tk_enum:
+    case CORBA::tk_enum: // CDR carries its number
         return "u";
     case CORBA::tk_longlong:
         return "x";
@@ -100,7 +101,7 @@ std::string signature_of(CORBA::TypeCode_ptr code, int depth) {
         return "s";
     case CORBA::tk_wstring:
         return "w";
-    case CORBA::tk_alias:
+    case CORBA::tk_alias: // a typedef is the type it names
         return signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
     case CORBA::tk_sequence:
         return "a" + signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
@@ -146,6 +147,7 @@ std::string InterfaceSignatures::type(const std::string& repository_id) {
     return found == signatures.types.end() ? "" : found->second;
 }
 
+// The signature is made before the lock: a TypeCode of another library may take its time.
 void InterfaceSignatures::addType(const char* repository_id, CORBA::TypeCode_ptr code) {
     const std::string text = strip_outer_parentheses(signature(code));
     Registry& signatures = registry();

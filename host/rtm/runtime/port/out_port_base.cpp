@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// OutPortBase: makes the connectors of an OutPort when it is connected.
 #include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/out_port_connectors.hpp"
@@ -19,6 +20,7 @@ void update_sole_connector(const std::vector<OutPortConnector*>& connectors) {
 } // namespace
 
 OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(name) {
+    // What tools and peers read in the port's profile; init() adds the transports of libraries.
     addProperty("port.port_type", "DataOutPort");
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "flush, new, periodic");
@@ -27,7 +29,7 @@ OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(nam
 }
 
 OutPortBase::~OutPortBase() {
-    retire();
+    retire(); // first: no call from outside may reach what is deleted now
     for (auto* connector : m_connectors) delete connector;
 }
 
@@ -40,6 +42,7 @@ void OutPortBase::init(coil::Properties& prop) {
         setConnectionLimit(limit);
 }
 
+// Pull: the buffer must exist before the InPort subscribes to it, so its connector is made in this step.
 ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
     const ReturnCode_t allowed = _publishInterfaces();
     if (allowed != RTC_OK) return allowed;
@@ -50,6 +53,7 @@ ReturnCode_t OutPortBase::publishInterfaces(ConnectorProfile& profile) {
     return flow == "pull" ? addPullConnector(profile, prop) : RTC_OK;
 }
 
+// The connector of a pull connection, whose address goes into the profile, by CORBA or a library's provider.
 ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
     auto connector = std::make_unique<OutPortPullConnector>(*this, info);
@@ -74,12 +78,15 @@ ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil
     return RTC_OK;
 }
 
+// Push: the InPorts have published where to send to.
 ReturnCode_t OutPortBase::subscribeInterfaces(const ConnectorProfile& profile) {
     const coil::Properties prop = connector_properties(m_properties, profile, "outport");
     const std::string flow = coil::normalize(prop.getProperty("dataflow_type", "push"));
     return flow == "push" ? addPushConnectors(profile, prop) : RTC_OK;
 }
 
+// One connector for each InPort of this process, or one for the InPort of another process: OpenRTM-aist's
+// profile has room for one address of each interface type.
 ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, const coil::Properties& prop) {
     ConnectorInfo info = connector_info(profile, prop);
     const std::string registered = registered_push_type(prop);
@@ -108,6 +115,7 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
     return RTC_OK;
 }
 
+// Takes over the connector. The listeners are called without the lock: they may write to the port.
 void OutPortBase::addConnector(OutPortConnector* connector) {
     ConnectorInfo info = connector->profile();
     {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// PortAdmin: the list of a component's ports.
 #include <algorithm>
 #include <rtm/PortAdmin.h>
 
@@ -15,6 +16,7 @@ std::vector<PortService_var> PortAdmin::delegatedPorts() const {
     return delegated_ports_;
 }
 
+// Own ports first, then delegated ones. The caller owns the list.
 PortServiceList* PortAdmin::getPortServiceList() const {
     PortServiceList_var list = new PortServiceList;
     for (auto* port : ports()) CORBA_SeqUtil::push_back(list.inout(), PortService_var(port->getPortRef()));
@@ -88,6 +90,7 @@ void PortAdmin::activatePorts() {
 void PortAdmin::deactivatePorts() {
     for (auto* port : ports()) port->deactivateInterfaces();
 }
+// Each port is disconnected, removed and then deactivated as a CORBA object.
 void PortAdmin::finalizePorts() {
     for (auto* port : ports()) {
         removePort(*port);

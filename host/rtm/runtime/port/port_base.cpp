@@ -22,6 +22,7 @@ void wait_for_calls_to_end(PortableServer::ServantBase& servant) {
 
 } // namespace
 
+// The port is a CORBA object from here on, though nobody outside knows it before it has an owner.
 PortBase::PortBase(const char* name) : rtclog(name), m_poa(Manager::instance().getPOA()) {
     m_objref = this->_this();
     m_oid = m_poa->servant_to_id(this);
@@ -43,6 +44,7 @@ void PortBase::retire() {
     }
 }
 
+// CORBA's C++ mapping: the caller deletes what the get_...() operations return.
 PortProfile* PortBase::get_port_profile() {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
     return new PortProfile(m_profile);
@@ -110,6 +112,7 @@ ReturnCode_t PortBase::clearConnectError() {
 
 bool PortBase::isEmptyId(const ConnectorProfile& profile) { return profile.connector_id[0] == '\0'; }
 
+// Connection ids must be unique among all processes.
 std::string PortBase::getUUID() { return coil::UUID_Generator().generateUUID()->to_string(); }
 
 void PortBase::setUUID(ConnectorProfile& profile) {
@@ -127,12 +130,14 @@ CORBA::Long PortBase::findConnProfileIndex(const char* id) const {
                                [id](const ConnectorProfile& p) { return std::string(p.connector_id) == id; });
 }
 
+// A copy, since another thread may erase the profile; empty, without ports, when there is none.
 ConnectorProfile PortBase::findConnProfile(const char* id) {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
     const CORBA::Long index = findConnProfileIndex(id);
     return index < 0 ? ConnectorProfile() : m_profile.connector_profiles[static_cast<CORBA::ULong>(index)];
 }
 
+// Adds the profile of a new connection, or replaces the one of the same id.
 void PortBase::updateConnectorProfile(const ConnectorProfile& profile) {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
     const CORBA::Long index = findConnProfileIndex(profile.connector_id);

@@ -53,6 +53,7 @@ std::string incompatibility(const ConnectorProfile& profile) {
     return "";
 }
 
+// Is a port of the connection in another process?
 bool has_remote_port(const ConnectorProfile& profile) {
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
         if (local_object<PortBase>(profile.ports[i]) == nullptr) return true;
@@ -123,6 +124,8 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
     }
 }
 
+// Called by the port before this one in the profile, or by connect(); maybe from another process. [ORB
+// thread]
 ReturnCode_t PortBase::notify_connect(ConnectorProfile& profile) {
     const ReturnCode_t result = establishConnection(profile);
     if (result == RTC_OK && m_onConnected != nullptr) (*m_onConnected)(profile);
@@ -130,6 +133,7 @@ ReturnCode_t PortBase::notify_connect(ConnectorProfile& profile) {
     return result;
 }
 
+// This port's listeners, then those of the component to all its ports.
 void PortBase::notifyListeners(PortConnectListenerType type, ConnectorProfile& profile) {
     auto call = [&](auto& listener) { listener(getName(), profile); };
     m_connectListeners.at(type).forEach(call);
@@ -142,6 +146,8 @@ void PortBase::notifyListeners(PortConnectRetListenerType type, ConnectorProfile
     if (m_componentConnectListeners != nullptr) m_componentConnectListeners->at(type).forEach(call);
 }
 
+// The steps of notify_connect(): publish, pass on, subscribe. A step is skipped when the one before has
+// failed, but its listeners are called with the failure.
 ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
     // Each port passes the call on to the one behind it: a port that is listed twice would call itself for
     // ever.
@@ -171,7 +177,8 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
     // Kept even when a later step has failed: disconnect() finds in it what to undo.
     if (published == RTC_OK) updateConnectorProfile(profile);
     // A peer in another process may die without disconnecting: the manager looks after it from now on.
-    if (subscribed == RTC_OK && has_remote_port(profile)) Manager::instance().impl().connection_keeper->start();
+    if (subscribed == RTC_OK && has_remote_port(profile))
+        Manager::instance().impl().connection_keeper->start();
     return subscribed;
 }
 
@@ -181,7 +188,8 @@ ReturnCode_t PortBase::notifyNextPort(ConnectorProfile& profile) {
     try {
         return connectNext(profile);
     } catch (const CORBA::SystemException& e) {
-        return refuse(RTC_ERROR, std::string(getName()) + ": the next port of the connection: " + describe_exception(e));
+        return refuse(RTC_ERROR,
+                      std::string(getName()) + ": the next port of the connection: " + describe_exception(e));
     }
 }
 
@@ -195,6 +203,7 @@ ReturnCode_t PortBase::_publishInterfaces() {
                                  std::to_string(m_connectionLimit) + " connections");
 }
 
+// Is this port connected with another port of the profile, by whatever connection?
 bool PortBase::isAlreadyConnected(const ConnectorProfile& profile) {
     ConnectorProfileList_var present = get_connector_profiles();
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
@@ -206,6 +215,7 @@ bool PortBase::isAlreadyConnected(const ConnectorProfile& profile) {
     return false;
 }
 
+// How often this port is in the list of the profile.
 CORBA::ULong PortBase::occurrencesIn(const ConnectorProfile& profile) const {
     CORBA::ULong occurrences = 0;
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
@@ -234,6 +244,8 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     return result.value_or(RTC_ERROR);
 }
 
+// Passes the call on before it ends this port's part, as OpenRTM-aist does, so that all peers are told even
+// when this side fails. [ORB thread]
 ReturnCode_t PortBase::notify_disconnect(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
@@ -257,6 +269,7 @@ bool PortBase::releaseConnection(const char* connector_id) {
     return eraseConnectorProfile(connector_id);
 }
 
+// The manager makes the connection anew when it is one that it keeps.
 void PortBase::dropLostConnection(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return;
@@ -275,6 +288,7 @@ ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
     return notify_disconnect_from(next, profile, getName(), rtclog).value_or(RTC_OK);
 }
 
+// The result is that of the last one that has failed; the others are disconnected all the same.
 ReturnCode_t PortBase::disconnect_all() {
     ConnectorProfileList_var profiles = get_connector_profiles();
     ReturnCode_t result = RTC_OK;
