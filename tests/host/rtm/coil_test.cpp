@@ -83,20 +83,20 @@ TEST_CASE("trylock of a coil Mutex is false when it has got the lock and try_loc
 TEST_CASE("A coil Condition wakes who waits and gives up after its time") {
     coil::Mutex mutex;
     coil::Condition<coil::Mutex> condition(mutex);
-    bool told = false;
+    bool notified = false;
     std::thread signaller;
     {
         coil::Guard<coil::Mutex> guard(mutex);
         CHECK_FALSE(condition.wait(0, 1000000));
         signaller = std::thread([&] {
             coil::Guard<coil::Mutex> inner(mutex);
-            told = true;
+            notified = true;
             condition.signal();
         });
-        for (int i = 0; i < 1000 && !told; ++i) condition.wait(0, 10000000);
+        for (int i = 0; i < 1000 && !notified; ++i) condition.wait(0, 10000000);
     }
     signaller.join();
-    CHECK(told);
+    CHECK(notified);
 }
 
 namespace {

@@ -24,8 +24,8 @@ TEST_CASE("What an OutPort writes is new in the InPort at once and read once") {
 
 namespace {
 
-/// What arrives of 1, 2, 3 through a buffer of length 2.
-long through_two(ManagerFixture& fixture, const std::string& policy, Counter& counter) {
+/// Sends 1, 2, 3 through a buffer of length 2 and returns the sum of what arrives.
+long sum_through_buffer_of_two(ManagerFixture& fixture, const std::string& policy, Counter& counter) {
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     fixture.connect("Counter0.out?port=Accumulator0.in&buffer.length=2&buffer.write.full_policy=" + policy);
     for (int i = 1; i <= 3; ++i) {
@@ -42,14 +42,14 @@ long through_two(ManagerFixture& fixture, const std::string& policy, Counter& co
 TEST_CASE("A full buffer that overwrites keeps the newest values") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
-    CHECK(through_two(fixture, "overwrite", counter) == 2 + 3);
+    CHECK(sum_through_buffer_of_two(fixture, "overwrite", counter) == 2 + 3);
     CHECK(counter.out_.getStatus(0) == RTC::DataPortStatus::PORT_OK);
 }
 
 TEST_CASE("A full buffer that does nothing refuses new values and says so") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
-    CHECK(through_two(fixture, "do_nothing", counter) == 1 + 2);
+    CHECK(sum_through_buffer_of_two(fixture, "do_nothing", counter) == 1 + 2);
     CHECK(counter.out_.getStatus(0) == RTC::DataPortStatus::BUFFER_FULL);
 }
 
@@ -137,27 +137,27 @@ TEST_CASE("Disconnecting tells both sides, and writing goes on without the recei
 
 namespace {
 
-struct Heard : RTC::ConnectorDataListenerT<RTC::TimedLong> {
+struct ValueListener : RTC::ConnectorDataListenerT<RTC::TimedLong> {
     USE_CONNLISTENER_STATUS;
     std::vector<long>* values;
-    explicit Heard(std::vector<long>& v) : values(&v) {}
+    explicit ValueListener(std::vector<long>& v) : values(&v) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong& data) override {
         values->push_back(data.data);
         data.data += 100;
         return DATA_CHANGED;
     }
 };
-struct HeardAsIn1x : RTC::ConnectorDataListenerT<RTC::TimedLong> {
+struct ValueListener1x : RTC::ConnectorDataListenerT<RTC::TimedLong> {
     std::vector<long>* values;
-    explicit HeardAsIn1x(std::vector<long>& v) : values(&v) {}
+    explicit ValueListener1x(std::vector<long>& v) : values(&v) {}
     void operator()(const RTC::ConnectorInfo&, const RTC::TimedLong& data) override {
         values->push_back(data.data);
     }
 };
-struct HeardBytes : RTC::ConnectorDataListener {
+struct BytesListener : RTC::ConnectorDataListener {
     USE_CONNLISTENER_STATUS;
     std::vector<long>* values;
-    explicit HeardBytes(std::vector<long>& v) : values(&v) {}
+    explicit BytesListener(std::vector<long>& v) : values(&v) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::ByteData& bytes, const std::string& type) override {
         CHECK(type == "cdr");
         values->push_back(static_cast<long>(bytes.getDataLength()));
@@ -165,7 +165,7 @@ struct HeardBytes : RTC::ConnectorDataListener {
     }
 };
 // The forms of 1.2 and of 1.0 for bytes
-struct AddsTo : RTC::ConnectorDataListener {
+struct AddingStreamListener : RTC::ConnectorDataListener {
     USE_CONNLISTENER_STATUS;
     ReturnCode operator()(RTC::ConnectorInfo&, cdrMemoryStream& stream) override {
         RTC::TimedLong data;
@@ -176,16 +176,16 @@ struct AddsTo : RTC::ConnectorDataListener {
         return DATA_CHANGED;
     }
 };
-struct HeardStream : RTC::ConnectorDataListener {
+struct StreamListener1x : RTC::ConnectorDataListener {
     std::vector<long>* values;
-    explicit HeardStream(std::vector<long>& v) : values(&v) {}
+    explicit StreamListener1x(std::vector<long>& v) : values(&v) {}
     void operator()(const RTC::ConnectorInfo&, const cdrMemoryStream& stream) override {
         values->push_back(static_cast<long>(stream.bufSize()));
     }
 };
-struct Joined : RTC::ConnectorListener {
+struct ConnectListener : RTC::ConnectorListener {
     std::vector<std::string>* names;
-    explicit Joined(std::vector<std::string>& n) : names(&n) {}
+    explicit ConnectListener(std::vector<std::string>& n) : names(&n) {}
     void operator()(const RTC::ConnectorInfo& info) override { names->push_back(info.name); }
 };
 
@@ -196,12 +196,12 @@ TEST_CASE("Listeners of 1.2 may change the stream and those of 1.0 hear streams 
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     std::vector<long> sizes;
-    std::vector<std::string> joined;
-    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new AddsTo());
-    accumulator.in_.addConnectorDataListener(RTC::ON_BUFFER_WRITE, new HeardStream(sizes));
-    counter.out_.addConnectorListener(RTC::ON_CONNECT, new Joined(joined));
+    std::vector<std::string> connected;
+    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new AddingStreamListener());
+    accumulator.in_.addConnectorDataListener(RTC::ON_BUFFER_WRITE, new StreamListener1x(sizes));
+    counter.out_.addConnectorListener(RTC::ON_CONNECT, new ConnectListener(connected));
     fixture.connect("Counter0.out?port=Accumulator0.in");
-    CHECK(joined.size() == 1);
+    CHECK(connected.size() == 1);
     counter.value_.data = 5;
     counter.out_.write();
     CHECK(sizes == std::vector<long>{12});
@@ -214,11 +214,11 @@ TEST_CASE("Listeners hear values or bytes, in the 2.x and the 1.x form, and may 
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     std::vector<long> sent, received, bytes;
-    counter.out_.addConnectorDataListener(RTC::ON_SEND, new HeardAsIn1x(sent));
+    counter.out_.addConnectorDataListener(RTC::ON_SEND, new ValueListener1x(sent));
     accumulator.in_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED,
-                                             new Heard(received));
+                                             new ValueListener(received));
     accumulator.in_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_BUFFER_WRITE,
-                                             new HeardBytes(bytes));
+                                             new BytesListener(bytes));
     fixture.connect("Counter0.out?port=Accumulator0.in");
     counter.value_.data = 5;
     counter.out_.write();

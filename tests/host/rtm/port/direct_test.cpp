@@ -8,27 +8,27 @@ using namespace testing;
 namespace {
 
 template <class T>
-struct Pair {
+struct PortPair {
     T sent{}, received{};
     RTC::OutPort<T> out{"a", sent};
     RTC::InPort<T> in{"b", received};
     RTC::RTObject_impl& owner;
-    Pair(ManagerFixture& fixture, const std::string& properties)
+    PortPair(ManagerFixture& fixture, const std::string& properties)
         : owner(fixture.create<Recorder>("Recorder")) {
         owner.addOutPort("a", out);
         owner.addInPort("b", in);
         fixture.connect("Recorder0.a?port=Recorder0.b&" + properties);
     }
-    ~Pair() { // before cleanupComponents(), which deletes the owner
+    ~PortPair() { // before cleanupComponents(), which deletes the owner
         owner.removePort(out);
         owner.removePort(in);
     }
 };
 
-long allocations_of(const std::function<void()>& once) {
-    for (int i = 0; i < 100; ++i) once();
+long count_allocations(const std::function<void()>& operation) {
+    for (int i = 0; i < 100; ++i) operation();
     const long before = allocations();
-    for (int i = 0; i < 1000; ++i) once();
+    for (int i = 0; i < 1000; ++i) operation();
     return allocations() - before;
 }
 
@@ -39,27 +39,27 @@ TEST_CASE("Within the process values of fixed size are written and read without 
     static ManagerFixture fixture;
     CAPTURE(interface);
     {
-        Pair<RTC::TimedLong> pair(fixture, "interface_type=" + interface);
-        CHECK(allocations_of([&] {
-                  pair.sent.data++;
-                  if (!pair.out.write() || !pair.in.isNew() || !pair.in.read())
+        PortPair<RTC::TimedLong> ports(fixture, "interface_type=" + interface);
+        CHECK(count_allocations([&] {
+                  ports.sent.data++;
+                  if (!ports.out.write() || !ports.in.isNew() || !ports.in.read())
                       throw std::runtime_error("lost");
               }) == 0);
-        CHECK(pair.received.data == 1100);
-        pair.owner.exit();
+        CHECK(ports.received.data == 1100);
+        ports.owner.exit();
     }
     fixture.manager().cleanupComponents();
     {
-        Pair<RTC::TimedDoubleSeq> pair(fixture, "interface_type=" + interface);
-        pair.sent.data.length(3);
-        pair.sent.data[2] = 0;
-        CHECK(allocations_of([&] {
-                  pair.sent.data[2] += 0.5;
-                  if (!pair.out.write() || !pair.in.isNew() || !pair.in.read())
+        PortPair<RTC::TimedDoubleSeq> ports(fixture, "interface_type=" + interface);
+        ports.sent.data.length(3);
+        ports.sent.data[2] = 0;
+        CHECK(count_allocations([&] {
+                  ports.sent.data[2] += 0.5;
+                  if (!ports.out.write() || !ports.in.isNew() || !ports.in.read())
                       throw std::runtime_error("lost");
               }) == 0);
-        CHECK(pair.received.data[2] == 550);
-        pair.owner.exit();
+        CHECK(ports.received.data[2] == 550);
+        ports.owner.exit();
     }
     fixture.manager().cleanupComponents();
 }
@@ -70,17 +70,17 @@ TEST_CASE("A direct connection keeps the buffer's policies") {
                               std::pair("block&buffer.write.timeout=0.001", std::vector<long>{1, 2}));
     static ManagerFixture fixture;
     {
-        Pair<RTC::TimedLong> pair(fixture,
-                                  std::string("interface_type=direct&buffer.length=2&buffer.read.empty_"
-                                              "policy=do_nothing&buffer.write.full_policy=") +
-                                      row.first);
-        for (pair.sent.data = 1; pair.sent.data <= 2; ++pair.sent.data) CHECK(pair.out.write());
-        CHECK(pair.out.write() == (std::string(row.first) == "overwrite"));
-        std::vector<long> got;
-        while (pair.in.isNew() && pair.in.read()) got.push_back(pair.received.data);
-        CHECK(got == row.second);
-        CHECK_FALSE(pair.in.read());
-        pair.owner.exit();
+        PortPair<RTC::TimedLong> ports(fixture,
+                                       std::string("interface_type=direct&buffer.length=2&buffer.read.empty_"
+                                                   "policy=do_nothing&buffer.write.full_policy=") +
+                                           row.first);
+        for (ports.sent.data = 1; ports.sent.data <= 2; ++ports.sent.data) CHECK(ports.out.write());
+        CHECK(ports.out.write() == (std::string(row.first) == "overwrite"));
+        std::vector<long> values_read;
+        while (ports.in.isNew() && ports.in.read()) values_read.push_back(ports.received.data);
+        CHECK(values_read == row.second);
+        CHECK_FALSE(ports.in.read());
+        ports.owner.exit();
     }
     fixture.manager().cleanupComponents();
 }
@@ -99,20 +99,20 @@ struct AddHundred : RTC::ConnectorDataListenerT<RTC::TimedLong> {
 
 TEST_CASE("Listeners hear the values of a direct connection and may change them") {
     ManagerFixture fixture;
-    Pair<RTC::TimedLong> pair(fixture, "interface_type=direct");
+    PortPair<RTC::TimedLong> ports(fixture, "interface_type=direct");
     auto* received = new AddHundred;
     auto* read = new AddHundred;
-    pair.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
-    pair.sent.data = 1;
-    REQUIRE(pair.out.write());
-    pair.in.addConnectorDataListener(RTC::ON_BUFFER_READ, read);
-    REQUIRE(pair.in.read());
-    CHECK(pair.received.data == 201);
-    pair.in.removeConnectorDataListener(RTC::ON_RECEIVED, received);
-    pair.in.removeConnectorDataListener(RTC::ON_BUFFER_READ, read);
-    REQUIRE(pair.out.write());
-    REQUIRE(pair.in.read());
-    CHECK(pair.received.data == 1);
+    ports.in.addConnectorDataListener(RTC::ON_RECEIVED, received);
+    ports.sent.data = 1;
+    REQUIRE(ports.out.write());
+    ports.in.addConnectorDataListener(RTC::ON_BUFFER_READ, read);
+    REQUIRE(ports.in.read());
+    CHECK(ports.received.data == 201);
+    ports.in.removeConnectorDataListener(RTC::ON_RECEIVED, received);
+    ports.in.removeConnectorDataListener(RTC::ON_BUFFER_READ, read);
+    REQUIRE(ports.out.write());
+    REQUIRE(ports.in.read());
+    CHECK(ports.received.data == 1);
 }
 
 TEST_CASE("An OutPort may have direct connections beside others") {
@@ -138,12 +138,12 @@ TEST_CASE("A time-stamp policy works on a direct connection as on any other") {
     const std::string policy = GENERATE("on_write", "on_send", "on_received", "on_read");
     static ManagerFixture fixture;
     {
-        Pair<RTC::TimedLong> pair(fixture, "interface_type=direct&timestamp_policy=" + policy);
-        REQUIRE(pair.out.write());
-        REQUIRE(pair.in.read());
-        CHECK(pair.received.tm.sec > 1000000000u);
-        CHECK(pair.sent.tm.sec == 0);
-        pair.owner.exit();
+        PortPair<RTC::TimedLong> ports(fixture, "interface_type=direct&timestamp_policy=" + policy);
+        REQUIRE(ports.out.write());
+        REQUIRE(ports.in.read());
+        CHECK(ports.received.tm.sec > 1000000000u);
+        CHECK(ports.sent.tm.sec == 0);
+        ports.owner.exit();
     }
     fixture.manager().cleanupComponents();
 }

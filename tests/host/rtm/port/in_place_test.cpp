@@ -9,33 +9,34 @@ using namespace testing;
 
 namespace {
 
-/// As a bridge's shared memory would be, and counts which way messages came and went.
-struct Place : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
-    static constexpr std::size_t long_from = 10'000;
+/// A buffer as a bridge has it in shared memory; counts the operations by their kind.
+struct CountingInPlaceBuffer : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
+    static constexpr std::size_t min_in_place_length = 10'000;
     struct Counts {
-        int copied_in = 0, made = 0, copied_out = 0, shown = 0;
+        int writes = 0, in_place_writes = 0, reads = 0, in_place_reads = 0;
         bool operator==(const Counts&) const = default;
     };
-    static Place*& made_last() {
-        static Place* place = nullptr;
-        return place;
+    static CountingInPlaceBuffer*& last_created() {
+        static CountingInPlaceBuffer* buffer = nullptr;
+        return buffer;
     }
-    void init(const coil::Properties&) override { made_last() = this; }
+    void init(const coil::Properties&) override { last_created() = this; }
 
-    std::size_t minInPlaceLength() const override { return long_from; }
+    std::size_t minInPlaceLength() const override { return min_in_place_length; }
     std::size_t readable() const override { return messages.size(); }
     bool empty() const override { return messages.empty(); }
     RTC::BufferStatus write(const RTC::ByteData& bytes, std::chrono::nanoseconds) override {
-        ++counts.copied_in;
+        ++counts.writes;
         messages.push_back({bytes, bytes.getDataLength()});
         return RTC::BufferStatus::OK;
     }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override {
         const cdrMemoryStream usual;
         cdrCountingStream counter(usual.TCS_C(), usual.TCS_W());
-        if (!marshal(counter) || counter.total() < long_from) return RTC::BufferStatus::NOT_SUPPORTED;
-        ++counts.made;
-        if (full_now) return RTC::BufferStatus::FULL;
+        if (!marshal(counter) || counter.total() < min_in_place_length)
+            return RTC::BufferStatus::NOT_SUPPORTED;
+        ++counts.in_place_writes;
+        if (is_full) return RTC::BufferStatus::FULL;
         cdrMemoryStream stream;
         stream.setByteSwapFlag(true);
         REQUIRE(marshal(stream));
@@ -47,54 +48,56 @@ struct Place : RTC::CdrRingBuffer, RTC::InPlaceBuffer {
     }
     RTC::BufferStatus read(RTC::ByteData& bytes, std::chrono::nanoseconds) override {
         if (messages.empty()) return RTC::BufferStatus::EMPTY;
-        ++counts.copied_out;
+        ++counts.reads;
         bytes = messages.front().first;
         messages.pop_front();
         return RTC::BufferStatus::OK;
     }
-    RTC::BufferStatus readInPlace(RTC::ByteData& bytes, RTC::Unmarshal& use, bool& used) override {
-        used = !messages.empty() && messages.front().second >= long_from;
-        if (!used) return read(bytes, {});
-        ++counts.shown;
+    RTC::BufferStatus readInPlace(RTC::ByteData& bytes, RTC::Unmarshal& reader,
+                                  bool& read_in_place) override {
+        read_in_place = !messages.empty() && messages.front().second >= min_in_place_length;
+        if (!read_in_place) return read(bytes, {});
+        ++counts.in_place_reads;
         const auto& message = messages.front().first;
         cdrMemoryStream stream(message.getBuffer(), message.getDataLength());
         stream.setByteSwapFlag(true);
-        use(stream);
+        reader(stream);
         messages.pop_front();
         return RTC::BufferStatus::OK;
     }
 
     std::deque<std::pair<RTC::ByteData, std::size_t>> messages;
     Counts counts;
-    bool full_now = false;
+    bool is_full = false;
 };
 
-/// An OutPort and an InPort of images with a Place between them.
-struct Images {
-    Images() : out("image_out", sent), in("image_in", received) {
-        RTC::CdrBufferFactory::instance().addFactory("place", coil::Creator<RTC::CdrBufferBase, Place>,
-                                                     coil::Destructor<RTC::CdrBufferBase, Place>);
+/// An OutPort and an InPort of images with a CountingInPlaceBuffer between them.
+struct ImagePorts {
+    ImagePorts() : out("image_out", sent), in("image_in", received) {
+        RTC::CdrBufferFactory::instance().addFactory(
+            "in_place", coil::Creator<RTC::CdrBufferBase, CountingInPlaceBuffer>,
+            coil::Destructor<RTC::CdrBufferBase, CountingInPlaceBuffer>);
         rtc.addOutPort("image_out", out);
         rtc.addInPort("image_in", in);
     }
-    ~Images() {
+    ~ImagePorts() {
         rtc.removePort(out);
         rtc.removePort(in);
     }
-    void connect(const std::string& more = "") {
-        fixture.connect("Counter0.image_out?port=Counter0.image_in&inport.buffer_type=place" + more);
-        place = Place::made_last();
+    void connect(const std::string& properties = "") {
+        fixture.connect("Counter0.image_out?port=Counter0.image_in&inport.buffer_type=in_place" + properties);
+        buffer = CountingInPlaceBuffer::last_created();
     }
-    bool send(CORBA::ULong bytes, CORBA::Octet shade) {
-        sent.tm.sec = shade;
+    bool send(CORBA::ULong bytes, CORBA::Octet fill) {
+        sent.tm.sec = fill;
         sent.data.length(bytes);
-        std::fill_n(sent.data.get_buffer(), bytes, shade);
+        std::fill_n(sent.data.get_buffer(), bytes, fill);
         return out.write();
     }
-    bool receive(CORBA::ULong bytes, CORBA::Octet shade) {
-        if (!in.read() || received.tm.sec != shade || received.data.length() != bytes) return false;
+    bool receive(CORBA::ULong bytes, CORBA::Octet fill) {
+        if (!in.read() || received.tm.sec != fill || received.data.length() != bytes) return false;
         const auto* begin = received.data.get_buffer();
-        return std::all_of(begin, begin + bytes, [&](CORBA::Octet byte) { return byte == shade; });
+        return std::all_of(begin, begin + bytes, [&](CORBA::Octet byte) { return byte == fill; });
     }
 
     ManagerFixture fixture;
@@ -102,38 +105,38 @@ struct Images {
     RTC::TimedOctetSeq sent{}, received{};
     RTC::OutPort<RTC::TimedOctetSeq> out;
     RTC::InPort<RTC::TimedOctetSeq> in;
-    Place* place = nullptr;
+    CountingInPlaceBuffer* buffer = nullptr;
 };
 
 } // namespace
 
 TEST_CASE("Long messages are made and read in place, the first of a row excepted, and short ones as always") {
-    Images images;
-    images.connect();
+    ImagePorts ports;
+    ports.connect();
     const CORBA::ULong sizes[] = {100, 50'000, 60'000, 50'000, 100, 200, 50'000, 70'000};
-    CORBA::Octet shade = 0;
+    CORBA::Octet fill = 0;
     for (const auto bytes : sizes) {
-        REQUIRE(images.send(bytes, ++shade));
-        REQUIRE(images.receive(bytes, shade));
+        REQUIRE(ports.send(bytes, ++fill));
+        REQUIRE(ports.receive(bytes, fill));
     }
     // Copied: 100, the first 50'000, 100, 200, and the next first.
-    CHECK(images.place->counts == Place::Counts{5, 3, 3, 5});
-    CHECK_FALSE(images.in.isNew());
+    CHECK(ports.buffer->counts == CountingInPlaceBuffer::Counts{5, 3, 3, 5});
+    CHECK_FALSE(ports.in.isNew());
 }
 
-TEST_CASE("A long message that the place has no room for is reported as full") {
-    Images images;
-    images.connect();
-    REQUIRE(images.send(50'000, 1));
-    images.place->full_now = true;
-    CHECK_FALSE(images.send(50'000, 2));
-    CHECK(images.out.getStatus(0) == RTC::DataPortStatus::BUFFER_FULL);
-    CHECK(images.receive(50'000, 1));
+TEST_CASE("A long message that the buffer has no room for is reported as full") {
+    ImagePorts ports;
+    ports.connect();
+    REQUIRE(ports.send(50'000, 1));
+    ports.buffer->is_full = true;
+    CHECK_FALSE(ports.send(50'000, 2));
+    CHECK(ports.out.getStatus(0) == RTC::DataPortStatus::BUFFER_FULL);
+    CHECK(ports.receive(50'000, 1));
 }
 
 namespace {
 
-struct Lengths : RTC::ConnectorDataListener {
+struct LengthListener : RTC::ConnectorDataListener {
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::ByteData& bytes, const std::string&) override {
         seen.push_back(bytes.getDataLength());
         return NO_CHANGE;
@@ -142,62 +145,62 @@ struct Lengths : RTC::ConnectorDataListener {
 };
 
 template <class Port>
-void check_listened(Images& images, Port& port, RTC::ConnectorDataListenerType type) {
-    Lengths lengths;
-    images.connect();
-    port.addConnectorDataListener(type, &lengths, false);
-    for (CORBA::Octet shade = 1; shade <= 3; ++shade) {
-        REQUIRE(images.send(50'000, shade));
-        REQUIRE(images.receive(50'000, shade));
+void check_listener_sees_bytes(ImagePorts& ports, Port& port, RTC::ConnectorDataListenerType type) {
+    LengthListener listener;
+    ports.connect();
+    port.addConnectorDataListener(type, &listener, false);
+    for (CORBA::Octet fill = 1; fill <= 3; ++fill) {
+        REQUIRE(ports.send(50'000, fill));
+        REQUIRE(ports.receive(50'000, fill));
     }
-    CHECK(lengths.seen == std::vector<unsigned long>(3, 50'012));
-    port.removeConnectorDataListener(type, &lengths);
+    CHECK(listener.seen == std::vector<unsigned long>(3, 50'012));
+    port.removeConnectorDataListener(type, &listener);
 }
 
 } // namespace
 
 TEST_CASE("A listener of the OutPort sees the bytes of long messages, too") {
-    Images images;
-    check_listened(images, images.out, RTC::ON_SEND);
+    ImagePorts ports;
+    check_listener_sees_bytes(ports, ports.out, RTC::ON_SEND);
 }
 
 TEST_CASE("A listener of the InPort sees the bytes of long messages, too") {
-    Images images;
-    check_listened(images, images.in, RTC::ON_RECEIVED);
+    ImagePorts ports;
+    check_listener_sees_bytes(ports, ports.in, RTC::ON_RECEIVED);
 }
 
 TEST_CASE("A listener to what is read sees the bytes of long messages, too") {
-    Images images;
-    check_listened(images, images.in, RTC::ON_BUFFER_READ);
+    ImagePorts ports;
+    check_listener_sees_bytes(ports, ports.in, RTC::ON_BUFFER_READ);
 }
 
 TEST_CASE("A second connection of an OutPort gets long messages as well") {
-    Images images;
+    ImagePorts ports;
     RTC::TimedOctetSeq other{};
     RTC::InPort<RTC::TimedOctetSeq> second("second_in", other);
-    images.rtc.addInPort("second_in", second);
-    images.connect();
-    images.fixture.connect("Counter0.image_out?port=Counter0.second_in");
-    for (CORBA::Octet shade = 1; shade <= 3; ++shade) {
-        REQUIRE(images.send(50'000, shade));
-        REQUIRE(images.receive(50'000, shade));
+    ports.rtc.addInPort("second_in", second);
+    ports.connect();
+    ports.fixture.connect("Counter0.image_out?port=Counter0.second_in");
+    for (CORBA::Octet fill = 1; fill <= 3; ++fill) {
+        REQUIRE(ports.send(50'000, fill));
+        REQUIRE(ports.receive(50'000, fill));
         REQUIRE(second.read());
         CHECK(other.data.length() == 50'000);
-        CHECK(other.data[49'999] == shade);
+        CHECK(other.data[49'999] == fill);
     }
-    CHECK(images.place->counts.made > 0);
-    images.rtc.removePort(second);
+    CHECK(ports.buffer->counts.in_place_writes > 0);
+    ports.rtc.removePort(second);
 }
 
 TEST_CASE("A long message that is none of the type is an error of the reading port") {
-    Images images;
-    images.connect();
-    RTC::ByteData junk;
-    junk.setDataLength(20'000);
-    std::fill_n(junk.getBuffer(), 20'000, static_cast<unsigned char>(0xff));
-    images.place->messages.push_back({junk, 20'000});
-    CHECK_FALSE(images.in.read());
-    CHECK(images.in.getStatus(0) == RTC::DataPortStatus::BUFFER_ERROR);
-    REQUIRE(images.send(50'000, 1));
-    CHECK(images.receive(50'000, 1));
+    ImagePorts ports;
+    ports.connect();
+    RTC::ByteData garbage;
+    garbage.setDataLength(20'000);
+    std::fill_n(garbage.getBuffer(), 20'000, static_cast<unsigned char>(0xff));
+    ports.buffer->messages.push_back({garbage, 20'000});
+    CHECK_FALSE(ports.in.read());
+    CHECK(ports.in.getStatus(0) == RTC::DataPortStatus::BUFFER_ERROR);
+    REQUIRE(ports.send(50'000, 1));
+    CHECK(ports.receive(50'000, 1));
 }

@@ -6,63 +6,65 @@ using namespace testing;
 
 namespace {
 
-using Words = std::vector<std::string>;
+using EventNames = std::vector<std::string>;
 
-std::mutex story_mutex; // publishers have threads of their own
+std::mutex events_mutex; // publishers have threads of their own
 
-struct DataEvent : RTC::ConnectorDataListener {
+struct DataEventListener : RTC::ConnectorDataListener {
     USE_CONNLISTENER_STATUS;
-    DataEvent(std::string& s, const char* n) : story(s), name(n) {}
+    DataEventListener(std::string& s, const char* n) : events(s), name(n) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::ByteData&, const std::string&) override {
-        std::lock_guard<std::mutex> lock(story_mutex);
-        story += name + " ";
+        std::lock_guard<std::mutex> lock(events_mutex);
+        events += name + " ";
         return NO_CHANGE;
     }
-    std::string& story;
+    std::string& events;
     std::string name;
 };
-struct InfoEvent : RTC::ConnectorListener {
+struct InfoEventListener : RTC::ConnectorListener {
     USE_CONNLISTENER_STATUS;
-    InfoEvent(std::string& s, const char* n) : story(s), name(n) {}
+    InfoEventListener(std::string& s, const char* n) : events(s), name(n) {}
     ReturnCode operator()(RTC::ConnectorInfo&) override {
-        std::lock_guard<std::mutex> lock(story_mutex);
-        story += name + " ";
+        std::lock_guard<std::mutex> lock(events_mutex);
+        events += name + " ";
         return NO_CHANGE;
     }
-    std::string& story;
+    std::string& events;
     std::string name;
 };
 
 template <class Port>
-void hear_all(Port& port, std::string& story) {
+void listen_to_all_events(Port& port, std::string& events) {
     for (int i = 0; i < static_cast<int>(RTC::ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM); ++i) {
         const auto type = static_cast<RTC::ConnectorDataListenerType>(i);
-        port.addConnectorDataListener(type, new DataEvent(story, RTC::ConnectorDataListener::toString(type)));
+        port.addConnectorDataListener(
+            type, new DataEventListener(events, RTC::ConnectorDataListener::toString(type)));
     }
     for (int i = 0; i < static_cast<int>(RTC::ConnectorListenerType::CONNECTOR_LISTENER_NUM); ++i) {
         const auto type = static_cast<RTC::ConnectorListenerType>(i);
-        port.addConnectorListener(type, new InfoEvent(story, RTC::ConnectorListener::toString(type)));
+        port.addConnectorListener(type,
+                                  new InfoEventListener(events, RTC::ConnectorListener::toString(type)));
     }
 }
 
-struct Ends {
+struct ListenedConnection {
     std::string out, in;
     Counter& counter;
     Accumulator& accumulator;
-    Ends(ManagerFixture& fixture, const std::string& properties)
+    ListenedConnection(ManagerFixture& fixture, const std::string& properties)
         : counter(fixture.create<Counter>("Counter")),
           accumulator(fixture.create<Accumulator>("Accumulator")) {
-        hear_all(counter.out_, out);
-        hear_all(accumulator.in_, in);
+        listen_to_all_events(counter.out_, out);
+        listen_to_all_events(accumulator.in_, in);
         fixture.connect("Counter0.out?port=Accumulator0.in&" + properties);
     }
-    ~Ends() {
+    ~ListenedConnection() {
         counter.exit();
         accumulator.exit();
         RTC::Manager::instance().cleanupComponents();
     }
-    Words take() {
-        std::lock_guard<std::mutex> lock(story_mutex);
+    EventNames take() {
+        std::lock_guard<std::mutex> lock(events_mutex);
         return {std::exchange(out, ""), std::exchange(in, "")};
     }
 };
@@ -73,25 +75,25 @@ TEST_CASE("A flush connection tells of sending and receiving, and of what the bu
     const std::string interface = GENERATE("corba_cdr", "direct");
     static ManagerFixture fixture;
     CAPTURE(interface);
-    Ends ends(fixture,
-              "buffer.length=2&buffer.write.full_policy=do_nothing&buffer.read.empty_policy=do_nothing"
-              "&interface_type=" +
-                  interface);
-    CHECK(ends.take() == Words{"ON_CONNECT ", "ON_CONNECT "});
-    ends.counter.out_.write();
-    CHECK(ends.take() == Words{"ON_SEND ON_RECEIVED ", "ON_RECEIVED ON_BUFFER_WRITE "});
-    ends.counter.out_.write();
-    ends.take();
-    CHECK_FALSE(ends.counter.out_.write());
-    CHECK(ends.take()[0] == "ON_SEND ON_RECEIVER_FULL ");
-    ends.accumulator.in_.read();
-    CHECK(ends.take() == Words{"", "ON_BUFFER_READ "});
-    ends.accumulator.in_.read();
-    ends.take();
-    ends.accumulator.in_.read();
-    CHECK(ends.take() == Words{"", "ON_BUFFER_EMPTY "});
-    ends.accumulator.in_.disconnect_all();
-    CHECK(ends.take() == Words{"ON_DISCONNECT ", "ON_DISCONNECT "});
+    ListenedConnection connection(
+        fixture, "buffer.length=2&buffer.write.full_policy=do_nothing&buffer.read.empty_policy=do_nothing"
+                 "&interface_type=" +
+                     interface);
+    CHECK(connection.take() == EventNames{"ON_CONNECT ", "ON_CONNECT "});
+    connection.counter.out_.write();
+    CHECK(connection.take() == EventNames{"ON_SEND ON_RECEIVED ", "ON_RECEIVED ON_BUFFER_WRITE "});
+    connection.counter.out_.write();
+    connection.take();
+    CHECK_FALSE(connection.counter.out_.write());
+    CHECK(connection.take()[0] == "ON_SEND ON_RECEIVER_FULL ");
+    connection.accumulator.in_.read();
+    CHECK(connection.take() == EventNames{"", "ON_BUFFER_READ "});
+    connection.accumulator.in_.read();
+    connection.take();
+    connection.accumulator.in_.read();
+    CHECK(connection.take() == EventNames{"", "ON_BUFFER_EMPTY "});
+    connection.accumulator.in_.disconnect_all();
+    CHECK(connection.take() == EventNames{"ON_DISCONNECT ", "ON_DISCONNECT "});
 }
 
 TEST_CASE("A buffer that overwrites or times out says so") {
@@ -99,53 +101,55 @@ TEST_CASE("A buffer that overwrites or times out says so") {
     static ManagerFixture fixture;
     CAPTURE(interface);
     {
-        Ends ends(fixture, "buffer.length=1&interface_type=" + interface);
-        ends.counter.out_.write();
-        ends.take();
-        ends.counter.out_.write();
-        CHECK(ends.take()[1].find("ON_BUFFER_OVERWRITE") != std::string::npos);
+        ListenedConnection connection(fixture, "buffer.length=1&interface_type=" + interface);
+        connection.counter.out_.write();
+        connection.take();
+        connection.counter.out_.write();
+        CHECK(connection.take()[1].find("ON_BUFFER_OVERWRITE") != std::string::npos);
     }
-    Ends ends(fixture, "buffer.length=1&buffer.write.full_policy=block&buffer.write.timeout=0.001&"
-                       "buffer.read.empty_policy=block&buffer.read.timeout=0.001&interface_type=" +
-                           interface);
-    ends.counter.out_.write();
-    ends.take();
-    CHECK_FALSE(ends.counter.out_.write());
-    const Words late = ends.take();
-    CHECK(late[0] == "ON_SEND ON_RECEIVER_TIMEOUT ");
-    CHECK(late[1].find("ON_BUFFER_WRITE_TIMEOUT") != std::string::npos);
-    ends.accumulator.in_.read();
-    ends.take();
-    CHECK_FALSE(ends.accumulator.in_.read());
-    CHECK(ends.take()[1] == "ON_BUFFER_READ_TIMEOUT ");
+    ListenedConnection connection(fixture,
+                                  "buffer.length=1&buffer.write.full_policy=block&buffer.write.timeout=0.001&"
+                                  "buffer.read.empty_policy=block&buffer.read.timeout=0.001&interface_type=" +
+                                      interface);
+    connection.counter.out_.write();
+    connection.take();
+    CHECK_FALSE(connection.counter.out_.write());
+    const EventNames timed_out = connection.take();
+    CHECK(timed_out[0] == "ON_SEND ON_RECEIVER_TIMEOUT ");
+    CHECK(timed_out[1].find("ON_BUFFER_WRITE_TIMEOUT") != std::string::npos);
+    connection.accumulator.in_.read();
+    connection.take();
+    CHECK_FALSE(connection.accumulator.in_.read());
+    CHECK(connection.take()[1] == "ON_BUFFER_READ_TIMEOUT ");
 }
 
 TEST_CASE("A pull connection tells of its buffer on the sending side") {
     ManagerFixture fixture;
-    Ends ends(fixture, "dataflow_type=pull&buffer.read.empty_policy=do_nothing");
-    ends.take();
-    ends.counter.out_.write();
-    CHECK(ends.take() == Words{"ON_BUFFER_WRITE ", ""});
-    ends.accumulator.in_.read();
-    CHECK(ends.take() == Words{"ON_BUFFER_READ ON_SEND ", "ON_RECEIVED "});
-    ends.accumulator.in_.read();
-    CHECK(ends.take()[0] == "ON_BUFFER_EMPTY ON_SENDER_EMPTY ");
+    ListenedConnection connection(fixture, "dataflow_type=pull&buffer.read.empty_policy=do_nothing");
+    connection.take();
+    connection.counter.out_.write();
+    CHECK(connection.take() == EventNames{"ON_BUFFER_WRITE ", ""});
+    connection.accumulator.in_.read();
+    CHECK(connection.take() == EventNames{"ON_BUFFER_READ ON_SEND ", "ON_RECEIVED "});
+    connection.accumulator.in_.read();
+    CHECK(connection.take()[0] == "ON_BUFFER_EMPTY ON_SENDER_EMPTY ");
 }
 
 namespace {
 
 // What comes of 1 ... 6 through a publisher, in the order of its coming.
-std::vector<long> published(ManagerFixture& fixture, const std::string& properties, std::size_t at_least) {
-    Ends ends(fixture, "buffer.length=16&" + properties);
-    for (ends.counter.value_.data = 1; ends.counter.value_.data <= 6; ++ends.counter.value_.data)
-        REQUIRE(ends.counter.out_.write());
-    std::vector<long> got;
-    for (int i = 0; i < 3000 && got.size() < at_least; ++i) {
+std::vector<long> published(ManagerFixture& fixture, const std::string& properties, std::size_t min_values) {
+    ListenedConnection connection(fixture, "buffer.length=16&" + properties);
+    for (connection.counter.value_.data = 1; connection.counter.value_.data <= 6;
+         ++connection.counter.value_.data)
+        REQUIRE(connection.counter.out_.write());
+    std::vector<long> values_read;
+    for (int i = 0; i < 3000 && values_read.size() < min_values; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        while (ends.accumulator.in_.isNew() && ends.accumulator.in_.read())
-            got.push_back(ends.accumulator.value_.data);
+        while (connection.accumulator.in_.isNew() && connection.accumulator.in_.read())
+            values_read.push_back(connection.accumulator.value_.data);
     }
-    return got;
+    return values_read;
 }
 
 } // namespace
@@ -170,20 +174,20 @@ TEST_CASE("A subscription to new data loses none when all are to be sent") {
 
 namespace {
 
-struct Step : RTC::PortConnectListener {
-    Step(std::string& s, const char* n) : story(s), name(n) {}
+struct StepListener : RTC::PortConnectListener {
+    StepListener(std::string& s, const char* n) : events(s), name(n) {}
     void operator()(const char* port, RTC::ConnectorProfile&) override {
-        story += name + "(" + (port + std::string(port).rfind('.') + 1) + ") ";
+        events += name + "(" + (port + std::string(port).rfind('.') + 1) + ") ";
     }
-    std::string& story;
+    std::string& events;
     std::string name;
 };
-struct RetStep : RTC::PortConnectRetListener {
-    RetStep(std::string& s, const char* n) : story(s), name(n) {}
+struct StepResultListener : RTC::PortConnectRetListener {
+    StepResultListener(std::string& s, const char* n) : events(s), name(n) {}
     void operator()(const char*, RTC::ConnectorProfile&, RTC::ReturnCode_t ret) override {
-        story += name + (ret == RTC::RTC_OK ? " " : "! ");
+        events += name + (ret == RTC::RTC_OK ? " " : "! ");
     }
-    std::string& story;
+    std::string& events;
     std::string name;
 };
 
@@ -193,37 +197,37 @@ TEST_CASE("The steps of a connection are told in order") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     fixture.create<Accumulator>("Accumulator");
-    std::string story;
+    std::string events;
     using T = RTC::PortConnectListenerType;
     using R = RTC::PortConnectRetListenerType;
     auto& port = counter.out_;
-    port.addPortConnectListener(T::ON_NOTIFY_CONNECT, new Step(story, "notify"));
-    port.addPortConnectListener(T::ON_NOTIFY_DISCONNECT, new Step(story, "leave"));
-    port.addPortConnectListener(T::ON_UNSUBSCRIBE_INTERFACES, new Step(story, "unsubscribe"));
-    port.addPortConnectRetListener(R::ON_PUBLISH_INTERFACES, new RetStep(story, "publish"));
-    port.addPortConnectRetListener(R::ON_CONNECT_NEXTPORT, new RetStep(story, "next"));
-    port.addPortConnectRetListener(R::ON_SUBSCRIBE_INTERFACES, new RetStep(story, "subscribe"));
-    port.addPortConnectRetListener(R::ON_CONNECTED, new RetStep(story, "connected"));
-    port.addPortConnectRetListener(R::ON_DISCONNECT_NEXT, new RetStep(story, "unnext"));
-    port.addPortConnectRetListener(R::ON_DISCONNECTED, new RetStep(story, "disconnected"));
+    port.addPortConnectListener(T::ON_NOTIFY_CONNECT, new StepListener(events, "notify"));
+    port.addPortConnectListener(T::ON_NOTIFY_DISCONNECT, new StepListener(events, "leave"));
+    port.addPortConnectListener(T::ON_UNSUBSCRIBE_INTERFACES, new StepListener(events, "unsubscribe"));
+    port.addPortConnectRetListener(R::ON_PUBLISH_INTERFACES, new StepResultListener(events, "publish"));
+    port.addPortConnectRetListener(R::ON_CONNECT_NEXTPORT, new StepResultListener(events, "next"));
+    port.addPortConnectRetListener(R::ON_SUBSCRIBE_INTERFACES, new StepResultListener(events, "subscribe"));
+    port.addPortConnectRetListener(R::ON_CONNECTED, new StepResultListener(events, "connected"));
+    port.addPortConnectRetListener(R::ON_DISCONNECT_NEXT, new StepResultListener(events, "unnext"));
+    port.addPortConnectRetListener(R::ON_DISCONNECTED, new StepResultListener(events, "disconnected"));
     fixture.connect("Counter0.out?port=Accumulator0.in");
-    CHECK(std::exchange(story, "") == "notify(out) publish next subscribe connected ");
+    CHECK(std::exchange(events, "") == "notify(out) publish next subscribe connected ");
     port.disconnect_all();
-    CHECK(std::exchange(story, "") == "leave(out) unnext unsubscribe(out) disconnected ");
+    CHECK(std::exchange(events, "") == "leave(out) unnext unsubscribe(out) disconnected ");
     CHECK_THROWS(fixture.connect("Counter0.out?port=Accumulator0.in&buffer_type=none"));
-    CHECK(story.find("next! subscribe! connected! ") != std::string::npos);
+    CHECK(events.find("next! subscribe! connected! ") != std::string::npos);
 }
 
 namespace {
 
-struct Doubled : RTC::OnWriteConvert<RTC::TimedLong>, RTC::OnReadConvert<RTC::TimedLong> {
+struct DoublingConverter : RTC::OnWriteConvert<RTC::TimedLong>, RTC::OnReadConvert<RTC::TimedLong> {
     RTC::TimedLong operator()(const RTC::TimedLong& value) override {
         RTC::TimedLong twice(value);
         twice.data *= 2;
         return twice;
     }
 };
-struct Noted : RTC::OnWrite<RTC::TimedLong>, RTC::OnRead<RTC::TimedLong> {
+struct CountingCallback : RTC::OnWrite<RTC::TimedLong>, RTC::OnRead<RTC::TimedLong> {
     void operator()(const RTC::TimedLong& value) override { written += value.data; }
     void operator()() override { ++reads; }
     long written = 0, reads = 0;
@@ -238,12 +242,12 @@ TEST_CASE("The callbacks of ports see and change what is written and read") {
     static auto& accumulator = fixture.create<Accumulator>("Accumulator");
     counter.out_.disconnect_all();
     fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=" + interface);
-    Doubled doubled;
-    Noted noted;
-    counter.out_.setOnWrite(&noted);
-    counter.out_.setOnWriteConvert(&doubled);
-    accumulator.in_.setOnRead(&noted);
-    accumulator.in_.setOnReadConvert(&doubled);
+    DoublingConverter converter;
+    CountingCallback callback;
+    counter.out_.setOnWrite(&callback);
+    counter.out_.setOnWriteConvert(&converter);
+    accumulator.in_.setOnRead(&callback);
+    accumulator.in_.setOnReadConvert(&converter);
     counter.value_.data = 3;
     REQUIRE(counter.out_.write());
     REQUIRE(accumulator.in_.isNew("Counter0.out-Accumulator0.in"));
@@ -252,8 +256,8 @@ TEST_CASE("The callbacks of ports see and change what is written and read") {
     CHECK(accumulator.in_.getStatus(0) == RTC::DataPortStatus::PORT_OK);
     CHECK(accumulator.value_.data == 12);
     CHECK(counter.value_.data == 3);
-    CHECK(noted.written == 3);
-    CHECK(noted.reads == 1);
+    CHECK(callback.written == 3);
+    CHECK(callback.reads == 1);
     counter.out_.setOnWrite(nullptr);
     counter.out_.setOnWriteConvert(nullptr);
     accumulator.in_.setOnRead(nullptr);
@@ -262,17 +266,17 @@ TEST_CASE("The callbacks of ports see and change what is written and read") {
 
 namespace {
 
-struct Before : RTC::PreComponentActionListener {
-    explicit Before(std::string& s) : story(s) {}
-    void operator()(RTC::UniqueId) override { story += "<"; }
-    std::string& story;
+struct PreActionListener : RTC::PreComponentActionListener {
+    explicit PreActionListener(std::string& s) : events(s) {}
+    void operator()(RTC::UniqueId) override { events += "<"; }
+    std::string& events;
 };
-struct After : RTC::PostComponentActionListener {
-    explicit After(std::string& s) : story(s) {}
+struct PostActionListener : RTC::PostComponentActionListener {
+    explicit PostActionListener(std::string& s) : events(s) {}
     void operator()(RTC::UniqueId, RTC::ReturnCode_t ret) override {
-        story += ret == RTC::RTC_OK ? ">" : "!";
+        events += ret == RTC::RTC_OK ? ">" : "!";
     }
-    std::string& story;
+    std::string& events;
 };
 
 } // namespace
@@ -280,29 +284,29 @@ struct After : RTC::PostComponentActionListener {
 TEST_CASE("Listeners of component actions are called before and after each of them") {
     ManagerFixture fixture;
     auto& rtc = fixture.create<Recorder>("Recorder");
-    std::string story;
+    std::string events;
     for (int i = 0;
          i < static_cast<int>(RTC::PreComponentActionListenerType::PRE_COMPONENT_ACTION_LISTENER_NUM); ++i) {
         rtc.addPreComponentActionListener(static_cast<RTC::PreComponentActionListenerType>(i),
-                                          new Before(story));
+                                          new PreActionListener(events));
         rtc.addPostComponentActionListener(static_cast<RTC::PostComponentActionListenerType>(i),
-                                           new After(story));
+                                           new PostActionListener(events));
     }
     fixture.activate(rtc);
     fixture.step(rtc);
-    CHECK(std::exchange(story, "") == "<><><>");
+    CHECK(std::exchange(events, "") == "<><><>");
     Recorder::failing_callback() = "execute";
     fixture.step(rtc);
-    CHECK(std::exchange(story, "") == "<!");
+    CHECK(std::exchange(events, "") == "<!");
     fixture.step(rtc);
-    CHECK(std::exchange(story, "") == "<><><>"); // deactivated, aborting, error
+    CHECK(std::exchange(events, "") == "<><><>"); // deactivated, aborting, error
     rtc.setExecutionRate(0, 10);
-    CHECK(std::exchange(story, "") == "<>");
+    CHECK(std::exchange(events, "") == "<>");
     Recorder::failing_callback() = "";
     rtc.reset(0);
-    CHECK(std::exchange(story, "") == "<>");
+    CHECK(std::exchange(events, "") == "<>");
     rtc.exit();
-    CHECK(story == "<><>"); // shutdown, finalize
+    CHECK(events == "<><>"); // shutdown, finalize
 }
 
 TEST_CASE(
@@ -310,35 +314,36 @@ TEST_CASE(
     struct Listening : Counter {
         explicit Listening(RTC::Manager* manager) : Counter(manager) {}
         void connecting(const char* port, RTC::ConnectorProfile& profile) {
-            story += std::string(port) + " by " + static_cast<const char*>(profile.name) + ";";
+            events += std::string(port) + " by " + static_cast<const char*>(profile.name) + ";";
         }
         void connected(const char* port, RTC::ConnectorProfile&, RTC::ReturnCode_t ret) {
-            story += std::string(port) + (ret == RTC::RTC_OK ? " ok;" : " refused;");
+            events += std::string(port) + (ret == RTC::RTC_OK ? " ok;" : " refused;");
         }
         void activated(RTC::UniqueId id, RTC::ReturnCode_t ret) {
-            story += "activated " + std::to_string(id) + (ret == RTC::RTC_OK ? " ok;" : " failed;");
+            events += "activated " + std::to_string(id) + (ret == RTC::RTC_OK ? " ok;" : " failed;");
         }
-        std::string story;
+        std::string events;
     };
     ManagerFixture fixture;
     coil::Properties profile;
     for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Listening");
     fixture.manager().registerFactory(profile, RTC::Create<Listening>, RTC::Delete<Listening>);
     auto& listening = fixture.create<Listening>("Listening");
-    auto* hears = listening.addPortConnectListener(RTC::ON_NOTIFY_CONNECT, listening, &Listening::connecting);
+    auto* listener =
+        listening.addPortConnectListener(RTC::ON_NOTIFY_CONNECT, listening, &Listening::connecting);
     listening.addPortConnectRetListener(RTC::ON_CONNECTED, listening, &Listening::connected);
     listening.addPostComponentActionListener(RTC::POST_ON_ACTIVATED, listening, &Listening::activated);
     fixture.create<Accumulator>("Accumulator");
     fixture.create<Accumulator>("Accumulator");
 
     fixture.connect("Listening0.out?port=Accumulator0.in");
-    CHECK(std::exchange(listening.story, "") ==
+    CHECK(std::exchange(listening.events, "") ==
           "Listening0.out by Listening0.out-Accumulator0.in;Listening0.out ok;");
-    listening.removePortConnectListener(RTC::ON_NOTIFY_CONNECT, hears);
+    listening.removePortConnectListener(RTC::ON_NOTIFY_CONNECT, listener);
     fixture.connect("Listening0.out?port=Accumulator1.in");
-    CHECK(std::exchange(listening.story, "") == "Listening0.out ok;");
+    CHECK(std::exchange(listening.events, "") == "Listening0.out ok;");
     ManagerFixture::activate(listening);
-    CHECK(listening.story == "activated 0 ok;");
+    CHECK(listening.events == "activated 0 ok;");
 }
 
 TEST_CASE("kinds of listeners have their names") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serializers of somebody's own, which connections name by their marshaling type.
+// Serializers of users, which connections name by their marshaling type.
 #include "tests/host/rtm/manager_fixture.hpp"
 
 using namespace testing;
@@ -18,27 +18,27 @@ struct LongAsDouble : RTC::CORBA_CdrSerializer<RTC::TimedLong> {
 struct DoubleFromLong : RTC::CORBA_CdrSerializer<RTC::TimedDouble> {
     bool deserialize(RTC::TimedDouble& value) override {
         RTC::TimedLong received{};
-        const bool sound = m_cdr.deserializeCDR(received);
+        const bool valid = m_cdr.deserializeCDR(received);
         value.tm = received.tm;
         value.data = received.data;
-        return sound;
+        return valid;
     }
 };
 
-struct LongToDouble {
+struct LongToDoublePorts {
     RTC::TimedLong sent{};
     RTC::TimedDouble received{};
     RTC::OutPort<RTC::TimedLong> out{"a", sent};
     RTC::InPort<RTC::TimedDouble> in{"b", received};
     RTC::RTObject_impl& owner;
-    explicit LongToDouble(ManagerFixture& fixture, const std::string& configuration = "")
+    explicit LongToDoublePorts(ManagerFixture& fixture, const std::string& configuration = "")
         : owner(fixture.create<Recorder>("Recorder?" + configuration)) {
         owner.addOutPort("a", out);
         owner.addInPort("b", in);
         RTC::addSerializer<RTC::TimedLong, LongAsDouble>("cdr:RTC/TimedDouble:RTC/TimedLong");
         RTC::addSerializer<RTC::TimedDouble, DoubleFromLong>("cdr:RTC/TimedLong:RTC/TimedDouble");
     }
-    void send_some() {
+    void check_values_arrive() {
         for (int i = -2; i < 3; ++i) {
             sent.data = i * 1000;
             REQUIRE(out.write());
@@ -47,7 +47,7 @@ struct LongToDouble {
             CHECK(received.data == i * 1000);
         }
     }
-    ~LongToDouble() {
+    ~LongToDoublePorts() {
         owner.exit();
         owner.removePort(out);
         owner.removePort(in);
@@ -65,10 +65,10 @@ TEST_CASE("A serializer at either end of a connection lets a port of one type se
     CAPTURE(serializer, interface, flow, order);
     static ManagerFixture fixture;
     {
-        LongToDouble pair(fixture);
+        LongToDoublePorts ports(fixture);
         fixture.connect("Recorder0.a?port=Recorder0.b&" + serializer + "&interface_type=" + interface +
                         "&dataflow_type=" + flow + "&serializer.cdr.endian=" + order);
-        pair.send_some();
+        ports.check_values_arrive();
     }
     fixture.manager().cleanupComponents();
 }
@@ -82,13 +82,13 @@ TEST_CASE("A serializer in the configuration of either port counts as one that t
     CAPTURE(serializer, interface, flow);
     static ManagerFixture fixture;
     {
-        LongToDouble pair(fixture, serializer);
+        LongToDoublePorts ports(fixture, serializer);
         const std::string line =
             "Recorder0.a?port=Recorder0.b&interface_type=" + interface + "&dataflow_type=" + flow;
         CHECK_THROWS_WITH(fixture.connect(line + "&marshaling_type=cdr"),
                           Catch::Contains("connect ports of one type"));
         fixture.connect(line);
-        pair.send_some();
+        ports.check_values_arrive();
     }
     fixture.manager().cleanupComponents();
 }
@@ -99,10 +99,10 @@ TEST_CASE("Ports of different types stay apart when nothing converts") {
     CAPTURE(properties);
     static ManagerFixture fixture;
     {
-        LongToDouble pair(fixture);
+        LongToDoublePorts ports(fixture);
         CHECK_THROWS_WITH(fixture.connect("Recorder0.a?port=Recorder0.b" + properties),
                           Catch::Contains("connect ports of one type"));
-        CHECK(pair.out.getConnectorProfiles().empty());
+        CHECK(ports.out.getConnectorProfiles().empty());
     }
     fixture.manager().cleanupComponents();
 }

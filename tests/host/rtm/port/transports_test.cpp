@@ -15,22 +15,22 @@ namespace {
 std::map<std::string, RTC::InPortConnector*> listening;
 std::map<std::string, std::function<RTC::BufferStatus(RTC::ByteData&)>> waiting;
 std::function<void(RTC::ByteData&)> received;
-int live_ends = 0;
-std::string settings_seen;
+int live_endpoints = 0;
+std::string colour_setting;
 
-struct Counted {
-    Counted() { ++live_ends; }
-    ~Counted() { --live_ends; }
+struct LiveCount {
+    LiveCount() { ++live_endpoints; }
+    ~LiveCount() { --live_endpoints; }
 };
 
-struct PostIn : RTC::InPortProvider, Counted {
-    PostIn() { setInterfaceType("post"); }
-    ~PostIn() override { listening.erase("box"); }
-    void init(coil::Properties& prop) override { settings_seen = prop.getProperty("post.colour"); }
+struct TestInPortProvider : RTC::InPortProvider, LiveCount {
+    TestInPortProvider() { setInterfaceType("post"); }
+    ~TestInPortProvider() override { listening.erase("box"); }
+    void init(coil::Properties& prop) override { colour_setting = prop.getProperty("post.colour"); }
     void setBuffer(RTC::BufferBase<RTC::ByteData>*) override {}
     void setListener(RTC::ConnectorInfo& info, RTC::ConnectorListenersBase* listeners) override {
-        received = [told = info, listeners](RTC::ByteData& data) mutable {
-            listeners->notifyIn(RTC::ConnectorDataListenerType::ON_RECEIVED, told, data);
+        received = [connector = info, listeners](RTC::ByteData& data) mutable {
+            listeners->notifyIn(RTC::ConnectorDataListenerType::ON_RECEIVED, connector, data);
         };
     }
     void setConnector(RTC::InPortConnector* connector) override {
@@ -39,7 +39,7 @@ struct PostIn : RTC::InPortProvider, Counted {
     }
 };
 
-struct PostOut : RTC::InPortConsumer, Counted {
+struct TestInPortConsumer : RTC::InPortConsumer, LiveCount {
     void init(coil::Properties&) override {}
     RTC::DataPortStatus put(RTC::ByteData& data) override {
         const auto found = listening.find(address);
@@ -58,9 +58,9 @@ struct PostOut : RTC::InPortConsumer, Counted {
     std::string address;
 };
 
-struct FetchOut : RTC::OutPortProvider, Counted {
-    FetchOut() { setInterfaceType("post"); }
-    ~FetchOut() override { waiting.erase("shelf"); }
+struct TestOutPortProvider : RTC::OutPortProvider, LiveCount {
+    TestOutPortProvider() { setInterfaceType("post"); }
+    ~TestOutPortProvider() override { waiting.erase("shelf"); }
     void setBuffer(RTC::CdrBufferBase*) override {}
     void setListener(RTC::ConnectorInfo& info, RTC::ConnectorListenersBase* listeners) override {
         info_ = info;
@@ -78,7 +78,7 @@ struct FetchOut : RTC::OutPortProvider, Counted {
     RTC::ConnectorListenersBase* listeners_ = nullptr;
 };
 
-struct FetchIn : RTC::OutPortConsumer, Counted {
+struct TestOutPortConsumer : RTC::OutPortConsumer, LiveCount {
     void init(coil::Properties&) override {}
     void setBuffer(RTC::CdrBufferBase*) override {}
     void setListener(RTC::ConnectorInfo&, RTC::ConnectorListenersBase*) override {}
@@ -90,9 +90,9 @@ struct FetchIn : RTC::OutPortConsumer, Counted {
     void unsubscribeInterface(const SDOPackage::NVList&) override {}
 };
 
-struct Heard : RTC::ConnectorDataListenerT<RTC::TimedLong> {
+struct ValueListener : RTC::ConnectorDataListenerT<RTC::TimedLong> {
     USE_CONNLISTENER_STATUS;
-    explicit Heard(std::vector<int>& heard) : values(heard) {}
+    explicit ValueListener(std::vector<int>& received_values) : values(received_values) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong& value) override {
         values.push_back(static_cast<int>(value.data));
         return NO_CHANGE;
@@ -100,10 +100,10 @@ struct Heard : RTC::ConnectorDataListenerT<RTC::TimedLong> {
     std::vector<int>& values;
 };
 
-template <class Base, class Made>
-void add() {
-    coil::GlobalFactory<Base>::instance().addFactory("post", coil::Creator<Base, Made>,
-                                                     coil::Destructor<Base, Made>);
+template <class Base, class Transport>
+void register_transport() {
+    coil::GlobalFactory<Base>::instance().addFactory("post", coil::Creator<Base, Transport>,
+                                                     coil::Destructor<Base, Transport>);
 }
 
 std::string interface_types(RTC::PortBase& port) {
@@ -114,8 +114,8 @@ std::string interface_types(RTC::PortBase& port) {
 } // namespace
 
 TEST_CASE("a registered push transport carries the data of connections that ask for it") {
-    add<RTC::InPortProvider, PostIn>();
-    add<RTC::InPortConsumer, PostOut>();
+    register_transport<RTC::InPortProvider, TestInPortProvider>();
+    register_transport<RTC::InPortConsumer, TestInPortConsumer>();
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
@@ -124,10 +124,10 @@ TEST_CASE("a registered push transport carries the data of connections that ask 
     CHECK_THAT(interface_types(accumulator.in_), Catch::Contains("corba_cdr"));
 
     fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post&post.colour=red");
-    std::vector<int> heard;
-    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new Heard(heard));
-    CHECK(settings_seen == "red");
-    CHECK(live_ends == 2);
+    std::vector<int> received_values;
+    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new ValueListener(received_values));
+    CHECK(colour_setting == "red");
+    CHECK(live_endpoints == 2);
     fixture.activate(counter);
     fixture.activate(accumulator);
     for (int i = 0; i < 4; ++i) {
@@ -136,25 +136,25 @@ TEST_CASE("a registered push transport carries the data of connections that ask 
     }
     CHECK(accumulator.received_ == 4);
     CHECK(accumulator.sum_ == 10);
-    CHECK(heard == std::vector<int>{1, 2, 3, 4}); // from the provider
+    CHECK(received_values == std::vector<int>{1, 2, 3, 4}); // from the provider
 
     listening.clear(); // nothing takes another way
     fixture.step(counter);
     fixture.step(accumulator);
     CHECK(accumulator.received_ == 4);
     counter.out_.disconnect_all();
-    CHECK(live_ends == 0);
+    CHECK(live_endpoints == 0);
 }
 
 TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
-    add<RTC::OutPortProvider, FetchOut>();
-    add<RTC::OutPortConsumer, FetchIn>();
+    register_transport<RTC::OutPortProvider, TestOutPortProvider>();
+    register_transport<RTC::OutPortConsumer, TestOutPortConsumer>();
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter");
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post&dataflow_type=pull");
     std::vector<int> sent;
-    counter.out_.addConnectorDataListener(RTC::ON_SEND, new Heard(sent));
+    counter.out_.addConnectorDataListener(RTC::ON_SEND, new ValueListener(sent));
     fixture.activate(counter);
     for (int i = 0; i < 3; ++i) fixture.step(counter);
     for (int i = 0; i < 3; ++i) {
@@ -163,15 +163,15 @@ TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
     }
     CHECK(sent == std::vector<int>{1, 2, 3});
     counter.out_.disconnect_all();
-    CHECK(live_ends == 0);
+    CHECK(live_endpoints == 0);
 }
 
 TEST_CASE("a transport of which one end is missing refuses the connection and says which") {
-    add<RTC::InPortConsumer, PostOut>();
+    register_transport<RTC::InPortConsumer, TestInPortConsumer>();
     ManagerFixture fixture;
     fixture.create<Counter>("Counter");
     fixture.create<Accumulator>("Accumulator");
     CHECK_THROWS_WITH(fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post"),
                       Catch::Contains("post has no InPortProvider"));
-    CHECK(live_ends == 0);
+    CHECK(live_endpoints == 0);
 }
