@@ -33,7 +33,8 @@ def tokens(text):
 
 
 def digest(root, patterns):
-    files = sorted({file for pattern in patterns for file in root.glob(pattern) if file.is_file()})
+    files = sorted({file for pattern in patterns for file in root.glob(pattern)
+                    if file.is_file() and file.suffix != ".md"})  # a README is not compiled
     whole = hashlib.sha256()
     for file in files:
         parts = [file.relative_to(root).as_posix(), *tokens(file.read_text())]
