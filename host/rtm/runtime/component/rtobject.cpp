@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A component as a CORBA object: construction, initialize() to exit(), and its execution contexts.
 // OpenRTM-aist: class RTObject_impl; interface RTC::RTObject of the OMG RTC specification.
 #include "host/rtm/runtime/component/local_object.hpp"
@@ -74,10 +75,10 @@ ReturnCode_t RTObject_impl::initialize() {
     return RTC_OK;
 }
 
-// Creates the contexts that the settings ask for (contexts_wanted()), and binds this component to each as its
+// Creates the contexts that the settings ask for (configured_contexts()), and binds this component to each as its
 // owner. Throws ManagerError.
 void RTObject_impl::createContexts() {
-    for (auto& options : contexts_wanted(m_properties)) {
+    for (auto& options : configured_contexts(m_properties)) {
         ExecutionContextBase* context = m_pManager->createContext(options.getProperty("type").c_str());
         if (context == nullptr)
             throw ManagerError("there is no execution context type " + options.getProperty("type") +
@@ -114,7 +115,7 @@ ReturnCode_t RTObject_impl::exit() {
     if (m_created) return PRECONDITION_NOT_MET;
     if (m_exiting) return RTC_OK;
     for (auto* context : m_eclist) {
-        if (!context->insideCycle()) continue; // of the calling thread
+        if (!context->isInsideCycle()) continue; // of the calling thread
         // Called by the component's own callback: the context cannot be stopped from within its cycle.
         m_pManager->invoke([this] { exit(); });
         return RTC_OK;
@@ -124,7 +125,7 @@ ReturnCode_t RTObject_impl::exit() {
     RTObject_var self = getObjRef();
     ReturnCode_t stopped = RTC_OK;
     for (auto* context : m_eclist) {
-        if (context->halt() != RTC_OK) { // waits for the running callback
+        if (context->stopThread() != RTC_OK) { // waits for the running callback
             stopped = RTC_ERROR;
             continue;
         }

@@ -135,7 +135,7 @@ ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
 
 ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) { return execute(ec_id, false); }
 
-// A warm_up (tandem::rt::TickOptions) goes the same way, but calls nothing of the component.
+// A warm-up (tandem::rt::TickOptions) goes the same way, but calls nothing of the component.
 ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool warm_up) {
     const auto callback = [&] {
         if (warm_up) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when somebody
 // asks for a port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
@@ -21,7 +22,7 @@ bool has_connection(PortService_ptr port, const std::string& id) {
     return profile->ports.length() > 0;
 }
 
-// The object, or its process, does not exist any more. A process that does not reply in time may be stopped
+// The object, or its process, does not exist any more. A process that does not answer in time may be stopped
 // in a debugger or be busy: it counts as alive.
 bool is_dead(PortService_ptr port) {
     omniORB::setClientCallTimeout(port, call_timeout_ms);
