@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds, and drives the wheelchair: joystick an RT-Component, control and hardware OPRoS
+# Installs what is missing, builds what the run needs and no more, and drives the wheelchair: joystick an RT-Component, control and hardware OPRoS
 # components, two processes. Prints the latency table, draws the run.
 #   apps/run-wheelchair.sh [--build-only] [--out FOLDER] [options of build/release/bin/wheelchair]
 set -euo pipefail
@@ -21,7 +21,7 @@ out=${out:-$root/build/wheelchair}
 called_from=$PWD
 
 install_missing_packages
-build_preset release
+build_preset release wheelchair_demo
 if [ $build_only = yes ]; then exit 0; fi
 
 mkdir -p "$out"

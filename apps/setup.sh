@@ -1,16 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by apps/run-wheelchair.sh and tests/run.sh: installs the Debian packages of dependencies.txt that are
-# missing, and builds a preset. Says what it does; does nothing when nothing is to be done.
+# Sourced by apps/run-wheelchair.sh, apps/bench/run.sh and tests/run.sh: installs the Debian packages of
+# dependencies.txt that are missing, and builds targets of a preset. Says what it does; does nothing when nothing is to
+# be done.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 say() { printf '== %s\n' "$*"; }
 
+# install_missing_packages [GROUP]
+# Installs the packages of a group of dependencies.txt, [build] if none is named. Exits with one line if one is missing
+# and neither root nor sudo can install it.
 install_missing_packages() {
-    local missing=() package
+    local missing=() package group=
     while read -r package _; do
-        case "$package" in ''|'#'*) continue ;; esac
+        case "$package" in ''|'#'*) continue ;; '['*) group=$package; continue ;; esac
+        [ "$group" = "[${1:-build}]" ] || continue
         dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
     done < "$root/apps/dependencies.txt"
     if [ ${#missing[@]} -eq 0 ]; then return; fi
@@ -19,18 +24,42 @@ install_missing_packages() {
         command -v sudo >/dev/null || { echo "cannot install ${missing[*]}: neither root nor sudo; install them, then run this again" >&2; exit 1; }
         sudo=(sudo)
     fi
-    say "installing ${missing[*]}"
+    say "installing ${#missing[@]} packages: ${missing[*]}"
     "${sudo[@]}" apt-get update -qq
     "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+    say "installed them in $SECONDS s"
 }
 
+# print_progress
+# Reads ninja's lines. Prints those that are not steps (warnings, errors), and every few seconds how many steps are done.
+print_progress() {
+    local line start=$SECONDS printed=$SECONDS pause=5 steps=
+    [ -t 1 ] && pause=0
+    while IFS= read -r line; do
+        if [[ $line =~ ^\[([0-9]+)/([0-9]+)\]\  ]]; then
+            steps="${BASH_REMATCH[1]} of ${BASH_REMATCH[2]} steps, $((SECONDS - start)) s"
+            if [ $((SECONDS - printed)) -ge $pause ]; then
+                if [ -t 1 ]; then printf '\r   %s ' "$steps"; else printf '   %s\n' "$steps"; fi
+                printed=$SECONDS
+            fi
+        elif [[ $line != 'ninja: no work'* && $line != 'ninja: Entering'* ]]; then
+            printf '%s\n' "$line"
+        fi
+    done
+    if [ -z "$steps" ]; then return; fi
+    if [ -t 1 ]; then printf '\r   %s\n' "$steps"; else printf '   %s\n' "$steps"; fi
+}
+
+# build_preset PRESET [TARGET ...]
+# Configures the preset if build/PRESET has not been, and builds the targets, or all.
 build_preset() {
     local preset=$1
+    shift
     cd "$root"
     if [ ! -f "build/$preset/build.ninja" ]; then
         say "configuring preset $preset"
         cmake --preset "$preset" >/dev/null
     fi
-    say "building preset $preset"
-    cmake --build --preset "$preset" | { grep -v '^ninja: no work' || true; } | tail -n 3
+    say "building preset $preset${*:+: $*}"
+    NINJA_STATUS='[%f/%t] ' cmake --build --preset "$preset" ${1:+--target "$@"} | print_progress
 }

@@ -15,6 +15,10 @@ endif()
 # preset dev compiles each file by itself, which shows a missing #include.
 set(CMAKE_UNITY_BUILD ${TANDEM_UNITY_BUILD})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+if(TANDEM_UNITY_BUILD)
+  # g++ takes a file that is included for a header, where types of an anonymous namespace would be a mistake.
+  add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+endif()
 
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
@@ -60,6 +64,26 @@ function(tandem_sources out)
     list(APPEND found ${files})
   endforeach()
   set(${out} ${found} PARENT_SCOPE)
+endfunction()
+
+# tandem_add_aliases(FOLDER)
+# Gives the libraries and programs of the folder and of those below it the names that an installed package has:
+# tandem_shm is Tandem::shm, opros_host is Tandem::opros_host.
+function(tandem_add_aliases folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target ${targets})
+    get_target_property(type ${target} TYPE)
+    string(REGEX REPLACE "^tandem[_-]" "" name ${target})
+    if(type STREQUAL "EXECUTABLE")
+      add_executable(Tandem::${name} ALIAS ${target})
+    elseif(type MATCHES "^(STATIC|SHARED|OBJECT|INTERFACE)_LIBRARY$")
+      add_library(Tandem::${name} ALIAS ${target})
+    endif()
+  endforeach()
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(below ${folders})
+    tandem_add_aliases(${below})
+  endforeach()
 endfunction()
 
 # tandem_add_plugin(NAME opros|rtm SOURCES a.cpp ... [LIBRARIES x ...])

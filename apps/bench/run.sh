@@ -37,9 +37,8 @@ install_peers() {
 install_missing_packages
 install_peers
 cd "$root"
-say "building"
 cmake --preset release >/dev/null # looks for the peers again
-cmake --build --preset release --target tandem-bench | { grep -v '^ninja: no work' || true; } | tail -n 3
+build_preset release tandem-bench
 
 mkdir -p "$out"
 cd "$called_from"

@@ -1,27 +1,57 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the arrows of the architecture: which room may include which. Usage: check_includes.py ROOT"""
+"""Checks the arrows of docs/architecture.md: which room may include which, and which headers are a room's private ones.
+Usage: check_includes.py ROOT"""
 import pathlib
 import re
 import sys
 
+# Room: the rooms that it may include. A file belongs to the room with the longest matching name. "A/*" stands for A and
+# every room in it.
 ALLOWED = {
-    "shm": {"shm/os"},
-    "shm/os": set(),
-    "host/process": {"shm/os"},
-    "host/plugin": {"host/process"},
-    "host/rt": {"host/process"},
-    "host/opros": {"host/plugin", "host/process", "host/rt"},
-    "host/rtm": {"host/plugin", "host/process", "host/rt"},
-    "proxy/wire": set(),
-    "proxy/link": {"host/process", "proxy/wire", "shm", "shm/os"},
-    "proxy/adaptor": {"proxy/link", "proxy/wire"},
-    "proxy/interceptor": {"proxy/link", "proxy/wire"},
-    "plugins": set(),
+    "shm/os": [],
+    "shm/segment": ["shm/os"],
+    "shm/wait": ["shm/os", "shm/segment"],
+    "shm/ring": ["shm/os", "shm/segment", "shm/wait"],
+    "shm/call": ["shm/os", "shm/segment", "shm/wait"],
+    "shm": ["shm/os", "shm/segment", "shm/wait", "shm/ring", "shm/call"],
+    "shm/inspect": ["shm", "shm/os", "shm/segment", "shm/wait", "shm/ring", "shm/call"],
+    "host/process": ["shm/os"],
+    "host/plugin": ["host/process"],
+    "host/rt": ["host/process"],
+    "host/opros/runtime/*": ["host/opros/runtime/*"],
+    "host/opros/engine/profile": [],
+    "host/opros/engine/load": ["host/opros/engine/profile", "host/plugin", "host/process"],
+    "host/opros/engine/execute": ["host/opros/engine/profile", "host/opros/engine/load", "host/plugin", "host/process",
+                                  "host/rt"],
+    "host/opros/engine/connect": ["host/opros/engine/profile", "host/opros/engine/load", "host/opros/engine/execute",
+                                  "host/process", "host/rt"],
+    "host/opros/engine": ["host/opros/engine/*", "host/plugin", "host/process", "host/rt"],
+    "host/opros/program": ["host/opros/engine/*", "host/plugin", "host/process", "host/rt"],
+    "host/rtm/runtime/*": ["host/rtm/runtime/*", "host/plugin", "host/process", "host/rt"],
+    "host/rtm/program": ["host/rtm/runtime/*", "host/plugin", "host/process", "host/rt"],
+    "proxy/wire": [],
+    "proxy/link": ["proxy/wire", "shm/*", "host/process"],
+    "proxy/adaptor": ["proxy/link", "proxy/wire", "host/process"],
+    "proxy/interceptor": ["proxy/link", "proxy/wire", "host/process"],
+    "plugins": [],
+    "apps": ["shm/*", "host/process", "host/plugin", "host/rt", "proxy/wire", "proxy/link", "plugins", "apps"],
 }
-ROOMS = sorted(ALLOWED, key=len, reverse=True)
-INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
-SOURCES = {".hpp", ".cpp", ".h", ".hh", ".cc"}
+# The public face of the hosts' rooms: what programs may include of them. Each room's README says what it is for.
+PUBLIC_TO_APPS = {
+    "host/opros/engine/application.hpp",
+    "host/opros/engine/connect/make_connection.hpp",
+    "host/opros/engine/execute/component_host.hpp",
+    "host/opros/engine/load/load_component.hpp",
+    "host/opros/engine/load/plugin_dirs.hpp",
+    "host/opros/engine/profile/flatten_composites.hpp",
+    "host/opros/engine/profile/profile.hpp",
+    "host/opros/engine/profile/start_order.hpp",
+    "host/opros/engine/profile/type_profile.hpp",
+    "host/rtm/runtime/manager/manager_options.hpp",
+    "host/rtm/runtime/naming/remote_names.hpp",
+    "host/rtm/runtime/port/data_port.hpp",
+}
 # The two component models' API headers: a room of one model must not see the other's.
 FOREIGN = {
     "host/opros": ("rtm/", "coil/"), "proxy/adaptor": ("rtm/", "coil/"),
@@ -29,27 +59,55 @@ FOREIGN = {
     "proxy/link": ("rtm/", "coil/", "Component.h"), "proxy/wire": ("rtm/", "coil/", "Component.h"),
     "shm": ("rtm/", "coil/", "Component.h"),
 }
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
+SOURCES = {".hpp", ".cpp", ".h", ".hh", ".cc"}
+
+
+def matches(path, room):
+    room = room.removesuffix("/*")
+    return path == room or path.startswith(room + "/")
+
+
+ROOMS = sorted(ALLOWED, key=lambda room: len(room.removesuffix("/*")), reverse=True)
 
 
 def room_of(path):
-    return next((room for room in ROOMS if path == room or path.startswith(room + "/")), None)
+    return next((room for room in ROOMS if matches(path, room)), None)
+
+
+def may_include(room, header):
+    """Whether a file of the room may include this header of the tree."""
+    target = room_of(header)
+    if target is None or target == room:
+        return True
+    if room == "apps" and header in PUBLIC_TO_APPS:
+        return True
+    return any(target == allowed or (allowed.endswith("/*") and matches(target.removesuffix("/*"), allowed))
+               for allowed in ALLOWED[room])
+
+
+def faults_of(root, file):
+    path = file.relative_to(root).as_posix()
+    room = room_of(path)
+    for number, line in enumerate(file.read_text(errors="replace").splitlines(), 1):
+        found = INCLUDE.match(line)
+        if not found:
+            continue
+        quoted, header = found[1] == '"', found[2]
+        for owner, foreign in FOREIGN.items():
+            if matches(path, owner) and header.startswith(foreign):
+                yield f"{path}:{number}: {owner} includes {header} of the other component model"
+        if quoted and not may_include(room, header):
+            yield f"{path}:{number}: {room} must not include {room_of(header)} ({header})"
 
 
 def faults(root):
-    files = [p for room in ALLOWED for p in (root / room).rglob("*") if p.suffix in SOURCES]
-    for file in sorted(set(files)):
-        room = room_of(file.relative_to(root).as_posix())
-        for number, line in enumerate(file.read_text(errors="replace").splitlines(), 1):
-            found = re.match(r'^\s*#\s*include\s*["<]([^">]+)[">]', line)
-            if not found:
-                continue
-            header = found.group(1)
-            place = f"{file.relative_to(root)}:{number}"
-            if header.startswith(FOREIGN.get(room, ())):
-                yield f"{place}: {room} includes {header} of the other component model"
-            target = room_of(header) if INCLUDE.match(line) else None
-            if target and target != room and target not in ALLOWED[room]:
-                yield f"{place}: {room} must not include {target} ({header})"
+    tops = sorted({room.split("/")[0] for room in ALLOWED})
+    files = (file for top in tops for file in sorted((root / top).rglob("*")) if file.suffix in SOURCES)
+    for file in files:
+        path = file.relative_to(root).as_posix()
+        if room_of(path) and "/include/" not in path:
+            yield from faults_of(root, file)
 
 
 def main():

@@ -39,6 +39,11 @@ function(tandem_run_omniidl out idl directory)
   set_source_files_properties(${directory}/${base}Skel.cpp PROPERTIES
     COMPILE_OPTIONS "-w;$<$<CONFIG:Release>:-O1>" SKIP_LINTING ON SKIP_PRECOMPILE_HEADERS ON
     OBJECT_DEPENDS "${directory}/${base}SK.cc;${directory}/${base}DynSK.cc;${directory}/${base}Signatures.cpp")
+  if(TARGET rtm_idl_headers) # for what reads sources without compiling the generated ones
+    string(MD5 id ${directory})
+    add_custom_target(rtm_idl_header_${base}_${id} DEPENDS ${directory}/${base}.hh)
+    add_dependencies(rtm_idl_headers rtm_idl_header_${base}_${id})
+  endif()
   set(${out} ${directory}/${base}.hh ${directory}/${base}Skel.cpp PARENT_SCOPE)
 endfunction()
 

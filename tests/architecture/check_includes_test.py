@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What check_includes.py refuses. Usage: check_includes_test.py ROOT"""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import check_includes
+
+ROOT = pathlib.Path(sys.argv.pop())
+
+
+class Includes(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def faults(self, file, header):
+        path = self.root / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f"#include {header}\n")
+        return list(check_includes.faults(self.root))
+
+    def test_an_arrow_of_the_architecture_is_accepted(self):
+        self.assertEqual(self.faults("proxy/link/link.cpp", '"shm/ring/ring.hpp"'), [])
+        self.assertEqual(self.faults("shm/ring/ring.cpp", '"shm/os/futex.hpp"'), [])
+
+    def test_an_arrow_against_the_architecture_names_file_and_line(self):
+        self.assertEqual(self.faults("shm/ring/ring.cpp", '"proxy/link/link.hpp"'),
+                         ["shm/ring/ring.cpp:1: shm/ring must not include proxy/link (proxy/link/link.hpp)"])
+
+    def test_a_room_is_closed_to_the_rooms_below_it(self):
+        self.assertEqual(len(self.faults("shm/os/futex.cpp", '"shm/ring/ring.hpp"')), 1)
+
+    def test_a_host_does_not_know_shared_memory_or_the_proxy(self):
+        self.assertEqual(len(self.faults("host/opros/engine/application.cpp", '"shm/segment.hpp"')), 1)
+        self.assertEqual(len(self.faults("host/rtm/runtime/port/port_base.cpp", '"proxy/wire/cdr.hpp"')), 2)
+
+    def test_a_program_sees_the_public_face_of_a_host_only(self):
+        self.assertEqual(self.faults("apps/tandem/a.cpp", '"host/opros/engine/profile/profile.hpp"'), [])
+        self.assertEqual(len(self.faults("apps/tandem/b.cpp", '"host/opros/engine/profile/xml_file.hpp"')), 1)
+
+    def test_one_model_does_not_see_the_other(self):
+        self.assertEqual(len(self.faults("proxy/adaptor/a.cpp", "<rtm/RTObject.h>")), 1)
+
+    def test_every_public_header_exists(self):
+        for header in check_includes.PUBLIC_TO_APPS:
+            self.assertTrue((ROOT / header).is_file(), header)
+
+
+if __name__ == "__main__":
+    unittest.main()
