@@ -34,22 +34,22 @@ class ElfFile {
     ElfFile& operator=(const ElfFile&) = delete;
 
     Elf* get() const { return elf_; }
-    bool holds(std::uint64_t offset, std::uint64_t bytes) const {
+    bool contains_range(std::uint64_t offset, std::uint64_t bytes) const {
         return offset <= size_ && bytes <= size_ - offset;
     }
     std::uint64_t size() const { return size_; }
 
     GElf_Ehdr header() const {
         if (size_ == 0) fail(Reason::damaged, "is empty");
-        if (elf_kind(elf_) != ELF_K_ELF) not_elf();
+        if (elf_kind(elf_) != ELF_K_ELF) fail_not_elf();
         GElf_Ehdr header;
-        if (!gelf_getehdr(elf_, &header)) damaged("its ELF header cannot be read");
+        if (!gelf_getehdr(elf_, &header)) fail_damaged("its ELF header cannot be read");
         return header;
     }
     [[noreturn]] void fail(Reason reason, const std::string& why) const {
         throw Error(reason, "library " + file_.string() + " " + why);
     }
-    [[noreturn]] void damaged(const std::string& what) const {
+    [[noreturn]] void fail_damaged(const std::string& what) const {
         fail(Reason::damaged, "is damaged: " + what + "; build or copy it again");
     }
 
@@ -59,7 +59,7 @@ class ElfFile {
         close(fd_);
         fail(reason, why);
     }
-    [[noreturn]] void not_elf() const {
+    [[noreturn]] void fail_not_elf() const {
         char start[2] = {};
         if (pread(fd_, start, 2, 0) == 2 && start[0] == 'M' && start[1] == 'Z')
             fail(Reason::not_a_library,
@@ -114,27 +114,27 @@ void check_type(const ElfFile& elf, const GElf_Ehdr& header) {
 // What the dynamic linker maps must be in the file.
 void check_segments(const ElfFile& elf) {
     std::size_t count = 0;
-    if (elf_getphdrnum(elf.get(), &count) != 0) elf.damaged("its program headers cannot be read");
+    if (elf_getphdrnum(elf.get(), &count) != 0) elf.fail_damaged("its program headers cannot be read");
     for (std::size_t i = 0; i < count; ++i) {
         GElf_Phdr segment;
         if (!gelf_getphdr(elf.get(), static_cast<int>(i), &segment))
-            elf.damaged("program header " + std::to_string(i) + " is not in the file");
-        if (segment.p_type == PT_LOAD && !elf.holds(segment.p_offset, segment.p_filesz))
-            elf.damaged("it ends at byte " + std::to_string(elf.size()) + ", before the " +
-                        std::to_string(segment.p_filesz) + " bytes at " + std::to_string(segment.p_offset) +
-                        " that are to be mapped");
+            elf.fail_damaged("program header " + std::to_string(i) + " is not in the file");
+        if (segment.p_type == PT_LOAD && !elf.contains_range(segment.p_offset, segment.p_filesz))
+            elf.fail_damaged("it ends at byte " + std::to_string(elf.size()) + ", before the " +
+                             std::to_string(segment.p_filesz) + " bytes at " +
+                             std::to_string(segment.p_offset) + " that are to be mapped");
     }
 }
 
-void read_table(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header, ElfContents& contents) {
+void read_symbols(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header, ElfContents& contents) {
     Elf_Data* data = elf_getdata(section, nullptr);
-    if (!data || header.sh_entsize == 0) elf.damaged("its dynamic symbols cannot be read");
+    if (!data || header.sh_entsize == 0) elf.fail_damaged("its dynamic symbols cannot be read");
     const auto count = header.sh_size / header.sh_entsize;
     for (std::size_t i = 1; i < count; ++i) { // the first one is nothing by definition
         GElf_Sym symbol;
-        if (!gelf_getsym(data, static_cast<int>(i), &symbol)) elf.damaged("it lacks dynamic symbols");
+        if (!gelf_getsym(data, static_cast<int>(i), &symbol)) elf.fail_damaged("it lacks dynamic symbols");
         const char* name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
-        if (!name) elf.damaged("a dynamic symbol's name is not in the file");
+        if (!name) elf.fail_damaged("a dynamic symbol's name is not in the file");
         const bool local = GELF_ST_BIND(symbol.st_info) == STB_LOCAL;
         if (!local && *name)
             (symbol.st_shndx == SHN_UNDEF ? contents.undefined : contents.defined).insert(name);
@@ -144,7 +144,7 @@ void read_table(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header, E
 // Only notes of type 1 with a description of four bytes, as our headers write them (TandemAbi.h).
 void read_notes(const ElfFile& elf, Elf_Scn* section, ElfContents& contents) {
     Elf_Data* data = elf_getdata(section, nullptr);
-    if (!data) elf.damaged("its notes cannot be read");
+    if (!data) elf.fail_damaged("its notes cannot be read");
     const auto* bytes = static_cast<const char*>(data->d_buf);
     GElf_Nhdr note;
     std::size_t name = 0, description = 0;
@@ -152,7 +152,7 @@ void read_notes(const ElfFile& elf, Elf_Scn* section, ElfContents& contents) {
         std::uint32_t number = 0;
         if (note.n_type != 1 || note.n_descsz != sizeof number || note.n_namesz == 0) continue;
         std::memcpy(&number, bytes + description, sizeof number);
-        contents.numbers[std::string(bytes + name, note.n_namesz - 1)].insert(number);
+        contents.note_numbers[std::string(bytes + name, note.n_namesz - 1)].insert(number);
     }
 }
 
@@ -171,13 +171,13 @@ ElfContents read_elf(const std::filesystem::path& library) {
     bool found = false;
     for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section));) {
         GElf_Shdr section_header;
-        if (!gelf_getshdr(section, &section_header)) elf.damaged("a section header is not in the file");
+        if (!gelf_getshdr(section, &section_header)) elf.fail_damaged("a section header is not in the file");
         if (section_header.sh_type == SHT_NOTE) read_notes(elf, section, contents);
         if (section_header.sh_type != SHT_DYNSYM) continue;
         found = true;
-        read_table(elf, section, section_header, contents);
+        read_symbols(elf, section, section_header, contents);
     }
-    if (!found) elf.damaged("it has no dynamic symbols, its end may be missing");
+    if (!found) elf.fail_damaged("it has no dynamic symbols, its end may be missing");
     return contents;
 }
 

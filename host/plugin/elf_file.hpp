@@ -12,9 +12,9 @@
 namespace tandem::plugin {
 
 struct ElfContents {
-    std::set<std::string> defined;                          ///< functions and objects that the library gives
-    std::set<std::string> undefined;                        ///< those it expects of others
-    std::map<std::string, std::set<std::uint32_t>> numbers; ///< its notes of one number each, by owner
+    std::set<std::string> defined;   ///< functions and objects that the library gives
+    std::set<std::string> undefined; ///< those it expects of others
+    std::map<std::string, std::set<std::uint32_t>> note_numbers; ///< its notes of one number each, by owner
 };
 
 /// Throws Error: not_found, not_a_library, damaged (also when the file ends before what is to be mapped,

@@ -12,10 +12,10 @@ enum class Reason {
     damaged,            ///< ELF, but cut off or with contents that cannot be
     wrong_architecture, ///< for another processor than this program
     wrong_model,        ///< a library, but not of the kind that was asked for
-    another_abi,        ///< built against the headers of another Tandem
-    not_loadable,       ///< the dynamic linker refused it
+    abi_mismatch,       ///< built against the headers of another Tandem
+    load_failed,        ///< the dynamic linker refused it
     missing_symbol,     ///< the library is loaded and lacks a function that was asked for
-    failed_probe,       ///< tried in a child process, it crashed, hung or threw
+    probe_failed,       ///< tried in a child process, it crashed, hung or threw
 };
 
 /// what() is one line that names the file or the symbol.

@@ -19,7 +19,7 @@ bool strip_suffix(std::string& name, const std::string& suffix) {
     return true;
 }
 
-std::string listed(const std::vector<std::string>& items) {
+std::string joined(const std::vector<std::string>& items) {
     std::string text;
     for (const std::string& item : items) text += (text.empty() ? "" : ", ") + item;
     return text;
@@ -29,13 +29,13 @@ void add_once(std::vector<std::string>& items, const std::string& item) {
     if (std::find(items.begin(), items.end(), item) == items.end()) items.push_back(item);
 }
 
-[[noreturn]] void not_found(const std::string& name, const std::vector<std::filesystem::path>& dirs) {
-    const std::string looked =
-        "library '" + name + "' not found: looked for " + listed(library_file_names(name));
-    if (std::filesystem::path(name).is_absolute()) throw Error(Reason::not_found, looked);
+[[noreturn]] void throw_not_found(const std::string& name, const std::vector<std::filesystem::path>& dirs) {
+    const std::string message =
+        "library '" + name + "' not found: looked for " + joined(library_file_names(name));
+    if (std::filesystem::path(name).is_absolute()) throw Error(Reason::not_found, message);
     std::vector<std::string> folders;
     for (const auto& dir : dirs) add_once(folders, dir.empty() ? "." : dir.string());
-    throw Error(Reason::not_found, looked + " in " + (folders.empty() ? "no folder" : listed(folders)));
+    throw Error(Reason::not_found, message + " in " + (folders.empty() ? "no folder" : joined(folders)));
 }
 
 } // namespace
@@ -66,7 +66,7 @@ std::filesystem::path find_library(const std::string& name,
             for (const std::string& candidate : candidates)
                 if (const auto file = dir / candidate; std::filesystem::is_regular_file(file, ignored))
                     return file;
-    not_found(name, dirs);
+    throw_not_found(name, dirs);
 }
 
 } // namespace tandem::plugin

@@ -8,9 +8,9 @@ namespace tandem::plugin {
 namespace {
 
 // Why the dynamic linker has refused a file: it alone says which symbol or which other file is missing.
-std::string linker_reason() {
-    const char* said = dlerror();
-    std::string text = said ? said : "the dynamic linker gives no reason";
+std::string dlerror_text() {
+    const char* message = dlerror();
+    std::string text = message ? message : "the dynamic linker gives no reason";
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }
@@ -31,11 +31,11 @@ Library::Library(const std::filesystem::path& file)
         thrown = " of unknown type";
     }
     if (!thrown.empty())
-        throw Error(Reason::not_loadable,
+        throw Error(Reason::load_failed,
                     "library " + path_.string() + " threw an exception in its static constructors" + thrown);
     if (refused)
-        throw Error(Reason::not_loadable,
-                    "library " + path_.string() + " cannot be loaded: " + linker_reason());
+        throw Error(Reason::load_failed,
+                    "library " + path_.string() + " cannot be loaded: " + dlerror_text());
 }
 
 std::shared_ptr<Library> Library::load(const std::filesystem::path& file) {
@@ -48,7 +48,7 @@ bool Library::is_loaded(const std::filesystem::path& file) {
     return handle != nullptr;
 }
 
-void Library::require(const std::string& name) const {
+void Library::require_symbol(const std::string& name) const {
     if (!has(name))
         throw Error(Reason::missing_symbol, "library " + path_.string() + " does not export " + name);
 }

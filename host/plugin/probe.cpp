@@ -2,7 +2,7 @@
 #include "host/plugin/probe.hpp"
 
 #include "host/plugin/error.hpp"
-#include "host/plugin/probe_words.hpp"
+#include "host/plugin/probe_protocol.hpp"
 #include "host/process/run_command.hpp"
 
 #include <algorithm>
@@ -28,11 +28,11 @@ Report read_report(const std::string& text) {
     std::istringstream lines(text);
     const auto starts = [](const std::string& line, const char* word) { return line.rfind(word, 0) == 0; };
     for (std::string line; std::getline(lines, line);) {
-        if (starts(line, stage_word)) report.stage = line.substr(std::strlen(stage_word));
-        if (starts(line, failed_word)) report.failure = line.substr(std::strlen(failed_word));
-        if (line + "\n" == done_word) report.done = true;
-        if (!starts(line, result_word)) continue;
-        const auto bytes = std::strtoull(line.c_str() + std::strlen(result_word), nullptr, 10);
+        if (starts(line, stage_tag)) report.stage = line.substr(std::strlen(stage_tag));
+        if (starts(line, failed_tag)) report.failure = line.substr(std::strlen(failed_tag));
+        if (line + "\n" == done_line) report.done = true;
+        if (!starts(line, result_tag)) continue;
+        const auto bytes = std::strtoull(line.c_str() + std::strlen(result_tag), nullptr, 10);
         report.result.resize(std::min<std::size_t>(bytes, text.size()));
         lines.read(report.result.data(), static_cast<std::streamsize>(report.result.size()));
     }
@@ -59,9 +59,9 @@ std::string bound_text(std::chrono::milliseconds bound) {
     return text.str();
 }
 
-std::string reason(const Probe& how, const process::CommandResult& end, const Report& report) {
+std::string reason(const ProbeOptions& options, const process::CommandResult& end, const Report& report) {
     const std::string where = report.stage.empty() ? "the probe" : report.stage;
-    if (end.timed_out) return "did not return from " + where + " within " + bound_text(how.bound);
+    if (end.timed_out) return "did not return from " + where + " within " + bound_text(options.timeout);
     if (end.status.signalled)
         return "crashed in " + where + " with signal " + std::to_string(end.status.code) + " (" +
                strsignal(end.status.code) + ")" + last_words(end.errors);
@@ -71,28 +71,28 @@ std::string reason(const Probe& how, const process::CommandResult& end, const Re
 
 } // namespace
 
-std::string probe(const Probe& how, const std::string& task, const std::filesystem::path& library,
-                  const std::vector<std::string>& arguments) {
-    std::vector<std::string> command{how.program.string(), probe_argument, task, library.string()};
+std::string run_probe(const ProbeOptions& options, const std::string& task,
+                      const std::filesystem::path& library, const std::vector<std::string>& arguments) {
+    std::vector<std::string> command{options.program.string(), probe_argument, task, library.string()};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    process::CommandOptions options;
-    options.timeout = how.bound;
-    options.capture_report = true;
-    options.discard_output = true;
-    options.max_output = max_report_bytes;
-    options.max_errors = max_error_bytes;
+    process::CommandOptions child;
+    child.timeout = options.timeout;
+    child.capture_report = true;
+    child.discard_output = true;
+    child.max_output = max_report_bytes;
+    child.max_errors = max_error_bytes;
     process::CommandResult end;
     try {
-        end = process::run_command(command, options);
+        end = process::run_command(command, child);
     } catch (const std::system_error& error) {
-        throw Error(Reason::failed_probe, how.subject + " " + library.string() +
+        throw Error(Reason::probe_failed, options.subject + " " + library.string() +
                                               " cannot be tried in a child process: " + error.what());
     }
     const Report report = read_report(end.report);
     if (report.done && !end.timed_out) return report.result;
-    if (!report.failure.empty()) throw Error(Reason::failed_probe, report.failure);
-    throw Error(Reason::failed_probe, how.subject + " " + library.string() + " " + reason(how, end, report) +
-                                          " (tried in a child process)");
+    if (!report.failure.empty()) throw Error(Reason::probe_failed, report.failure);
+    throw Error(Reason::probe_failed, options.subject + " " + library.string() + " " +
+                                          reason(options, end, report) + " (tried in a child process)");
 }
 
 } // namespace tandem::plugin

@@ -10,17 +10,17 @@
 
 namespace tandem::plugin {
 
-struct Probe {
-    /// Program whose main() hands over to a ProbedSide (probed_side.hpp): as a rule this program itself.
+struct ProbeOptions {
+    /// Program whose main() hands over to a ProbedSide (probe_child.hpp): as a rule this program itself.
     std::filesystem::path program = "/proc/self/exe";
-    std::chrono::milliseconds bound{10'000};
+    std::chrono::milliseconds timeout{10'000};
     std::string subject = "library"; ///< what the file is, for messages
 };
 
 /// Tries the library with what the program does when it is probed; `task` and the arguments are told to it.
-/// What it has reported. Throws Error failed_probe: crash, hang, exit, exception, each in one line with the
+/// What it has reported. Throws Error probe_failed: crash, hang, exit, exception, each in one line with the
 /// function in which it happened. [any-thread]
-std::string probe(const Probe& how, const std::string& task, const std::filesystem::path& library,
-                  const std::vector<std::string>& arguments = {});
+std::string run_probe(const ProbeOptions& options, const std::string& task,
+                      const std::filesystem::path& library, const std::vector<std::string>& arguments = {});
 
 } // namespace tandem::plugin

@@ -10,8 +10,8 @@
 
 namespace tandem::rt {
 namespace {
-constexpr std::size_t longest_line = 4096;
-constexpr int send_patience_ms = 1000;
+constexpr std::size_t max_line_bytes = 4096;
+constexpr int send_timeout_ms = 1000;
 } // namespace
 
 sockaddr_un socket_address(const std::string& path) {
@@ -30,7 +30,7 @@ bool LineBuffer::fill(int fd) {
     if (got < 0) return errno == EAGAIN || errno == EINTR;
     if (got == 0) return false;
     bytes_.append(chunk, static_cast<std::size_t>(got));
-    return bytes_.size() <= longest_line || bytes_.find('\n') != std::string::npos;
+    return bytes_.size() <= max_line_bytes || bytes_.find('\n') != std::string::npos;
 }
 
 std::optional<std::string> LineBuffer::take_line() {
@@ -50,7 +50,7 @@ bool send_all(int fd, std::string_view text) {
         }
         if (errno == EINTR) continue;
         pollfd writable{fd, POLLOUT, 0};
-        if (errno != EAGAIN || ::poll(&writable, 1, send_patience_ms) <= 0) return false;
+        if (errno != EAGAIN || ::poll(&writable, 1, send_timeout_ms) <= 0) return false;
     }
     return true;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t second_ns = 1'000'000'000;
 // A sleep is never longer, so that interrupt() works without a signal; periods up to this cost one system
 // call.
-constexpr std::int64_t longest_sleep_ns = 100'000'000;
+constexpr std::int64_t max_sleep_ns = 100'000'000;
 
 void sleep_until(std::int64_t when) {
     const timespec at{static_cast<time_t>(when / second_ns), static_cast<long>(when % second_ns)};
@@ -37,7 +37,7 @@ std::int64_t monotonic_ns() noexcept {
 
 PeriodicTick::PeriodicTick(const TickOptions& options)
     : period_(options.period.count()), phase_((grid_origin + options.phase).count()),
-      spin_(options.spin.count()), aligned_(options.aligned), rehearsal_(options.rehearsal) {
+      spin_(options.spin.count()), aligned_(options.aligned), warm_up_(options.warm_up) {
     if (period_ <= 0)
         throw std::invalid_argument("a periodic tick needs a period above 0 ns, got " +
                                     std::to_string(period_));
@@ -65,10 +65,10 @@ void PeriodicTick::sleep_until_next() {
     const std::int64_t poll_from = next_ - spin_;
     std::int64_t now = monotonic_ns();
     while (now < poll_from && !interrupted()) {
-        sleep_until(std::min(poll_from, now + longest_sleep_ns));
+        sleep_until(std::min(poll_from, now + max_sleep_ns));
         now = monotonic_ns();
     }
-    if (now < next_ && !interrupted() && rehearsal_) rehearsal_();
+    if (now < next_ && !interrupted() && warm_up_) warm_up_();
     while (now < next_ && !interrupted()) {
         relax();
         now = monotonic_ns();

@@ -25,7 +25,7 @@ struct TickOptions {
     std::chrono::nanoseconds spin{0};
     /// [tick-thread] Called when the polling begins, if there is any: goes the way that the tick will go, as
     /// far as that does nothing, so that its code and data are in the caches again when the time comes.
-    std::function<void()> rehearsal{};
+    std::function<void()> warm_up{};
 };
 
 struct TickStats {
@@ -65,7 +65,7 @@ class PeriodicTick {
     const std::int64_t phase_; // from the clock's beginning
     const std::int64_t spin_;
     const bool aligned_;
-    const std::function<void()> rehearsal_;
+    const std::function<void()> warm_up_;
     bool started_ = false;
     std::int64_t next_ = 0;
     std::atomic<bool> interrupted_{false};
@@ -76,9 +76,9 @@ class PeriodicTick {
 /// Now, in ns of CLOCK_MONOTONIC.
 std::int64_t monotonic_ns() noexcept;
 
-/// For a rehearsal: the first 2 KiB of an object with virtual functions, for writing, and the table of those.
+/// For a warm_up: the first 2 KiB of an object with virtual functions, for writing, and the table of those.
 template <class Object>
-void bring_into_caches(const Object& object) {
+void prefetch(const Object& object) {
     constexpr std::size_t line = 64, bytes = 2048;
     const auto* whole = static_cast<const std::byte*>(dynamic_cast<const void*>(&object));
     const auto* functions = *reinterpret_cast<const std::byte* const*>(whole);

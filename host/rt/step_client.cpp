@@ -20,11 +20,11 @@ int remaining_ms(Clock::time_point deadline) {
 
 } // namespace
 
-StepClient::StepClient(const std::string& socket_path, std::chrono::nanoseconds wait_for_it)
+StepClient::StepClient(const std::string& socket_path, std::chrono::nanoseconds connect_timeout)
     : path_(socket_path) {
     const sockaddr_un address = socket_address(path_);
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
-    const auto deadline = Clock::now() + wait_for_it;
+    const auto deadline = Clock::now() + connect_timeout;
     for (;;) {
         socket_ = FileDescriptor(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
         if (::connect(socket_.get(), where, sizeof address) == 0) return;
@@ -35,8 +35,8 @@ StepClient::StepClient(const std::string& socket_path, std::chrono::nanoseconds 
     }
 }
 
-std::string StepClient::receive_line(std::chrono::nanoseconds bound) {
-    const auto deadline = Clock::now() + bound;
+std::string StepClient::receive_line(std::chrono::nanoseconds reply_timeout) {
+    const auto deadline = Clock::now() + reply_timeout;
     for (;;) {
         if (auto line = lines_.take_line()) return *line;
         pollfd readable{socket_.get(), POLLIN, 0};
@@ -47,10 +47,10 @@ std::string StepClient::receive_line(std::chrono::nanoseconds bound) {
     }
 }
 
-void StepClient::step(const std::string& component, std::chrono::nanoseconds bound) {
+void StepClient::step(const std::string& component, std::chrono::nanoseconds reply_timeout) {
     if (!send_all(socket_.get(), "step " + component + "\n"))
         throw std::runtime_error("lock-step server '" + path_ + "' is gone");
-    const std::string reply = receive_line(bound);
+    const std::string reply = receive_line(reply_timeout);
     if (reply == "ok") return;
     constexpr std::string_view verb = "error ";
     const bool error = reply.compare(0, verb.size(), verb) == 0;

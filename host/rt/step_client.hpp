@@ -11,17 +11,18 @@ namespace tandem::rt {
 
 class StepClient {
   public:
-    /// Connects, waiting up to `wait_for_it` for a server to listen. Throws std::runtime_error when none
+    /// Connects, waiting up to `connect_timeout` for a server to listen. Throws std::runtime_error when none
     /// does.
-    StepClient(const std::string& socket_path, std::chrono::nanoseconds wait_for_it);
+    StepClient(const std::string& socket_path, std::chrono::nanoseconds connect_timeout);
 
     /// One cycle of the component. Throws std::runtime_error with the server's message, when the server is
-    /// gone, or when it has not answered within `bound`; after the latter two the client is of no further
+    /// gone, or when it has not answered within `reply_timeout`; after the latter two the client is of no further
     /// use.
-    void step(const std::string& component, std::chrono::nanoseconds bound = std::chrono::seconds(10));
+    void step(const std::string& component,
+              std::chrono::nanoseconds reply_timeout = std::chrono::seconds(10));
 
   private:
-    std::string receive_line(std::chrono::nanoseconds bound);
+    std::string receive_line(std::chrono::nanoseconds reply_timeout);
 
     std::string path_;
     FileDescriptor socket_;

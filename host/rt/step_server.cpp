@@ -22,7 +22,7 @@ namespace {
     throw std::runtime_error("lock-step socket '" + path + "': " + what);
 }
 
-void remove_stale(const std::string& path, const sockaddr_un& address) {
+void remove_stale_socket(const std::string& path, const sockaddr_un& address) {
     const FileDescriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
     if (::connect(probe.get(), where, sizeof address) == 0) fail(path, "another process listens on it");
@@ -32,7 +32,7 @@ void remove_stale(const std::string& path, const sockaddr_un& address) {
 
 FileDescriptor listen_on(const std::string& path) {
     const sockaddr_un address = socket_address(path);
-    remove_stale(path, address);
+    remove_stale_socket(path, address);
     FileDescriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     ::fchmod(listener.get(), 0600); // before bind: the file never has a wider mode
     const auto* where = reinterpret_cast<const sockaddr*>(&address);
@@ -61,7 +61,7 @@ StepServer::~StepServer() {
 }
 
 void StepServer::serve() {
-    set_up_this_thread({"lockstep", 0, -1});
+    configure_this_thread({"lockstep", 0, -1});
     while (wait_for_input()) {
     }
 }

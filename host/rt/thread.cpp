@@ -15,7 +15,7 @@
 namespace tandem::rt {
 namespace {
 
-std::string why(int error) { return std::strerror(error); }
+std::string error_text(int error) { return std::strerror(error); }
 
 void set_name(const std::string& name) {
     if (!name.empty()) pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
@@ -28,7 +28,7 @@ std::optional<std::string> set_priority(const ThreadOptions& options) {
         pthread_setschedparam(pthread_self(), options.round_robin ? SCHED_RR : SCHED_FIFO, &parameters);
     if (error == 0) return std::nullopt;
     return "thread " + options.name + " runs without " + (options.round_robin ? "SCHED_RR" : "SCHED_FIFO") +
-           " priority " + std::to_string(options.fifo_priority) + ": " + why(error) +
+           " priority " + std::to_string(options.fifo_priority) + ": " + error_text(error) +
            "; grant CAP_SYS_NICE or an rtprio limit";
 }
 
@@ -52,11 +52,11 @@ std::optional<std::string> pin_this_thread(const std::string& who, const std::ve
     }
     const int error = possible ? pthread_setaffinity_np(pthread_self(), sizeof set, &set) : EINVAL;
     if (error == 0) return std::nullopt;
-    return who + " is not pinned to processor " + names + ": " + why(error) +
+    return who + " is not pinned to processor " + names + ": " + error_text(error) +
            "; choose one of `taskset -cp $$`";
 }
 
-std::vector<std::string> set_up_this_thread(const ThreadOptions& options) {
+std::vector<std::string> configure_this_thread(const ThreadOptions& options) {
     std::vector<std::string> notices;
     set_name(options.name);
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -70,7 +70,7 @@ std::vector<std::string> set_up_this_thread(const ThreadOptions& options) {
 
 std::optional<std::string> lock_memory() {
     if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return std::nullopt;
-    return "memory is not locked: " + why(errno) + "; grant CAP_IPC_LOCK or raise `ulimit -l`";
+    return "memory is not locked: " + error_text(errno) + "; grant CAP_IPC_LOCK or raise `ulimit -l`";
 }
 
 std::optional<std::string> hold_low_latency_idle() {
@@ -79,15 +79,15 @@ std::optional<std::string> hold_low_latency_idle() {
     const std::int32_t microseconds = 0;
     if (file >= 0 && ::write(file, &microseconds, sizeof microseconds) == sizeof microseconds)
         return std::nullopt;
-    const std::string reason = why(errno);
+    const std::string reason = error_text(errno);
     if (file >= 0) ::close(file);
     return "processors may enter deep idle states: /dev/cpu_dma_latency: " + reason +
            "; run as a user who may write it";
 }
 
-std::optional<std::string> end_with_parent() {
+std::optional<std::string> terminate_with_parent() {
     if (prctl(PR_SET_PDEATHSIG, static_cast<unsigned long>(SIGTERM), 0UL, 0UL, 0UL) != 0)
-        return "the parent's death will go unnoticed: " + why(errno);
+        return "the parent's death will go unnoticed: " + error_text(errno);
     if (getppid() != 1) return std::nullopt;
     return std::string("the parent process is gone already");
 }

@@ -18,7 +18,7 @@ struct ThreadOptions {
 
 /// Applies the options to the calling thread, and a timer slack of 1 ns always. Returns a notice for each
 /// refusal.
-std::vector<std::string> set_up_this_thread(const ThreadOptions& options);
+std::vector<std::string> configure_this_thread(const ThreadOptions& options);
 
 /// Pins the calling thread, and those that it will start, to one processor or some. Returns a notice, which
 /// begins with `who`, when refused.
@@ -32,6 +32,6 @@ std::optional<std::string> lock_memory();
 std::optional<std::string> hold_low_latency_idle();
 
 /// Sends SIGTERM to this process when its parent dies. Returns a notice when refused or already orphaned.
-std::optional<std::string> end_with_parent();
+std::optional<std::string> terminate_with_parent();
 
 } // namespace tandem::rt

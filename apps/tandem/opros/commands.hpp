@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/tandem/build/plugin_build.hpp"
-#include "host/plugin/probed_side.hpp"
+#include "host/plugin/probe_child.hpp"
 
 #include <filesystem>
 #include <string>

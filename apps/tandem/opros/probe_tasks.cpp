@@ -18,9 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-plugin::Probe self(const LookOptions& options, const char* subject) {
-    plugin::Probe probe;
-    probe.bound = std::chrono::milliseconds(static_cast<long>(options.seconds * 1000));
+plugin::ProbeOptions self(const LookOptions& options, const char* subject) {
+    plugin::ProbeOptions probe;
+    probe.timeout = std::chrono::milliseconds(static_cast<long>(options.seconds * 1000));
     probe.subject = subject;
     return probe;
 }
@@ -38,7 +38,7 @@ std::vector<std::filesystem::path> plugin_dirs(const json& request) {
 }
 
 void initialize(Component& component, const std::string& whose, plugin::ProbeReport& report) {
-    report.stage("onInitialize() of " + whose);
+    report.begin_stage("onInitialize() of " + whose);
     dlerror(); // device components ask it after their dlsym(), and would take what others have left for
                // theirs
     if (component.initialize() != OPROS_SUCCESS)
@@ -52,7 +52,7 @@ json described(const std::filesystem::path& library, const std::filesystem::path
                const LookOptions& options) {
     json request = request_of(options);
     request["profile"] = profile.string();
-    return json::parse(plugin::probe(self(options, "library"), describe_task, library, {request.dump()}));
+    return json::parse(plugin::run_probe(self(options, "library"), describe_task, library, {request.dump()}));
 }
 
 std::vector<std::string> connection_faults(const std::vector<std::string>& without,
@@ -60,14 +60,14 @@ std::vector<std::string> connection_faults(const std::vector<std::string>& witho
     json request = request_of(options);
     request["without"] = without;
     return json::parse(
-        plugin::probe(self(options, "application"), connect_task, options.file, {request.dump()}));
+        plugin::run_probe(self(options, "application"), connect_task, options.file, {request.dump()}));
 }
 
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
-    report.stage("its static constructors");
+    report.begin_stage("its static constructors");
     const auto library = plugin::Library::load(task.library);
-    report.stage("getComponent()");
+    report.begin_stage("getComponent()");
     const auto loaded = engine::instantiate_component(task.library);
     if (const std::string file = request["profile"]; !file.empty()) {
         const auto profile = engine::read_component_profile(file);
@@ -75,11 +75,11 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
         engine::set_component_properties(*loaded.component, profile, {}, plugin_dirs(request));
     }
     if (request["initialize"]) initialize(*loaded.component, task.library, report);
-    report.stage("its ports");
+    report.begin_stage("its ports");
     json description = describe(*loaded.component);
     for (const char* name : engine::folder_property_names) description["properties"].erase(name);
     if (library->has("getVersion")) {
-        report.stage("getVersion()");
+        report.begin_stage("getVersion()");
         description["version"] = library->symbol<const char*()>("getVersion")();
     }
     report.finish(description.dump(-1, ' ', false, json::error_handler_t::replace));
@@ -95,7 +95,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
     for (const auto& entry : profile.subcomponents) {
         if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
-        report.stage("the making of component " + entry.name);
+        report.begin_stage("the making of component " + entry.name);
         auto search = dirs;
         search.insert(search.begin(), profile.location.file.parent_path());
         auto component = std::make_unique<engine::ComponentHost>(
@@ -113,7 +113,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
         const auto source = components.find(connection.source.component),
                    target = components.find(connection.target.component);
         if (source == components.end() || target == components.end()) continue;
-        report.stage("the connection at line " + std::to_string(connection.location.line));
+        report.begin_stage("the connection at line " + std::to_string(connection.location.line));
         try {
             links.push_back(
                 engine::make_connection(connection, *source->second, *target->second, no_threads));

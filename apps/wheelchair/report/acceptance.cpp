@@ -13,16 +13,16 @@ namespace tandem::wheelchair {
 
 namespace {
 
-constexpr double step_at = 5.0, goal = 20.0; // s, deg
+constexpr double step_time = 5.0, goal = 20.0; // s, deg
 constexpr std::size_t step_row = 500, last_row = 1000, steady_rows = 200;
-constexpr double none = -std::numeric_limits<double>::infinity();
+constexpr double unbounded = -std::numeric_limits<double>::infinity();
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
 /// Seconds after the step at which the steering angle first reaches `level`, interpolated.
 double crossing(const std::vector<Row>& rows, double level) {
     for (std::size_t i = step_row; i < rows.size(); ++i) {
         const double now = rows[i].steering_true_deg, before = rows[i - 1].steering_true_deg;
-        if (now >= level) return rows[i - 1].t + tick_seconds * (level - before) / (now - before) - step_at;
+        if (now >= level) return rows[i - 1].t + tick_seconds * (level - before) / (now - before) - step_time;
     }
     return never;
 }
@@ -30,15 +30,15 @@ double crossing(const std::vector<Row>& rows, double level) {
 /// Seconds after the step from which on the angle stays within `band` of the goal.
 double settling(const std::vector<Row>& rows, double band) {
     for (std::size_t i = rows.size() - 1; i > step_row; --i)
-        if (std::abs(rows[i].steering_true_deg - goal) > band) return rows[i].t + tick_seconds - step_at;
+        if (std::abs(rows[i].steering_true_deg - goal) > band) return rows[i].t + tick_seconds - step_time;
     return 0.0;
 }
 
 template <class Value>
 double largest(const std::vector<Row>& rows, std::size_t first, Value value) {
-    double most = none;
-    for (std::size_t i = first; i < rows.size(); ++i) most = std::max(most, value(rows[i]));
-    return most;
+    double maximum = unbounded;
+    for (std::size_t i = first; i < rows.size(); ++i) maximum = std::max(maximum, value(rows[i]));
+    return maximum;
 }
 
 double off(double angle) { return std::abs(angle - goal); }
@@ -55,31 +55,31 @@ double mean_error(const std::vector<Row>& rows) {
 
 } // namespace
 
-std::vector<Judgement> judge_step20(const std::vector<Row>& all) {
+std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& all) {
     if (all.size() <= last_row) return {};
     const std::vector<Row> rows(all.begin(), all.begin() + last_row + 1);
     const double t10 = crossing(rows, 0.1 * goal);
     const auto tail = rows.size() - steady_rows;
     return {
-        {"time to 10 %", "s", t10, none, 0.08},
+        {"time to 10 %", "s", t10, unbounded, 0.08},
         {"rise 10-90 %", "s", crossing(rows, 0.9 * goal) - t10, 0.30, 0.35},
         {"overshoot", "deg", largest(rows, step_row, [](const Row& r) { return r.steering_true_deg - goal; }),
-         none, 0.6},
-        {"settling to 5 %", "s", settling(rows, 0.05 * goal), none, 0.6},
-        {"settling to 2 %", "s", settling(rows, 0.02 * goal), none, 0.7},
-        {"steady error, 8..10 s", "deg", mean_error(rows), none, 0.02},
+         unbounded, 0.6},
+        {"settling to 5 %", "s", settling(rows, 0.05 * goal), unbounded, 0.6},
+        {"settling to 2 %", "s", settling(rows, 0.02 * goal), unbounded, 0.7},
+        {"steady error, 8..10 s", "deg", mean_error(rows), unbounded, 0.02},
         {"steady band, true", "deg",
-         largest(rows, tail, [](const Row& r) { return off(r.steering_true_deg); }), none, 0.03},
+         largest(rows, tail, [](const Row& r) { return off(r.steering_true_deg); }), unbounded, 0.03},
         {"steady band, measured", "deg",
-         largest(rows, tail, [](const Row& r) { return off(r.steering_measured_deg); }), none, 0.12},
+         largest(rows, tail, [](const Row& r) { return off(r.steering_measured_deg); }), unbounded, 0.12},
         {"largest voltage", "V",
          largest(rows, 0,
                  [](const Row& r) { return std::max(std::abs(r.volts_left), std::abs(r.volts_right)); }),
-         none, 18.0},
+         unbounded, 18.0},
         {"largest current", "A",
          largest(rows, 0,
                  [](const Row& r) { return std::max(std::abs(r.current_left), std::abs(r.current_right)); }),
-         none, 25.0},
+         unbounded, 25.0},
         {"least speed in the turn", "m/s",
          -largest(rows, step_row, [](const Row& r) { return -forward_speed(r); }), 0.77,
          std::numeric_limits<double>::infinity()},
@@ -97,39 +97,39 @@ Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, doub
     for (std::size_t i = first; i < last; ++i) {
         const double e = std::abs(a[i].*column - b[i].*column);
         squares += e * e;
-        d.most = std::max(d.most, e);
+        d.max = std::max(d.max, e);
     }
     d.rms = std::sqrt(squares / static_cast<double>(last - first));
     return d;
 }
 
-std::vector<Judgement> judge_alike(const std::string& names, const std::vector<Row>& a,
-                                   const std::vector<Row>& b) {
+std::vector<AcceptanceCheck> check_similar(const std::string& names, const std::vector<Row>& a,
+                                           const std::vector<Row>& b) {
     const auto measured = difference(a, b, &Row::steering_measured_deg, 5.0, 10.0);
     const auto real = difference(a, b, &Row::steering_true_deg, 5.0, 10.0);
-    return {{names + ", measured, rms", "deg", measured.rms, none, 0.06},
-            {names + ", measured, max", "deg", measured.most, none, 0.3},
-            {names + ", true, rms", "deg", real.rms, none, 0.03}};
+    return {{names + ", measured, rms", "deg", measured.rms, unbounded, 0.06},
+            {names + ", measured, max", "deg", measured.max, unbounded, 0.3},
+            {names + ", true, rms", "deg", real.rms, unbounded, 0.03}};
 }
 
-std::vector<Judgement> judge_identical(const std::string& names, const std::vector<Row>& a,
-                                       const std::vector<Row>& b) {
+std::vector<AcceptanceCheck> check_identical(const std::string& names, const std::vector<Row>& a,
+                                             const std::vector<Row>& b) {
     auto different = static_cast<double>(std::max(a.size(), b.size()) - std::min(a.size(), b.size()));
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
         different += csv_text({a[i]}) != csv_text({b[i]});
-    return {{names + ", different rows", "", different, none, 0.0}};
+    return {{names + ", different rows", "", different, unbounded, 0.0}};
 }
 
-bool all_pass(const std::vector<Judgement>& judgements) {
-    return std::all_of(judgements.begin(), judgements.end(), [](const Judgement& j) { return j.pass(); });
+bool all_pass(const std::vector<AcceptanceCheck>& checks) {
+    return std::all_of(checks.begin(), checks.end(), [](const AcceptanceCheck& j) { return j.pass(); });
 }
 
-std::string judgement_table(const std::string& title, const std::vector<Judgement>& judgements) {
+std::string acceptance_table(const std::string& title, const std::vector<AcceptanceCheck>& checks) {
     std::string out = title + "\n";
-    for (const Judgement& j : judgements) {
-        std::string bounds = fmt::format("<= {:g}", j.most);
-        if (std::isfinite(j.least)) bounds = fmt::format("{:g} .. {:g}", j.least, j.most);
-        if (!std::isfinite(j.most)) bounds = fmt::format(">= {:g}", j.least);
+    for (const AcceptanceCheck& j : checks) {
+        std::string bounds = fmt::format("<= {:g}", j.max);
+        if (std::isfinite(j.min)) bounds = fmt::format("{:g} .. {:g}", j.min, j.max);
+        if (!std::isfinite(j.max)) bounds = fmt::format(">= {:g}", j.min);
         out += fmt::format("  {:<32} {:>9.4f} {:<4} {:>13}  {}\n", j.name, j.value, j.unit, bounds,
                            j.pass() ? "pass" : "FAIL");
     }

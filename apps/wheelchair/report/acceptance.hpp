@@ -10,32 +10,32 @@
 namespace tandem::wheelchair {
 
 /// One figure against its bounds.
-struct Judgement {
+struct AcceptanceCheck {
     std::string name, unit;
-    double value, least, most; // least <= value <= most is a pass; NaN never is
-    bool pass() const { return value >= least && value <= most; }
+    double value, min, max; // min <= value <= max is a pass; NaN never is
+    bool pass() const { return value >= min && value <= max; }
 };
 
 /// Section 8 over the steering angle from the step at 5 s to the end. Needs the rows of a full step20 run;
 /// empty when there are fewer.
-std::vector<Judgement> judge_step20(const std::vector<Row>& rows);
+std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& rows);
 
 struct Difference {
-    double rms = 0.0, most = 0.0;
+    double rms = 0.0, max = 0.0;
 };
 /// Of one column of two runs over [from, to] seconds of scenario time.
 Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, double Row::*column, double from,
                       double to);
 
 /// Section 10: whether two real-time runs of step20 steer the same over 5..10 s.
-std::vector<Judgement> judge_alike(const std::string& names, const std::vector<Row>& a,
-                                   const std::vector<Row>& b);
+std::vector<AcceptanceCheck> check_similar(const std::string& names, const std::vector<Row>& a,
+                                           const std::vector<Row>& b);
 
 /// Section 10: whether two lock-step runs have the same log, byte for byte.
-std::vector<Judgement> judge_identical(const std::string& names, const std::vector<Row>& a,
-                                       const std::vector<Row>& b);
+std::vector<AcceptanceCheck> check_identical(const std::string& names, const std::vector<Row>& a,
+                                             const std::vector<Row>& b);
 
-bool all_pass(const std::vector<Judgement>& judgements);
-std::string judgement_table(const std::string& title, const std::vector<Judgement>& judgements);
+bool all_pass(const std::vector<AcceptanceCheck>& checks);
+std::string acceptance_table(const std::string& title, const std::vector<AcceptanceCheck>& checks);
 
 } // namespace tandem::wheelchair

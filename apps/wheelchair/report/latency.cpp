@@ -22,9 +22,9 @@ Statistics statistics(const std::vector<double>& values) {
     double squares = 0.0;
     for (double v : values) squares += (v - s.average) * (v - s.average);
     if (s.samples > 1) s.deviation = std::sqrt(squares / static_cast<double>(s.samples - 1));
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    s.least = *least;
-    s.most = *most;
+    const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
+    s.min = *smallest;
+    s.max = *largest;
     return s;
 }
 
@@ -78,7 +78,7 @@ std::string latency_tables(const std::vector<LatencyRow>& rows) {
     for (const LatencyRow& r : rows) {
         const Statistics s = statistics(table_samples(r.latencies));
         out += fmt::format("  {:<8} {:9.2f} {:9.2f} {:9.2f} {:9.2f}\n", r.configuration, s.average,
-                           s.deviation, s.least, s.most);
+                           s.deviation, s.min, s.max);
     }
     out += fmt::format("Whole run [us]\n  {:<8} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>6}\n", "", "p50",
                        "p99", "p99.9", "max", "sent", "received", "lost");

@@ -12,7 +12,7 @@ namespace tandem::wheelchair {
 
 struct Statistics {
     std::size_t samples = 0;
-    double average = 0, deviation = 0, least = 0, most = 0; // deviation: of the sample, n - 1
+    double average = 0, deviation = 0, min = 0, max = 0; // deviation: of the sample, n - 1
 };
 Statistics statistics(const std::vector<double>& values);
 

@@ -16,15 +16,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json json_of(const std::vector<Judgement>& judgements) {
+ordered_json json_of(const std::vector<AcceptanceCheck>& checks) {
     ordered_json list = ordered_json::array();
-    for (const Judgement& j : judgements) {
+    for (const AcceptanceCheck& j : checks) {
         // JSON has no infinity: an open bound and a figure that could not be measured are null.
         list.push_back({{"name", j.name},
                         {"unit", j.unit},
                         {"value", j.value},
-                        {"least", j.least},
-                        {"most", j.most},
+                        {"min", j.min},
+                        {"max", j.max},
                         {"pass", j.pass()}});
     }
     return list;
@@ -34,18 +34,19 @@ ordered_json json_of(const Statistics& s) {
     return {{"samples", s.samples},
             {"average_us", s.average},
             {"deviation_us", s.deviation},
-            {"min_us", s.least},
-            {"max_us", s.most}};
+            {"min_us", s.min},
+            {"max_us", s.max}};
 }
 
-ordered_json json_of(const Incident& i) {
-    ordered_json j{{"host", i.host}, {"pid", i.pid}, {"how", i.how}, {"scenario_time_s", i.run_time}};
-    j["motors_off_after_ms"] = i.stopped_after_ms ? ordered_json(*i.stopped_after_ms) : ordered_json();
-    j["data_back_after_ms"] = i.back_after_ms ? ordered_json(*i.back_after_ms) : ordered_json();
+ordered_json json_of(const HostFailure& i) {
+    ordered_json j{
+        {"host", i.host}, {"pid", i.pid}, {"exit_status", i.exit_status}, {"scenario_time_s", i.run_time}};
+    j["motors_off_after_ms"] = i.motors_off_after_ms ? ordered_json(*i.motors_off_after_ms) : ordered_json();
+    j["data_back_after_ms"] = i.data_back_after_ms ? ordered_json(*i.data_back_after_ms) : ordered_json();
     return j;
 }
 
-ordered_json json_of(const RunResult& r, const std::vector<Judgement>& acceptance) {
+ordered_json json_of(const RunResult& r, const std::vector<AcceptanceCheck>& acceptance) {
     ordered_json j{{"configuration", name_of(r.configuration)},
                    {"scenario", r.scenario},
                    {"seconds", r.seconds},
@@ -66,8 +67,8 @@ ordered_json json_of(const RunResult& r, const std::vector<Judgement>& acceptanc
             {"x_m", last.x}, {"y_m", last.y}, {"heading_deg", last.heading * degrees}, {"state", last.state}};
     }
     j["acceptance"] = json_of(acceptance);
-    j["incidents"] = ordered_json::array();
-    for (const Incident& i : r.incidents) j["incidents"].push_back(json_of(i));
+    j["host_failures"] = ordered_json::array();
+    for (const HostFailure& i : r.host_failures) j["host_failures"].push_back(json_of(i));
     j["failures"] = r.failures;
     return j;
 }
@@ -84,7 +85,7 @@ std::string final_pose(const RunResult& r) {
 
 bool Report::good() const {
     for (const RunResult& r : runs)
-        if (!r.failures.empty() || !r.incidents.empty() || !r.complete()) return false;
+        if (!r.failures.empty() || !r.host_failures.empty() || !r.complete()) return false;
     return all_pass(pairs) &&
            std::all_of(acceptance.begin(), acceptance.end(), [](const auto& list) { return all_pass(list); });
 }
@@ -93,17 +94,17 @@ Report make_report(std::vector<RunResult> runs, const Options& options) {
     Report report;
     report.lockstep = options.lockstep;
     for (const RunResult& r : runs) {
-        const bool step = r.scenario == "step20" && options.joystick_file.empty() && r.incidents.empty();
-        report.acceptance.push_back(step ? judge_step20(r.rows) : std::vector<Judgement>{});
+        const bool step = r.scenario == "step20" && options.joystick_file.empty() && r.host_failures.empty();
+        report.acceptance.push_back(step ? check_step20(r.rows) : std::vector<AcceptanceCheck>{});
     }
     for (std::size_t i = 0; runs.size() > 1 && i + 1 < runs.size(); ++i) {
         const auto name =
             fmt::format("{} - {}", name_of(runs.back().configuration), name_of(runs[i].configuration));
-        std::vector<Judgement> pair;
+        std::vector<AcceptanceCheck> pair;
         if (options.lockstep)
-            pair = judge_identical(name, runs.back().rows, runs[i].rows);
+            pair = check_identical(name, runs.back().rows, runs[i].rows);
         else if (runs[i].scenario == "step20")
-            pair = judge_alike(name, runs.back().rows, runs[i].rows);
+            pair = check_similar(name, runs.back().rows, runs[i].rows);
         report.pairs.insert(report.pairs.end(), pair.begin(), pair.end());
     }
     report.runs = std::move(runs);
@@ -119,11 +120,11 @@ std::string text_of(const Report& report) {
     if (!latencies.empty()) out += latency_tables(latencies);
     for (std::size_t i = 0; i < report.runs.size(); ++i)
         if (!report.acceptance[i].empty())
-            out += judgement_table("Step of 20 deg, " + name_of(report.runs[i].configuration),
-                                   report.acceptance[i]);
+            out += acceptance_table("Step of 20 deg, " + name_of(report.runs[i].configuration),
+                                    report.acceptance[i]);
     if (!report.pairs.empty())
-        out += judgement_table(report.lockstep ? "Lock-step logs" : "Difference of steering angles, 5..10 s",
-                               report.pairs);
+        out += acceptance_table(report.lockstep ? "Lock-step logs" : "Difference of steering angles, 5..10 s",
+                                report.pairs);
     return out;
 }
 

@@ -13,8 +13,8 @@ namespace tandem::wheelchair {
 /// What was run, and how it is judged.
 struct Report {
     std::vector<RunResult> runs;
-    std::vector<std::vector<Judgement>> acceptance; // one per run; empty where the scenario has none
-    std::vector<Judgement> pairs;                   // of --compare
+    std::vector<std::vector<AcceptanceCheck>> acceptance; // one per run; empty where the scenario has none
+    std::vector<AcceptanceCheck> pairs;                   // of --compare
     bool lockstep = false;
 
     bool good() const; // every run clean and complete, every judgement passed

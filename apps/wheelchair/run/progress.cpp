@@ -14,9 +14,9 @@ Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(
     next_ = monotonic_seconds() + (terminal_ ? 0.5 : 10.0);
 }
 
-Progress::~Progress() { wipe(); }
+Progress::~Progress() { clear(); }
 
-void Progress::wipe() {
+void Progress::clear() {
     if (visible_) fmt::print(stderr, "\r\033[K");
     visible_ = false;
     std::fflush(stderr);
@@ -31,8 +31,8 @@ void Progress::show(double seconds, double of) {
     next_ = monotonic_seconds() + (terminal_ ? 0.2 : 10.0);
 }
 
-void Progress::say(const std::string& line) {
-    wipe();
+void Progress::print_line(const std::string& line) {
+    clear();
     fmt::print(stderr, "wheelchair: {}\n", line);
     std::fflush(stderr);
 }

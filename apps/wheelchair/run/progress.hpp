@@ -12,10 +12,10 @@ class Progress {
     ~Progress(); // wipes the line
     void show(double seconds, double of);
     /// A line that stays, not torn by the progress line.
-    void say(const std::string& line);
+    void print_line(const std::string& line);
 
   private:
-    void wipe();
+    void clear();
 
     std::string what_;
     bool terminal_, visible_ = false;

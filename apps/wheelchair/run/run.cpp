@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "apps/wheelchair/run/conductor.hpp"
-#include "apps/wheelchair/run/live_trace.hpp"
+#include "apps/wheelchair/run/lockstep_driver.hpp"
 #include "apps/wheelchair/run/progress.hpp"
 #include "apps/wheelchair/run/run_directory.hpp"
 #include "apps/wheelchair/run/supervisor.hpp"
-#include "apps/wheelchair/run/wiring.hpp"
+#include "apps/wheelchair/run/topology.hpp"
+#include "apps/wheelchair/run/trace_follower.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
 
 #include "shm/segment.hpp"
@@ -43,9 +43,9 @@ class HostedRun {
     RunResult drive() {
         start_hosts();
         if (options_.lockstep)
-            drive_lockstep();
+            run_lockstep();
         else
-            drive_real_time();
+            run_real_time();
         stop_hosts();
         return result();
     }
@@ -63,35 +63,35 @@ class HostedRun {
         supervisor_.wait_until_ready(options_.host_wait * (directory_.links().empty() ? 1.0 : 2.0));
     }
 
-    void drive_lockstep() {
-        Conductor conductor(directory_, configuration_);
+    void run_lockstep() {
+        LockstepDriver driver(directory_, configuration_);
         for (int n = 0; n <= scenario_.last_tick(); ++n) {
             try {
-                conductor.tick(n == scenario_.last_tick());
+                driver.run_tick(n == scenario_.last_tick());
             } catch (const std::runtime_error& e) {
-                handle(supervisor_.watch(200ms)); // says which host died, if one did
+                handle_events(supervisor_.watch(200ms)); // says which host died, if one did
                 failures_.push_back(fmt::format("lock-step ended at tick {}: {}", n, e.what()));
                 return;
             }
-            if (n % 50 == 0) handle(supervisor_.watch(0ms));
+            if (n % 50 == 0) handle_events(supervisor_.watch(0ms));
             if (n == 0 && component_missing()) return;
             progress_.show(n * tick_seconds, scenario_.seconds);
         }
     }
 
-    void drive_real_time() {
+    void run_real_time() {
         // Bounded, whatever becomes of the hosts: the scenario and a little more.
         const double start = monotonic_seconds(), end = start + scenario_.seconds + 2.0;
         bool checked = false;
         while (!finished() && monotonic_seconds() < end) {
-            handle(supervisor_.watch(50ms));
-            if (nobody_left()) return;
+            handle_events(supervisor_.watch(50ms));
+            if (no_host_running()) return;
             traces_.update();
             report_consequences();
             progress_.show(scenario_time(), scenario_.seconds);
             if (!checked && monotonic_seconds() > start + 1.0) {
                 checked = true;
-                if (incidents_.empty() && component_missing()) return;
+                if (host_failures_.empty() && component_missing()) return;
             }
         }
     }
@@ -107,7 +107,7 @@ class HostedRun {
         if (missing.empty()) return false;
         std::string words;
         for (const Host& host : supervisor_.hosts())
-            words += fmt::format("; {}: {}", host.name, host.complaint());
+            words += fmt::format("; {}: {}", host.name, host.first_error());
         failures_.push_back(missing + " does not run" + words);
         return true;
     }
@@ -124,55 +124,56 @@ class HostedRun {
     }
 
     /// Without --restart a dead host may come back by hand, but only while another one waits for it.
-    bool nobody_left() {
+    bool no_host_running() {
         auto& hosts = supervisor_.hosts();
         return std::none_of(hosts.begin(), hosts.end(), [](const Host& h) { return h.running(); });
     }
 
-    void handle(const Supervisor::News& news) {
+    void handle_events(const Supervisor::Events& news) {
         if (news.interrupted) throw Interrupted();
         for (Host* host : news.became_ready)
-            for (Incident& i : incidents_)
-                if (i.host == host->name && i.ready_again_at == 0.0) i.ready_again_at = host->ready_at;
-        for (Host* host : news.ended) host_died(*host);
+            for (HostFailure& i : host_failures_)
+                if (i.host == host->name && i.restarted_at == 0.0) i.restarted_at = host->ready_at;
+        for (Host* host : news.ended) on_host_ended(*host);
     }
 
-    void host_died(Host& host) {
+    void on_host_ended(Host& host) {
         traces_.update();
-        Incident i;
+        HostFailure i;
         i.host = host.name;
         i.pid = host.process.pid();
-        i.how = host.process.poll()->text();
+        i.exit_status = host.process.poll()->text();
         i.at = monotonic_seconds();
         i.run_time = scenario_time();
         const auto members =
-            host.name == "opros_host" ? opros_members(configuration_) : rtm_members(configuration_);
-        i.had_hw =
-            std::any_of(members.begin(), members.end(), [](const Member& m) { return m.name == "HWComp"; });
-        incidents_.push_back(i);
-        std::string line = fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.how, i.run_time);
-        if (!host.process.poll()->signalled) line += ", it said: " + host.complaint();
-        progress_.say(line + (i.had_hw ? "; HWComp was in it" : "; the other host goes on"));
+            host.name == "opros_host" ? opros_components(configuration_) : rtm_components(configuration_);
+        i.had_hw = std::any_of(members.begin(), members.end(),
+                               [](const RunComponent& m) { return m.name == "HWComp"; });
+        host_failures_.push_back(i);
+        std::string line =
+            fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.exit_status, i.run_time);
+        if (!host.process.poll()->signalled) line += ", it said: " + host.first_error();
+        progress_.print_line(line + (i.had_hw ? "; HWComp was in it" : "; the other host goes on"));
         if (options_.restart && !options_.lockstep) {
             supervisor_.restart(host);
-            progress_.say(fmt::format("{} started again, pid {}", host.name, host.process.pid()));
-        } else if (!nobody_left()) {
-            progress_.say("to start it again: " + host.command_line());
+            progress_.print_line(fmt::format("{} started again, pid {}", host.name, host.process.pid()));
+        } else if (!no_host_running()) {
+            progress_.print_line("to start it again: " + host.command_line());
         }
     }
 
     void report_consequences() {
-        for (Incident& i : incidents_) {
-            const bool had_stopped = i.stopped_after_ms.has_value();
+        for (HostFailure& i : host_failures_) {
+            const bool had_stopped = i.motors_off_after_ms.has_value();
             if (!i.update(traces_.hw.records(), traces_.control.records())) continue;
-            if (!had_stopped && i.stopped_after_ms)
-                progress_.say(
+            if (!had_stopped && i.motors_off_after_ms)
+                progress_.print_line(
                     fmt::format("HWComp had both motor voltages at 0 {:.1f} ms after the last reference",
-                                *i.stopped_after_ms));
-            if (i.back_after_ms)
-                progress_.say(fmt::format("references reach ControlComp again, {:.1f} ms after {}",
-                                          *i.back_after_ms,
-                                          i.ready_again_at > 0.0 ? i.host + " was ready" : i.host + " died"));
+                                *i.motors_off_after_ms));
+            if (i.data_back_after_ms)
+                progress_.print_line(fmt::format(
+                    "references reach ControlComp again, {:.1f} ms after {}", *i.data_back_after_ms,
+                    i.restarted_at > 0.0 ? i.host + " was ready" : i.host + " died"));
         }
     }
 
@@ -186,7 +187,7 @@ class HostedRun {
                 failures_.push_back(
                     fmt::format("{} (pid {}) did not stop cleanly: it {}{}{}", host.name, host.process.pid(),
                                 host.process.poll() ? host.process.poll()->text() : "hangs",
-                                host.complaint().empty() ? "" : ", it said: ", host.complaint()));
+                                host.first_error().empty() ? "" : ", it said: ", host.first_error()));
         }
         for (const auto& [adaptor, link] : directory_.links()) shm::remove_dead(link);
     }
@@ -194,15 +195,15 @@ class HostedRun {
     RunResult result() {
         traces_.update();
         report_consequences();
-        RunResult r{configuration_, scenario_.name, scenario_.seconds, {}, {}, {}, incidents_, failures_};
+        RunResult r{configuration_, scenario_.name, scenario_.seconds, {}, {}, {}, host_failures_, failures_};
         r.rows = merge(traces_.hw.records(), traces_.joystick.records(), traces_.control.records(),
                        scenario_.last_tick());
         r.samples = count_samples(traces_.joystick.records(), traces_.control.records());
         if (!options_.lockstep) r.latencies = latencies_us(traces_.control.records());
-        if (incidents_.empty() && r.samples.lost != 0)
+        if (host_failures_.empty() && r.samples.lost != 0)
             r.failures.push_back(
                 fmt::format("{} of {} references were lost", r.samples.lost, r.samples.sent));
-        if (incidents_.empty() && !r.complete() && r.failures.empty())
+        if (host_failures_.empty() && !r.complete() && r.failures.empty())
             r.failures.push_back(
                 fmt::format("only {} of {} ticks were recorded", r.rows.size(), scenario_.last_tick() + 1));
         return r;
@@ -212,10 +213,10 @@ class HostedRun {
     const Configuration configuration_;
     const Scenario scenario_;
     RunDirectory directory_;
-    LiveTraces traces_;
+    ComponentTraces traces_;
     Supervisor supervisor_;
     Progress progress_;
-    std::vector<Incident> incidents_;
+    std::vector<HostFailure> host_failures_;
     std::vector<std::string> failures_;
     bool stopped_ = false;
 };

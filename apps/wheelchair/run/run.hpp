@@ -6,7 +6,7 @@
 
 #include "apps/wheelchair/options.hpp"
 #include "apps/wheelchair/report/latency.hpp"
-#include "apps/wheelchair/run/incident.hpp"
+#include "apps/wheelchair/run/host_failure.hpp"
 #include "plugins/wheelchair/core/record/rows.hpp"
 
 namespace tandem::wheelchair {
@@ -19,8 +19,8 @@ struct RunResult {
     std::vector<Row> rows;
     std::vector<double> latencies; // us, empty in lock-step
     SampleCount samples;
-    std::vector<Incident> incidents;   // hosts that died; told when it happened
-    std::vector<std::string> failures; // one line each: what else was wrong
+    std::vector<HostFailure> host_failures; // hosts that died; told when it happened
+    std::vector<std::string> failures;      // one line each: what else was wrong
 
     bool complete() const; // every tick is there
 };

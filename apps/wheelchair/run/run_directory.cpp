@@ -10,7 +10,7 @@
 #include <fstream>
 #include <utility>
 
-#include "apps/wheelchair/run/wiring.hpp"
+#include "apps/wheelchair/run/topology.hpp"
 #include "plugins/wheelchair/core/record/scenario.hpp"
 
 namespace tandem::wheelchair {
@@ -88,7 +88,7 @@ std::string component_profile(const std::string& member) {
     return member.ends_with("Adaptor") ? "AdaptorComp.xml" : member + ".xml";
 }
 
-std::string subcomponent(const Member& member, const Parameters& parameters) {
+std::string subcomponent(const RunComponent& member, const Parameters& parameters) {
     std::string xml = fmt::format(
         "    <subcomponent type=\"atomic\">\n      <name>{}</name>\n      <reference>{}</reference>\n"
         "      <properties>\n",
@@ -98,11 +98,11 @@ std::string subcomponent(const Member& member, const Parameters& parameters) {
     return xml + "      </properties>\n    </subcomponent>\n";
 }
 
-std::string port_connection(const Wire& w) {
+std::string port_connection(const Connection& w) {
     return fmt::format("    <port_connection port_type=\"{}\">\n"
                        "      <source component_name=\"{}\" port_name=\"{}\"/>\n"
                        "      <target component_name=\"{}\" port_name=\"{}\"/>\n    </port_connection>\n",
-                       w.kind == Wire::data ? "data" : "service", w.from, w.from_port, w.to, w.to_port);
+                       w.kind == Connection::data ? "data" : "service", w.from, w.from_port, w.to, w.to_port);
 }
 
 std::string list_setting(const char* key, const std::vector<std::string>& values) {
@@ -130,12 +130,12 @@ RunDirectory::RunDirectory(const Options& options, Configuration configuration, 
     for (const Bridge& bridge : bridges(configuration))
         links_[bridge.adaptor] = fmt::format("wheelchair-{}{}", getpid(), bridge.link_suffix);
     for (const char* part : {"trace", "log"}) fs::create_directories(path() / part);
-    if (!opros_members(configuration).empty()) {
+    if (!opros_components(configuration).empty()) {
         write_opros(options, configuration);
         add_host(options, "opros_host", programs,
                  {(path() / "opros" / "wheelchair.xml").string(), "--strict"});
     }
-    if (!rtm_members(configuration).empty()) {
+    if (!rtm_components(configuration).empty()) {
         write_rtm(options, configuration);
         add_host(options, "rtm_host", programs, {"-f", (path() / "rtm" / "rtc.conf").string()});
     }
@@ -163,12 +163,12 @@ void RunDirectory::write_opros(const Options& options, Configuration configurati
     std::string xml =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<package_profile>\n  <name>wheelchair</name>\n"
         "  <!-- The component listed last starts first. -->\n  <subcomponents>\n";
-    const auto members = opros_members(configuration);
+    const auto members = opros_components(configuration);
     for (auto m = members.rbegin(); m != members.rend(); ++m)
         xml += subcomponent(*m, links_.count(m->name) ? adaptor_parameters(links_.at(m->name), options)
                                                       : parameters_of(m->name, options, path()));
     xml += "  </subcomponents>\n  <port_connections>\n";
-    for (const auto& wire : opros_wires(configuration)) xml += port_connection(wire);
+    for (const auto& wire : opros_connections(configuration)) xml += port_connection(wire);
     write_file(path() / "opros" / "wheelchair.xml", xml + "  </port_connections>\n</package_profile>\n");
 }
 
@@ -176,7 +176,7 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
     fs::create_directories(path() / "rtm");
     std::vector<std::string> modules, create, activate, connect;
     std::string files;
-    for (const auto& member : rtm_members(configuration)) {
+    for (const auto& member : rtm_components(configuration)) {
         std::string conf;
         for (const auto& [name, value] : parameters_of(member.name, options, path()))
             conf += fmt::format("conf.default.{}: {}\n", name, value);
@@ -190,7 +190,7 @@ void RunDirectory::write_rtm(const Options& options, Configuration configuration
         create.push_back(member.name);
         activate.push_back(member.name + "0");
     }
-    for (const auto& w : rtm_wires(configuration))
+    for (const auto& w : rtm_connections(configuration))
         connect.push_back(fmt::format("{}0.{}?port={}0.{}", w.from, w.from_port, w.to, w.to_port));
     if (!links_.empty()) {
         modules.push_back("InterceptorComp.so");

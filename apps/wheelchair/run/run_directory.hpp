@@ -46,7 +46,7 @@ class RunDirectory {
     /// Name of the link between the two halves; empty without one.
     /// Of the links between the hosts, by the AdaptorComp that has it.
     const std::map<std::string, std::string>& links() const { return links_; }
-    /// Where the host listens for a conductor in lock-step.
+    /// Where the host listens for a driver in lock-step.
     std::string step_socket(const std::string& host) const;
 
   private:

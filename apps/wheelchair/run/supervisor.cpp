@@ -70,7 +70,7 @@ std::string Host::command_line() const {
     return fmt::format("{}", fmt::join(words, " "));
 }
 
-std::string Host::complaint() const {
+std::string Host::first_error() const {
     std::ifstream file(log);
     file.seekg(log_start);
     std::string last;
@@ -111,7 +111,7 @@ void Supervisor::restart(Host& host) {
     host.ended = false;
 }
 
-void Supervisor::read_output(Host& host, News& news) {
+void Supervisor::read_output(Host& host, Events& news) {
     constexpr std::size_t max_line = 4096;
     host.output.read_available(host.unread);
     for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
@@ -124,7 +124,7 @@ void Supervisor::read_output(Host& host, News& news) {
     if (host.unread.size() > max_line) host.unread.clear(); // "ready" cannot be the end of such a line
 }
 
-Supervisor::News Supervisor::watch(std::chrono::milliseconds bound) {
+Supervisor::Events Supervisor::watch(std::chrono::milliseconds bound) {
     std::vector<pollfd> events{{signals_.get(), POLLIN, 0}};
     for (Host& host : hosts_) {
         if (!host.running()) continue;
@@ -132,7 +132,7 @@ Supervisor::News Supervisor::watch(std::chrono::milliseconds bound) {
         if (!host.ready()) events.push_back({host.output.reader(), POLLIN, 0});
     }
     poll(events.data(), events.size(), static_cast<int>(bound.count()));
-    News news;
+    Events news;
     signalfd_siginfo info{};
     while (read(signals_.get(), &info, sizeof info) == sizeof info) news.interrupted = true;
     for (Host& host : hosts_) {
@@ -156,13 +156,13 @@ void Supervisor::wait_until_ready(double seconds) {
             throw InputError(
                 fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more with --host-wait",
                             missing->name, missing->process.pid(), seconds,
-                            missing->complaint().empty() ? "" : ", it said: ", missing->complaint()));
+                            missing->first_error().empty() ? "" : ", it said: ", missing->first_error()));
         const auto news = watch(50ms);
         if (news.interrupted) throw Interrupted();
         for (Host* host : news.ended)
             throw InputError(fmt::format("{} (pid {}) {} before it was ready: {}", host->name,
                                          host->process.pid(), host->process.poll()->text(),
-                                         host->complaint()));
+                                         host->first_error()));
     }
 }
 

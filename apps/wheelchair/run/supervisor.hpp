@@ -27,7 +27,7 @@ struct Host {
     bool ready() const { return ready_at > 0.0; }
     bool running() const { return !ended; }
     std::string command_line() const; // quoted for a shell
-    std::string complaint() const;    // first error in its log, else the last line
+    std::string first_error() const;  // first error in its log, else the last line
 };
 
 /// Starts hosts, watches them, and ends them. Takes over SIGINT, SIGTERM and SIGHUP of this program while it
@@ -41,12 +41,12 @@ class Supervisor {
     /// Starts an ended host once more, same command, log continued.
     void restart(Host& host);
 
-    struct News {
+    struct Events {
         std::vector<Host*> ended, became_ready;
         bool interrupted = false;
     };
     /// Waits for news, at most `bound`.
-    News watch(std::chrono::milliseconds bound);
+    Events watch(std::chrono::milliseconds bound);
 
     /// Until all hosts are ready. Throws InputError with the host's last words when one ends before, when
     /// `seconds` are over, or when the user interrupts.
@@ -58,7 +58,7 @@ class Supervisor {
     std::deque<Host>& hosts() { return hosts_; }
 
   private:
-    void read_output(Host& host, News& news);
+    void read_output(Host& host, Events& news);
 
     std::deque<Host> hosts_; // a deque: Hosts stay where they are
     process::FileDescriptor signals_;

@@ -19,7 +19,8 @@ namespace tandem::engine {
 
 struct ApplicationOptions {
     std::vector<std::filesystem::path> plugin_dirs;
-    std::optional<plugin::Probe> probe; ///< libraries are tried in a child process of this program first
+    std::optional<plugin::ProbeOptions>
+        probe; ///< libraries are tried in a child process of this program first
     ExecutorOptions executors;
     std::size_t jobs_per_worker = 1024;
     /// Not empty: no executor threads, components are stepped through this socket (host/rt/step_server.hpp).

@@ -4,11 +4,11 @@
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/program/shutdown_watcher.hpp"
-#include "host/plugin/probe_switches.hpp"
+#include "host/plugin/probe_cli_options.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
-#include "host/rt/switches.hpp"
+#include "host/rt/real_time_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -24,8 +24,8 @@ using tandem::engine::ApplicationOptions;
 struct Options {
     std::filesystem::path application;
     ApplicationOptions host;
-    tandem::rt::Switches switches;
-    tandem::plugin::ProbeSwitches probe;
+    tandem::rt::RealTimeOptions real_time;
+    tandem::plugin::ProbeCliOptions probe;
     double grace_s = 10;
     bool stats = false;
 };
@@ -42,8 +42,8 @@ void declare(CLI::App& cli, Options& options) {
                    "Seconds that the end waits for a component that does not come back")
         ->check(CLI::Range(0.01, 3600.));
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
-    tandem::plugin::declare(cli, options.probe);
-    tandem::rt::declare(cli, options.switches);
+    tandem::plugin::add_probe_options(cli, options.probe);
+    tandem::rt::add_real_time_options(cli, options.real_time);
 }
 
 sigset_t shutdown_signals() {
@@ -56,7 +56,7 @@ sigset_t shutdown_signals() {
 int run(Options options) {
     const sigset_t signals = shutdown_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
-    for (const auto& notice : tandem::rt::apply(options.switches)) spdlog::warn("{}", notice);
+    for (const auto& notice : tandem::rt::apply(options.real_time)) spdlog::warn("{}", notice);
     tandem::engine::ShutdownWatcher shutdown(signals, options.host.grace);
     options.host.on_setup_step = [&shutdown](const std::string& component, const char* step) {
         shutdown.begin_step(component, step);
@@ -91,10 +91,10 @@ int main(int argc, char** argv) {
     cli.set_version_flag("--version", std::string("opros_host ") + tandem::version);
     declare(cli, options);
     CLI11_PARSE(cli, argc, argv);
-    options.host.probe = options.probe.probe();
+    options.host.probe = options.probe.probe_options();
     options.host.grace = std::chrono::nanoseconds(static_cast<std::int64_t>(options.grace_s * 1e9));
-    options.host.executors.cpu = options.switches.cpu;
-    options.host.executors.tick_spin = options.switches.tick_spin();
+    options.host.executors.cpu = options.real_time.cpu;
+    options.host.executors.tick_spin = options.real_time.tick_spin();
     try {
         const auto dirs = tandem::engine::default_plugin_dirs();
         options.host.plugin_dirs.insert(options.host.plugin_dirs.end(), dirs.begin(), dirs.end());

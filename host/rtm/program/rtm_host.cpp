@@ -3,11 +3,11 @@
 // It prints `ready` on standard output when all of rtc.conf has been carried out, and ends on SIGINT, SIGTERM
 // and SIGHUP. Exit code 0: ended in order, or a component that hangs was left behind; 1: bad input, or a static
 // destructor that hangs; any other: what a component gave to exit().
-#include "host/plugin/probe_switches.hpp"
+#include "host/plugin/probe_cli_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
+#include "host/rt/real_time_options.hpp"
 #include "host/rt/step_server.hpp"
-#include "host/rt/switches.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
 #include <CLI/CLI.hpp>
@@ -37,8 +37,8 @@ struct Arguments {
     std::vector<std::string> settings;
     std::vector<fs::path> plugin_path;
     bool master = false, conf_file_may_be_missing = false, no_corba_servant = false;
-    tandem::plugin::ProbeSwitches probe;
-    tandem::rt::Switches switches;
+    tandem::plugin::ProbeCliOptions probe;
+    tandem::rt::RealTimeOptions real_time;
 };
 
 void declare_options(CLI::App& app, Arguments& a) {
@@ -54,8 +54,8 @@ void declare_options(CLI::App& app, Arguments& a) {
                    "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
     app.add_option("--plugin-path", a.plugin_path, "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);
-    tandem::plugin::declare(app, a.probe);
-    tandem::rt::declare(app, a.switches);
+    tandem::plugin::add_probe_options(app, a.probe);
+    tandem::rt::add_real_time_options(app, a.real_time);
 }
 
 // Folders in which component libraries are searched after manager.modules.load_path: --plugin-path,
@@ -143,14 +143,14 @@ void bound_static_destructors(RTC::Manager& manager) {
 
 // From the start of the manager to its end; the exit code. Throws std::runtime_error before the manager runs.
 int run(const Arguments& a, char** argv_of_program) {
-    for (const auto& notice : tandem::rt::apply(a.switches)) spdlog::warn("{}", notice);
+    for (const auto& notice : tandem::rt::apply(a.real_time)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep_socket.empty();
     options.can_restart = true;
-    options.cpu = a.switches.cpu;
-    options.tick_spin = a.switches.tick_spin();
+    options.cpu = a.real_time.cpu;
+    options.tick_spin = a.real_time.tick_spin();
     options.plugin_path = plugin_path(a);
-    options.probe = a.probe.probe();
+    options.probe = a.probe.probe_options();
     coil::Argv argv(manager_arguments(a));
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
     const tandem::process::ExitGuard exit_guard; // from here on components may call exit()

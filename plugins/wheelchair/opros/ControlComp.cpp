@@ -51,8 +51,8 @@ class ControlComp : public Component, private ControlPorts {
         return OPROS_SUCCESS;
     }
 
-    Drained<Reference> references() override { return component::drain<Reference>(reference_); }
-    Drained<WheelSpeed> wheels() override { return component::drain<WheelSpeed>(wheelSpeed_); }
+    Received<Reference> references() override { return component::receive_all<Reference>(reference_); }
+    Received<WheelSpeed> wheels() override { return component::receive_all<WheelSpeed>(wheelSpeed_); }
     void send(const Stamped<Voltage>& voltage) override { component::push(refVoltage_, buffer_, voltage); }
 
     JoystickRequired* joystick_ = new JoystickRequired; // the component deletes its service ports

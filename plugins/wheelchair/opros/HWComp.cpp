@@ -61,8 +61,8 @@ class HWComp : public Component, public IChair, private HWPorts {
         return OPROS_SUCCESS;
     }
 
-    Drained<Voltage> voltages() override { return component::drain<Voltage>(refVoltage_); }
-    Drained<LinkState> link_states() override { return component::drain<LinkState>(linkState_); }
+    Received<Voltage> voltages() override { return component::receive_all<Voltage>(refVoltage_); }
+    Received<LinkState> link_states() override { return component::receive_all<LinkState>(linkState_); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
         component::push(wheelSpeed_, buffer_, wheels);
         component::push(joystickPos_, buffer_, position);

@@ -48,8 +48,8 @@ class JoystickComp : public Component, public IJoystick, private JoystickPorts {
         addPort("reference", &reference_);
     }
 
-    Drained<JoystickPosition> positions() override {
-        return component::drain<JoystickPosition>(joystickPos_);
+    Received<JoystickPosition> positions() override {
+        return component::receive_all<JoystickPosition>(joystickPos_);
     }
     void send(const Stamped<Reference>& reference) override {
         component::push(reference_, buffer_, reference);

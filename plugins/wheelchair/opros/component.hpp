@@ -23,16 +23,16 @@ constexpr int queue_length = 16;
 
 /// Most messages taken in one tick, so that a mad sender cannot hold it: more than a sender at 10 ms leaves behind
 /// while this process was paused for half a minute, since what is newest only comes after all that is old.
-constexpr int most_per_tick = 4096;
+constexpr int max_messages_per_tick = 4096;
 
 /// Empties the port.
 template <class T>
-Drained<T> drain(InputDataPort<Values>& port) {
-    Drained<T> in;
-    for (int i = 0; i < most_per_tick; ++i) {
+Received<T> receive_all(InputDataPort<Values>& port) {
+    Received<T> in;
+    for (int i = 0; i < max_messages_per_tick; ++i) {
         const std::unique_ptr<opros_any> any(port.pop());
         if (!any) break;
-        in.take(*port.getContentPointer(*any));
+        in.add(*port.getContentPointer(*any));
     }
     return in;
 }

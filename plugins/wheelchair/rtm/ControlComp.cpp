@@ -52,8 +52,8 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
         return RTC::RTC_OK;
     }
 
-    Drained<Reference> references() override { return reference_.drain<Reference>(); }
-    Drained<WheelSpeed> wheels() override { return wheelSpeed_.drain<WheelSpeed>(); }
+    Received<Reference> references() override { return reference_.receive_all<Reference>(); }
+    Received<WheelSpeed> wheels() override { return wheelSpeed_.receive_all<WheelSpeed>(); }
     void send(const Stamped<Voltage>& voltage) override { refVoltage_.write(voltage); }
 
     component::SequenceIn reference_{"reference"}, wheelSpeed_{"wheelSpeed"};

@@ -69,8 +69,8 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
         return RTC::RTC_OK;
     }
 
-    Drained<Voltage> voltages() override { return refVoltage_.drain<Voltage>(); }
-    Drained<LinkState> link_states() override { return linkState_.drain<LinkState>(); }
+    Received<Voltage> voltages() override { return refVoltage_.receive_all<Voltage>(); }
+    Received<LinkState> link_states() override { return linkState_.receive_all<LinkState>(); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
         wheelSpeed_.write(wheels);
         joystickPos_.write(position);

@@ -60,7 +60,7 @@ class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
     }
 
   private:
-    Drained<JoystickPosition> positions() override { return joystickPos_.drain<JoystickPosition>(); }
+    Received<JoystickPosition> positions() override { return joystickPos_.receive_all<JoystickPosition>(); }
     void send(const Stamped<Reference>& reference) override { reference_.write(reference); }
 
     component::SequenceIn joystickPos_{"joystickPos"};

@@ -21,18 +21,19 @@
 
 namespace tandem::wheelchair::component {
 
-constexpr int most_per_tick = 4096; // messages read from a port, so a fast sender cannot hold the tick
+constexpr int max_messages_per_tick =
+    4096; // messages read from a port, so a fast sender cannot hold the tick
 
 /// An in-port with the variable it reads into.
 struct SequenceIn {
     explicit SequenceIn(const char* name) : port(name, value) {}
 
     template <class T>
-    Drained<T> drain() {
-        Drained<T> in;
-        for (int i = 0; i < most_per_tick && port.isNew(); ++i) {
+    Received<T> receive_all() {
+        Received<T> in;
+        for (int i = 0; i < max_messages_per_tick && port.isNew(); ++i) {
             port.read();
-            in.take(std::span<const double>(value.data.get_buffer(), value.data.length()));
+            in.add(std::span<const double>(value.data.get_buffer(), value.data.length()));
         }
         return in;
     }
@@ -61,7 +62,7 @@ struct SequenceOut {
 
 /// The parameters every component of the run has, bound to its configuration sets.
 struct Parameters {
-    SettingTexts texts;
+    RawSettings texts;
 
     template <class Component>
     void bind(Component& component) {

@@ -109,10 +109,10 @@ TEST_CASE("when rtm_host is killed the motors stop, the other host stays, and th
     const auto result = run.result();
     INFO(run.errors);
     CHECK(run.exit_code != 0);
-    REQUIRE(result["incidents"].size() == 1);
-    CHECK(result["incidents"][0]["host"] == "rtm_host");
-    REQUIRE(result["incidents"][0]["motors_off_after_ms"].is_number());
-    CHECK(result["incidents"][0]["motors_off_after_ms"] < 1000.0);
+    REQUIRE(result["host_failures"].size() == 1);
+    CHECK(result["host_failures"][0]["host"] == "rtm_host");
+    REQUIRE(result["host_failures"][0]["motors_off_after_ms"].is_number());
+    CHECK(result["host_failures"][0]["motors_off_after_ms"] < 1000.0);
     CHECK(result["complete"] == true); // HWComp went on to the end
     CHECK_THAT(run.errors, Catch::Contains("was killed by signal 9") &&
                                Catch::Contains("to start it again: ") &&
@@ -125,8 +125,8 @@ TEST_CASE("a killed rtm_host that is started again gets its data without a resta
     run.kill_when_driving("rtm_host");
     const auto result = run.result();
     INFO(run.errors);
-    REQUIRE(result["incidents"].size() == 1);
-    CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    REQUIRE(result["host_failures"].size() == 1);
+    CHECK(result["host_failures"][0]["data_back_after_ms"].is_number());
     CHECK_FALSE(left_in_shared_memory(run.link()));
 }
 
@@ -135,9 +135,9 @@ TEST_CASE("a killed opros_host that is started again gets its data without a res
     run.kill_when_driving("opros_host");
     const auto result = run.result();
     INFO(run.errors);
-    REQUIRE(result["incidents"].size() == 1);
-    CHECK(result["incidents"][0]["host"] == "opros_host");
-    CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    REQUIRE(result["host_failures"].size() == 1);
+    CHECK(result["host_failures"][0]["host"] == "opros_host");
+    CHECK(result["host_failures"][0]["data_back_after_ms"].is_number());
     CHECK_FALSE(left_in_shared_memory(run.link()));
 }
 
@@ -146,11 +146,11 @@ TEST_CASE("with the roles exchanged the hardware RTC stops the motors when opros
     run.kill_when_driving("opros_host");
     const auto result = run.result();
     INFO(run.errors);
-    REQUIRE(result["incidents"].size() == 1);
-    CHECK(result["incidents"][0]["host"] == "opros_host");
-    REQUIRE(result["incidents"][0]["motors_off_after_ms"].is_number());
-    CHECK(result["incidents"][0]["motors_off_after_ms"] < 1000.0);
-    CHECK(result["incidents"][0]["data_back_after_ms"].is_number());
+    REQUIRE(result["host_failures"].size() == 1);
+    CHECK(result["host_failures"][0]["host"] == "opros_host");
+    REQUIRE(result["host_failures"][0]["motors_off_after_ms"].is_number());
+    CHECK(result["host_failures"][0]["motors_off_after_ms"] < 1000.0);
+    CHECK(result["host_failures"][0]["data_back_after_ms"].is_number());
     CHECK_FALSE(left_in_shared_memory(run.link()));
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("when the segment is truncated the motors stop until the hosts have jo
     run.truncate_when_driving();
     const auto result = run.result();
     INFO(run.errors);
-    CHECK(result["incidents"].empty()); // no host died; what was under way may be lost, and is reported
+    CHECK(result["host_failures"].empty()); // no host died; what was under way may be lost, and is reported
     CHECK(result["complete"] == true);
     for (const auto* host : {"opros_host", "rtm_host"}) {
         INFO(run.host_log(host));

@@ -30,8 +30,8 @@ TEST_CASE("statistics give the deviation of the sample") {
     const auto s = statistics({2, 4, 4, 4, 5, 5, 7, 9});
     CHECK(s.average == 5);
     CHECK(s.deviation == Approx(2.13809));
-    CHECK(s.least == 2);
-    CHECK(s.most == 9);
+    CHECK(s.min == 2);
+    CHECK(s.max == 9);
     CHECK(statistics({}).samples == 0);
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("the all-RTM run connects every port and activates the hardware first"
     CHECK(run.links().empty());
 }
 
-TEST_CASE("in lock-step the components stamp in simulated time and the hosts listen for a conductor") {
+TEST_CASE("in lock-step the components stamp in simulated time and the hosts listen for a driver") {
     Options options;
     options.lockstep = true;
     options.scenario = "doorway";

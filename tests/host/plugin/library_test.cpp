@@ -44,7 +44,7 @@ TEST_CASE("a function the library lacks is named together with the library") {
 TEST_CASE("an instance keeps its library loaded") {
     auto library = Library::load(GOOD_LIBRARY);
     auto release = library->symbol<void(int*)>("release_int");
-    auto instance = tandem::plugin::own(library, library->symbol<int*()>("make_int")(), release);
+    auto instance = tandem::plugin::share_instance(library, library->symbol<int*()>("make_int")(), release);
     library.reset();
     CHECK(loaded(GOOD_LIBRARY));
     CHECK(*instance == 7);
@@ -59,6 +59,6 @@ TEST_CASE("a missing file, a file that is no library and an unresolved symbol gi
     std::ofstream(text) << "not a library";
     CHECK(reason_of(text) == Reason::not_a_library);
     std::filesystem::remove(text);
-    CHECK(reason_of(UNDEFINED_LIBRARY) == Reason::not_loadable);
+    CHECK(reason_of(UNDEFINED_LIBRARY) == Reason::load_failed);
     CHECK_THROWS_WITH(Library::load(UNDEFINED_LIBRARY), Catch::Contains("nobody_defines_this"));
 }

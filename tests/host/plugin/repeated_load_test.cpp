@@ -110,7 +110,7 @@ TEST_CASE("eight threads probe good and bad components at once and each gets its
                 const std::filesystem::path file = i % 2 ? ZOO "/opros/entry_throws.so" : ALL_PORTS;
                 std::string said;
                 try {
-                    tandem::plugin::probe({OPROS_HOST, std::chrono::seconds(60)}, "load-opros", file);
+                    tandem::plugin::run_probe({OPROS_HOST, std::chrono::seconds(60)}, "load-opros", file);
                 } catch (const tandem::plugin::Error& error) {
                     said = error.what();
                 }

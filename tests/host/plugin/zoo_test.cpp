@@ -55,11 +55,12 @@ const std::vector<Species> rtm_only{
 std::string refusal(const Species& species, const std::string& model) {
     const bool rtm = model == "rtm";
     const std::string init = std::string(species.name) + "Init";
-    tandem::plugin::Probe how{rtm ? RTM_HOST : OPROS_HOST, std::chrono::seconds(species.hangs ? 1 : 60)};
+    tandem::plugin::ProbeOptions options{rtm ? RTM_HOST : OPROS_HOST,
+                                         std::chrono::seconds(species.hangs ? 1 : 60)};
     const std::string file = ZOO "/" + model + "/" + species.name + ".so";
     try {
-        tandem::plugin::probe(how, "load-" + model, file,
-                              rtm ? std::vector<std::string>{init, "250"} : std::vector<std::string>{});
+        tandem::plugin::run_probe(options, "load-" + model, file,
+                                  rtm ? std::vector<std::string>{init, "250"} : std::vector<std::string>{});
     } catch (const tandem::plugin::Error& error) {
         return error.what();
     }
@@ -92,7 +93,8 @@ TEST_CASE("a bad RTC module is refused in one line that says what it did and whe
 }
 
 TEST_CASE("a good plugin of either model passes its probe") {
-    CHECK_NOTHROW(tandem::plugin::probe({OPROS_HOST, std::chrono::seconds(60)}, "load-opros", OPROS_PLUGIN));
-    CHECK_NOTHROW(tandem::plugin::probe({RTM_HOST, std::chrono::seconds(60)}, "load-rtm", RTM_PLUGIN,
-                                        {"HWCompInit", "60000"}));
+    CHECK_NOTHROW(
+        tandem::plugin::run_probe({OPROS_HOST, std::chrono::seconds(60)}, "load-opros", OPROS_PLUGIN));
+    CHECK_NOTHROW(tandem::plugin::run_probe({RTM_HOST, std::chrono::seconds(60)}, "load-rtm", RTM_PLUGIN,
+                                            {"HWCompInit", "60000"}));
 }

@@ -54,19 +54,19 @@ TEST_CASE("a spinning tick does not come early either") {
 }
 
 TEST_CASE("a spinning tick is rehearsed at most once before each tick and a sleeping one never") {
-    int rehearsals = 0;
-    PeriodicTick spinning({.period = 20ms, .spin = 15ms, .rehearsal = [&] { ++rehearsals; }});
+    int warm_ups = 0;
+    PeriodicTick spinning({.period = 20ms, .spin = 15ms, .warm_up = [&] { ++warm_ups; }});
     for (int i = 0; i < 20; ++i) {
-        const int before = rehearsals;
+        const int before = warm_ups;
         spinning.wait();
-        CHECK(rehearsals - before <= 1);
+        CHECK(warm_ups - before <= 1);
     }
-    CHECK(rehearsals > 0); // each one, unless the machine kept the thread from its 15 ms
+    CHECK(warm_ups > 0); // each one, unless the machine kept the thread from its 15 ms
 
-    rehearsals = 0;
-    PeriodicTick sleeping({.period = 2ms, .rehearsal = [&] { ++rehearsals; }});
+    warm_ups = 0;
+    PeriodicTick sleeping({.period = 2ms, .warm_up = [&] { ++warm_ups; }});
     for (int i = 0; i < 5; ++i) sleeping.wait();
-    CHECK(rehearsals == 0);
+    CHECK(warm_ups == 0);
 }
 
 TEST_CASE("an interrupted tick ends a long wait without counting a tick") {

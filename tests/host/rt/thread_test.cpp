@@ -6,11 +6,11 @@
 #include <sys/prctl.h>
 #include <thread>
 
-using tandem::rt::set_up_this_thread;
+using tandem::rt::configure_this_thread;
 
 TEST_CASE("a thread that is set up has its name and a timer slack of one nanosecond") {
     std::thread([] {
-        CHECK(set_up_this_thread({"a name longer than fifteen", 0, -1}).empty());
+        CHECK(configure_this_thread({"a name longer than fifteen", 0, -1}).empty());
         char name[16] = "";
         pthread_getname_np(pthread_self(), name, sizeof name);
         CHECK(std::string(name) == "a name longer t");
@@ -20,7 +20,7 @@ TEST_CASE("a thread that is set up has its name and a timer slack of one nanosec
 
 TEST_CASE("a processor that does not exist gives a notice of one line and the thread runs on") {
     std::thread([] {
-        const auto notices = set_up_this_thread({"pinned", 0, 100000});
+        const auto notices = configure_this_thread({"pinned", 0, 100000});
         REQUIRE(notices.size() == 1);
         CHECK(notices[0].find("100000") != std::string::npos);
         CHECK(notices[0].find('\n') == std::string::npos);
@@ -28,5 +28,5 @@ TEST_CASE("a processor that does not exist gives a notice of one line and the th
 }
 
 TEST_CASE("a real-time priority is granted or refused with a notice, never an error") {
-    std::thread([] { CHECK(set_up_this_thread({"fast", 10, -1}).size() <= 1); }).join();
+    std::thread([] { CHECK(configure_this_thread({"fast", 10, -1}).size() <= 1); }).join();
 }

@@ -18,19 +18,19 @@ template <class T>
 class Queue {
   public:
     void put(const Stamped<T>& value) { in_.take(pack(value)); }
-    Drained<T> drain() { return std::exchange(in_, {}); }
+    Received<T> receive_all() { return std::exchange(in_, {}); }
 
   private:
-    Drained<T> in_;
+    Received<T> in_;
 };
 
 class Wires final : public JoystickPorts, public ControlPorts, public HWPorts {
   public:
-    Drained<JoystickPosition> positions() override { return positions_.drain(); }
-    Drained<Reference> references() override { return references_.drain(); }
-    Drained<WheelSpeed> wheels() override { return wheels_.drain(); }
-    Drained<Voltage> voltages() override { return voltages_.drain(); }
-    Drained<LinkState> link_states() override { return links_.drain(); }
+    Received<JoystickPosition> positions() override { return positions_.receive_all(); }
+    Received<Reference> references() override { return references_.receive_all(); }
+    Received<WheelSpeed> wheels() override { return wheels_.receive_all(); }
+    Received<Voltage> voltages() override { return voltages_.receive_all(); }
+    Received<LinkState> link_states() override { return links_.receive_all(); }
     void send(const Stamped<Reference>& r) override { references_.put(r); }
     void send(const Stamped<Voltage>& v) override {
         voltages_.put(v);
@@ -59,7 +59,7 @@ struct Run {
     }
     static Settings settings(const ScratchDir& dir, const std::string& scenario,
                              const std::string& component) {
-        SettingTexts texts;
+        RawSettings texts;
         texts.scenario = scenario;
         texts.clock = "simulated";
         texts.trace = dir / (component + ".trace");
@@ -167,7 +167,7 @@ TEST_CASE("a JoystickComp that was started again slows the chair down instead of
     run.steps(300);
     REQUIRE(run.control.state() == ControlState::run);
     const double before = run.wires.last_voltage.left;
-    SettingTexts texts;
+    RawSettings texts;
     texts.clock = "simulated";
     JoystickBody restarted(read_settings(texts), chair_limits());
     restarted.tick(run.wires); // within 50 ms, and from speed 0
@@ -188,7 +188,7 @@ TEST_CASE("a JoystickComp whose stick position is old sends nothing, for the dri
 }
 
 TEST_CASE("a reference left over from the tick before does not end the look-out for the next one") {
-    SettingTexts texts;
+    RawSettings texts;
     texts.poll_us = "5000";
     ControlBody control(read_settings(texts));
     Wires wires;

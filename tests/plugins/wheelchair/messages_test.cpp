@@ -28,10 +28,10 @@ TEST_CASE("a message of another length or without a finite stamp is not believed
 }
 
 TEST_CASE("draining a port keeps the newest message and counts all good ones") {
-    Drained<Reference> in;
-    CHECK(in.take(std::vector<double>{0.01, 1, 10, 0.5}));
-    CHECK_FALSE(in.take(std::vector<double>{0.01, 1}));
-    CHECK(in.take(std::vector<double>{0.02, 2, 20, 0.6}));
+    Received<Reference> in;
+    CHECK(in.add(std::vector<double>{0.01, 1, 10, 0.5}));
+    CHECK_FALSE(in.add(std::vector<double>{0.01, 1}));
+    CHECK(in.add(std::vector<double>{0.02, 2, 20, 0.6}));
     CHECK(in.count == 2);
     CHECK(in.newest->value.direction_deg == 20);
 }

@@ -36,7 +36,7 @@ class CallbackScope {
 
 ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
                              const std::vector<std::filesystem::path>& dirs,
-                             const std::optional<plugin::Probe>& probe)
+                             const std::optional<plugin::ProbeOptions>& probe)
     : name_(entry.name), profile_(std::move(profile)) {
     auto loaded = load_component(profile_, dirs, probe);
     library_ = std::move(loaded.library);
@@ -176,7 +176,7 @@ std::string ComponentHost::execute(bool warm_up) {
         return "";
     }
     return run_guarded("onExecute", [this, warm_up] {
-        if (warm_up) return rt::bring_into_caches(*component_);
+        if (warm_up) return rt::prefetch(*component_);
         log_return_code("onExecute", component_->onExecute(), last_execute_);
     });
 }

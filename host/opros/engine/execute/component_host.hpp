@@ -27,7 +27,7 @@ class ComponentHost {
     /// Loads the library and makes the instance. Throws SetupError.
     ComponentHost(const Subcomponent& entry, ComponentProfile profile,
                   const std::vector<std::filesystem::path>& dirs,
-                  const std::optional<plugin::Probe>& probe = std::nullopt);
+                  const std::optional<plugin::ProbeOptions>& probe = std::nullopt);
 
     const std::string& name() const { return name_; }
     const ComponentProfile& profile() const { return profile_; }

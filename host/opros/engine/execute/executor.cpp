@@ -66,7 +66,7 @@ void Executor::run() {
         options.fifo_priority = profile.priority;
         options.round_robin = profile.scheduling_policy == SchedulingPolicy::round_robin;
     }
-    for (const std::string& notice : rt::set_up_this_thread(options)) spdlog::info("{}", notice);
+    for (const std::string& notice : rt::configure_this_thread(options)) spdlog::info("{}", notice);
     while (trigger_->wait()) run_cycle(components_);
 }
 

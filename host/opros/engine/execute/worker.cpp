@@ -15,7 +15,7 @@ Worker::~Worker() {
 }
 
 void Worker::run() {
-    rt::set_up_this_thread({"worker", 0, -1});
+    rt::configure_this_thread({"worker", 0, -1});
     std::unique_lock<std::mutex> lock(mutex_);
     for (;;) {
         wake_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });

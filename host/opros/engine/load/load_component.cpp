@@ -18,10 +18,10 @@ namespace tandem::engine {
 namespace {
 
 /// Throws plugin::Error unless the library is of that kind and built against our headers.
-void require_ours(const std::filesystem::path& library, plugin::Kind kind) {
+void require_ours(const std::filesystem::path& library, plugin::LibraryKind kind) {
     const auto contents = plugin::read_contents(library);
     plugin::require_kind(library, contents, kind);
-    plugin::require_abi(library, contents, plugin::Model::opros, TANDEM_OPROS_ABI);
+    plugin::require_abi(library, contents, plugin::ComponentModel::opros, TANDEM_OPROS_ABI);
 }
 
 // The last field of a version is of no consequence.
@@ -76,9 +76,9 @@ std::string find_device_library(const ComponentProfile& profile, const std::stri
         return value;
     }
     try { // all that the component could say is that it has no device
-        require_ours(found, plugin::Kind::device_api);
+        require_ours(found, plugin::LibraryKind::device_api);
     } catch (const plugin::Error& error) {
-        if (error.reason() == plugin::Reason::another_abi) // the component could not tell, and call it
+        if (error.reason() == plugin::Reason::abi_mismatch) // the component could not tell, and call it
             throw SetupError(profile.location, property + " " + value + ": " + error.what());
         spdlog::warn("{} {}: {}", property, value, error.what());
     }
@@ -98,16 +98,16 @@ void give_device_library_all_names(std::map<std::string, std::string>& propertie
 } // namespace
 
 void require_opros_component(const std::filesystem::path& library) {
-    require_ours(library, plugin::Kind::opros_component);
+    require_ours(library, plugin::LibraryKind::opros_component);
 }
 
 LoadedComponent instantiate_component(const std::filesystem::path& file) {
     const auto library = plugin::Library::load(file);
-    plugin::require_abi_of_process(plugin::Model::opros, TANDEM_OPROS_ABI, library->path());
+    plugin::require_abi_of_process(plugin::ComponentModel::opros, TANDEM_OPROS_ABI, library->path());
     check_version(*library);
     void (*release)(Component*) = [](Component* dying) { delete dying; };
     if (library->has("releaseComponent")) release = library->symbol<void(Component*)>("releaseComponent");
-    return {library, plugin::own(library, make(*library), release)};
+    return {library, plugin::share_instance(library, make(*library), release)};
 }
 
 std::filesystem::path find_component_library(const ComponentProfile& profile,
@@ -132,11 +132,11 @@ void set_component_properties(Component& component, const ComponentProfile& prof
 
 LoadedComponent load_component(const ComponentProfile& profile,
                                const std::vector<std::filesystem::path>& dirs,
-                               const std::optional<plugin::Probe>& probe) {
+                               const std::optional<plugin::ProbeOptions>& probe) {
     const auto file = find_component_library(profile, dirs);
     try {
         require_opros_component(file);
-        if (probe) plugin::probe(*probe, load_probe_task, file);
+        if (probe) plugin::run_probe(*probe, load_probe_task, file);
         return instantiate_component(file);
     } catch (const std::runtime_error& error) {
         throw SetupError(profile.library_location, error.what());

@@ -43,6 +43,6 @@ void set_component_properties(Component& component, const ComponentProfile& prof
 /// library's name.
 LoadedComponent load_component(const ComponentProfile& profile,
                                const std::vector<std::filesystem::path>& dirs,
-                               const std::optional<plugin::Probe>& probe);
+                               const std::optional<plugin::ProbeOptions>& probe);
 
 } // namespace tandem::engine

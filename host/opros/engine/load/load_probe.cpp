@@ -6,13 +6,13 @@
 namespace tandem::engine {
 
 void run_load_probe(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
-    report.stage("its static constructors");
+    report.begin_stage("its static constructors");
     auto library = plugin::Library::load(task.library);
-    report.stage("getComponent()");
+    report.begin_stage("getComponent()");
     auto loaded = instantiate_component(task.library);
-    report.stage("releaseComponent()");
+    report.begin_stage("releaseComponent()");
     loaded.component.reset();
-    report.stage("its static destructors");
+    report.begin_stage("its static destructors");
     loaded.library.reset();
     library.reset();
 }

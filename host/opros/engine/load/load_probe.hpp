@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/plugin/probed_side.hpp"
+#include "host/plugin/probe_child.hpp"
 
 namespace tandem::engine {
 

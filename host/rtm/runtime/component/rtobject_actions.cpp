@@ -139,7 +139,7 @@ ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) { return execute(ec_id, f
 ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool warm_up) {
     const auto callback = [&] {
         if (warm_up) {
-            tandem::rt::bring_into_caches(*this);
+            tandem::rt::prefetch(*this);
             return RTC_OK;
         }
         if (m_readAll) readAll();

@@ -86,7 +86,8 @@ void PeriodicExecutionContext::run(Worker& worker) {
     int priority = 0;
     std::vector<int> cpus;
     coil::stringTo(priority, m_properties.getProperty("priority").c_str());
-    for (const auto& notice : tandem::rt::set_up_this_thread({"rtm-ec", priority, RTC::host_options().cpu}))
+    for (const auto& notice :
+         tandem::rt::configure_this_thread({"rtm-ec", priority, RTC::host_options().cpu}))
         RTC_WARN(("%s", notice.c_str()));
     if (coil::stringTo(cpus, m_properties.getProperty("cpu_affinity").c_str()) && !cpus.empty())
         if (const auto notice = tandem::rt::pin_this_thread("thread rtm-ec", cpus))

@@ -51,7 +51,7 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
     std::lock_guard<std::mutex> lock(the_mutex);
     if (the_manager != nullptr) return *the_manager;
     // A component's own program is linked to this library, whatever headers it was built against.
-    tandem::plugin::require_abi_of_process(tandem::plugin::Model::rtm, TANDEM_RTM_ABI);
+    tandem::plugin::require_abi_of_process(tandem::plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
     std::unique_ptr<Manager> manager(new Manager(options));
     read_configuration(*manager->m_impl, argc, argv);
     start_orb(*manager->m_impl);

@@ -25,8 +25,8 @@ coil::Properties module_profile(const std::string& name, const std::filesystem::
 bool is_rtc_module(const std::filesystem::path& file) {
     try {
         const auto contents = tandem::plugin::read_contents(file);
-        tandem::plugin::require_abi(file, contents, tandem::plugin::Model::rtm, TANDEM_RTM_ABI);
-        return contents.kind == tandem::plugin::Kind::rtc_module;
+        tandem::plugin::require_abi(file, contents, tandem::plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
+        return contents.kind == tandem::plugin::LibraryKind::rtc_module;
     } catch (const tandem::plugin::Error&) {
         return false; // not a library, or for another processor, or built against other headers
     }

@@ -32,16 +32,17 @@ std::string base_name(const std::string& file_name) {
 
 // The name of the init function when rtc.conf does not give it: NAMEInit, without a leading `lib` as well, or
 // rtc_init, which components of old templates have.
-std::string find_init_symbol(const std::filesystem::path& file, const tandem::plugin::Contents& contents,
-                             const std::string& base) {
+std::string find_init_symbol(const std::filesystem::path& file,
+                             const tandem::plugin::LibraryContents& contents, const std::string& base) {
     std::vector<std::string> tried{base + "Init"};
     if (base.compare(0, 3, "lib") == 0) tried.push_back(base.substr(3) + "Init");
     tried.emplace_back("rtc_init");
     for (const auto& symbol : tried)
         if (contents.exports.count(symbol)) return symbol;
     // A library of another model gets the message that says so.
-    if (contents.kind != tandem::plugin::Kind::rtc_module && contents.kind != tandem::plugin::Kind::other)
-        tandem::plugin::require_kind(file, contents, tandem::plugin::Kind::rtc_module);
+    if (contents.kind != tandem::plugin::LibraryKind::rtc_module &&
+        contents.kind != tandem::plugin::LibraryKind::other)
+        tandem::plugin::require_kind(file, contents, tandem::plugin::LibraryKind::rtc_module);
     throw ManagerError("module " + file.string() + " has no function " + tried[0] +
                        "; export it (extern \"C\"), or name another function: " + file.filename().string() +
                        "(FUNCTION)");
@@ -75,12 +76,12 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
                                ": absolute paths are not allowed (manager.modules.abs_path_allowed: NO)");
         const auto file = plugin::find_library(name, m_impl->module_dirs());
         const auto contents = plugin::read_contents(file);
-        plugin::require_abi(file, contents, plugin::Model::rtm, TANDEM_RTM_ABI);
+        plugin::require_abi(file, contents, plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
         const std::string symbol =
             function.empty() ? find_init_symbol(file, contents, base_name(name)) : function;
         if (m_impl->options.probe) probe_module(*m_impl->options.probe, file, symbol, m_impl->log);
         const auto library = plugin::Library::load(file);
-        plugin::require_abi_of_process(plugin::Model::rtm, TANDEM_RTM_ABI, library->path());
+        plugin::require_abi_of_process(plugin::ComponentModel::rtm, TANDEM_RTM_ABI, library->path());
         const auto init = library->symbol<void(Manager*)>(symbol);
         {
             // Never unloaded: objects and code of a component may be in use until the process ends.

@@ -17,8 +17,8 @@ struct HostOptions {
     std::chrono::nanoseconds tick_spin{0}; ///< how long before a tick a context polls the clock
     /// How long a context that is stopped waits for its running callback to return.
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
-    std::vector<std::filesystem::path> plugin_path; ///< searched after manager.modules.load_path
-    std::optional<tandem::plugin::Probe> probe;     ///< modules are loaded in a child process first
+    std::vector<std::filesystem::path> plugin_path;    ///< searched after manager.modules.load_path
+    std::optional<tandem::plugin::ProbeOptions> probe; ///< modules are loaded in a child process first
     bool can_restart = false; ///< the program starts anew when Manager::restartWanted() is true
 };
 

@@ -42,12 +42,12 @@ std::string Manager::tryFactories(const std::function<void(const std::string&)>&
     return stuck;
 }
 
-void probe_module(const tandem::plugin::Probe& how, const std::string& library, const std::string& init,
-                  Logger& rtclog) {
+void probe_module(const tandem::plugin::ProbeOptions& options, const std::string& library,
+                  const std::string& init, Logger& rtclog) {
     // A destructor that hangs only earns a warning, so it must not use up the time of the whole probe.
-    const auto destructor_timeout = how.bound / 4;
-    const std::string stuck = tandem::plugin::probe(how, module_probe_task, library,
-                                                    {init, std::to_string(destructor_timeout.count())});
+    const auto destructor_timeout = options.timeout / 4;
+    const std::string stuck = tandem::plugin::run_probe(options, module_probe_task, library,
+                                                        {init, std::to_string(destructor_timeout.count())});
     if (!stuck.empty())
         RTC_WARN(
             ("module %s: the destructor of %s does not return; the host will not wait for it when such a "
@@ -58,15 +58,16 @@ void probe_module(const tandem::plugin::Probe& how, const std::string& library, 
 void run_module_probe(const tandem::plugin::ProbeTask& task, tandem::plugin::ProbeReport& report) {
     const std::string init = task.arguments.at(0);
     const std::chrono::milliseconds destructor_timeout(std::stol(task.arguments.at(1)));
-    report.stage("its static constructors");
+    report.begin_stage("its static constructors");
     const auto library = tandem::plugin::Library::load(task.library);
-    tandem::plugin::require_abi_of_process(tandem::plugin::Model::rtm, TANDEM_RTM_ABI, library->path());
+    tandem::plugin::require_abi_of_process(tandem::plugin::ComponentModel::rtm, TANDEM_RTM_ABI,
+                                           library->path());
     library->symbol<void(Manager*)>(init); // throws when there is none
     Manager& manager = private_manager();
-    report.stage(init + "()");
+    report.begin_stage(init + "()");
     manager.loadOrThrow(task.library, init);
     try {
-        const auto report_stage = [&](const std::string& function) { report.stage(function); };
+        const auto report_stage = [&](const std::string& function) { report.begin_stage(function); };
         report.finish(manager.tryFactories(report_stage, destructor_timeout));
     } catch (const ManagerError& e) {
         throw ManagerError("module " + task.library + ": " + e.what());

@@ -13,7 +13,7 @@ namespace {
 
 /// About a third of a microsecond away from the port between two looks, so that a sender who needs the port's
 /// lock does not find it taken by the one who waits for it.
-void look_away() {
+void pause_between_polls() {
     for (int i = 0; i < 8; ++i) {
 #if defined(__x86_64__)
         __builtin_ia32_pause();
@@ -42,7 +42,7 @@ ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
         }
         const bool of_this_tick = in.newest && now - reference_.stamp < 0.5 * tick_seconds;
         if (of_this_tick || now >= give_up) return read;
-        look_away();
+        pause_between_polls();
     }
 }
 

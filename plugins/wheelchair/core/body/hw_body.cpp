@@ -3,7 +3,7 @@
 
 namespace tandem::wheelchair {
 
-HWRecord record_of(const Chair& chair) {
+HWRecord make_record(const Chair& chair) {
     const State& s = chair.plant().state;
     const auto stick = chair.joystick();
     const auto wheels = chair.wheel_speed();
@@ -35,8 +35,8 @@ HWRecord record_of(const Chair& chair) {
 HWBody::HWBody(const Settings& settings)
     : clock_(settings.simulated), trace_(settings.trace), chair_(settings.scenario, 0.0) {}
 
-HWRecord HWBody::record(const Drained<Voltage>& in, double applied_at) const {
-    HWRecord r = record_of(chair_);
+HWRecord HWBody::record(const Received<Voltage>& in, double applied_at) const {
+    HWRecord r = make_record(chair_);
     r.at = monotonic_seconds();
     r.applied_at = applied_at;
     r.voltage_sequence = voltage_.sequence;

@@ -27,7 +27,7 @@ class HWBody {
     const Chair& chair() const { return chair_; }
 
   private:
-    HWRecord record(const Drained<Voltage>& in, double applied_at) const;
+    HWRecord record(const Received<Voltage>& in, double applied_at) const;
 
     TickClock clock_;
     Trace<HWRecord> trace_;
@@ -38,6 +38,6 @@ class HWBody {
 };
 
 /// The part of a record that describes the chair as it stands.
-HWRecord record_of(const Chair& chair);
+HWRecord make_record(const Chair& chair);
 
 } // namespace tandem::wheelchair

@@ -12,12 +12,12 @@ namespace tandem::wheelchair {
 /// What an in-port held: its newest message, and how many there were (older ones are counted, then
 /// discarded).
 template <class T>
-struct Drained {
+struct Received {
     std::optional<Stamped<T>> newest;
     int count = 0;
 
     /// Takes the next older-to-newer message in; false when it is malformed.
-    bool take(std::span<const double> message) {
+    bool add(std::span<const double> message) {
         const auto value = unpack<T>(message);
         if (!value) return false;
         newest = value;
@@ -28,7 +28,7 @@ struct Drained {
 
 class JoystickPorts {
   public:
-    virtual Drained<JoystickPosition> positions() = 0;
+    virtual Received<JoystickPosition> positions() = 0;
     virtual void send(const Stamped<Reference>& reference) = 0;
 
   protected:
@@ -37,8 +37,8 @@ class JoystickPorts {
 
 class ControlPorts {
   public:
-    virtual Drained<Reference> references() = 0;
-    virtual Drained<WheelSpeed> wheels() = 0;
+    virtual Received<Reference> references() = 0;
+    virtual Received<WheelSpeed> wheels() = 0;
     virtual void send(const Stamped<Voltage>& voltage) = 0;
 
   protected:
@@ -47,8 +47,8 @@ class ControlPorts {
 
 class HWPorts {
   public:
-    virtual Drained<Voltage> voltages() = 0;
-    virtual Drained<LinkState> link_states() = 0; // empty when no link is connected
+    virtual Received<Voltage> voltages() = 0;
+    virtual Received<LinkState> link_states() = 0; // empty when no link is connected
     virtual void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) = 0;
 
   protected:

@@ -28,7 +28,7 @@ double poll_seconds(const std::string& text) {
 
 } // namespace
 
-Settings read_settings(const SettingTexts& texts) {
+Settings read_settings(const RawSettings& texts) {
     return {load_scenario(texts.scenario, texts.joystick_file), simulated(texts.clock),
             poll_seconds(texts.poll_us), texts.trace};
 }

@@ -9,7 +9,7 @@ namespace tandem::wheelchair {
 
 /// Parameters as texts, as profiles and rtc.conf give them; empty means default. Each component reads those
 /// it has.
-struct SettingTexts {
+struct RawSettings {
     std::string scenario{};      // name, default step20
     std::string joystick_file{}; // CSV with stick positions, default none
     std::string clock{};         // monotonic (default) | simulated
@@ -25,6 +25,6 @@ struct Settings {
 };
 
 /// Throws InputError that names the parameter and what it may be.
-Settings read_settings(const SettingTexts& texts);
+Settings read_settings(const RawSettings& texts);
 
 } // namespace tandem::wheelchair

@@ -9,7 +9,7 @@ namespace tandem::wheelchair {
 
 namespace {
 
-bool older_than_allowed(double t, double stamp) { return t - stamp > stale_seconds + age_tolerance; }
+bool is_stale(double t, double stamp) { return t - stamp > stale_seconds + age_tolerance; }
 
 bool finite(const Reference& r, const WheelSpeed& w) {
     return std::isfinite(r.direction_deg) && std::isfinite(r.speed) && std::isfinite(w.left) &&
@@ -28,14 +28,14 @@ double proportional_integral(double wanted, double error, double feed_forward, d
 
 } // namespace
 
-void ControlLaw::release() { mean_integral_ = ratio_integral_ = 0.0; }
+void ControlLaw::reset_integrators() { mean_integral_ = ratio_integral_ = 0.0; }
 
 void ControlLaw::update_state(double t, const Stamped<Reference>& reference,
                               const Stamped<WheelSpeed>& wheels) {
-    const bool late = older_than_allowed(t, reference.stamp);
+    const bool late = is_stale(t, reference.stamp);
     if (wheels.value.emergency_stop) {
         state_ = ControlState::emergency_stop;
-    } else if (!finite(reference.value, wheels.value) || older_than_allowed(t, wheels.stamp)) {
+    } else if (!finite(reference.value, wheels.value) || is_stale(t, wheels.stamp)) {
         if (state_ != ControlState::emergency_stop) state_ = ControlState::fault;
     } else if (state_ == ControlState::run && late) {
         state_ = ControlState::stale;
@@ -45,7 +45,7 @@ void ControlLaw::update_state(double t, const Stamped<Reference>& reference,
 }
 
 /// The reference itself, or, when it is stale, its last direction with a speed that falls to 0.
-Reference ControlLaw::followed(const Reference& reference) {
+Reference ControlLaw::effective_reference(const Reference& reference) {
     if (state_ == ControlState::stale) {
         const double most = parameters_.stop_deceleration * tick_seconds;
         speed_ -= limit(speed_, -most, most);
@@ -57,16 +57,16 @@ Reference ControlLaw::followed(const Reference& reference) {
 }
 
 /// Counts ticks of standstill and lets the integrators leak; true once the brake goes on.
-bool ControlLaw::standing(double mean, double difference) {
+bool ControlLaw::update_standstill(double mean, double difference) {
     const ControlParameters& p = parameters_;
     if (speed_ == 0.0 && std::abs(mean) < p.still_speed && std::abs(difference) < p.still_speed) {
-        ++still_;
+        ++still_tick_count_;
         mean_integral_ *= p.leak;
         ratio_integral_ *= p.leak;
     } else {
-        still_ = 0;
+        still_tick_count_ = 0;
     }
-    return still_ >= p.still_ticks;
+    return still_tick_count_ >= p.still_ticks;
 }
 
 Voltage ControlLaw::drive(const Reference& reference, double mean, double difference) {
@@ -81,10 +81,10 @@ Voltage ControlLaw::drive(const Reference& reference, double mean, double differ
         filtered_direction_ += p.direction_filter * (direction - filtered_direction_);
         const double k = p.kappa * std::tan(filtered_direction_ / degrees);
         mean_wanted = v / p.wheel_radius;
-        // At standstill a ratio says nothing: lean on the wanted speed until there is a real one.
-        double lean = 1.0 - std::abs(mean) / p.blend_speed;
-        if (lean < 0.0) lean = 0.0;
-        difference_wanted = k * (mean + lean * (mean_wanted - mean));
+        // At standstill a ratio says nothing: blend on the wanted speed until there is a real one.
+        double blend = 1.0 - std::abs(mean) / p.blend_speed;
+        if (blend < 0.0) blend = 0.0;
+        difference_wanted = k * (mean + blend * (mean_wanted - mean));
     }
     const double ratio_error = difference_wanted - difference;
     const double speed_error = mean_wanted - mean;
@@ -99,15 +99,15 @@ Voltage ControlLaw::tick(double t, const Stamped<Reference>& reference, const St
     constexpr Voltage stop{0.0, 0.0, true};
     update_state(t, reference, wheels);
     if (state_ == ControlState::emergency_stop || state_ == ControlState::fault) {
-        release();
+        reset_integrators();
         speed_ = 0.0;
         return stop;
     }
-    const Reference target = followed(reference.value);
+    const Reference target = effective_reference(reference.value);
     const double mean = 0.5 * (wheels.value.right + wheels.value.left);
     const double difference = 0.5 * (wheels.value.right - wheels.value.left);
-    if (standing(mean, difference)) {
-        release();
+    if (update_standstill(mean, difference)) {
+        reset_integrators();
         filtered_direction_ = target.direction_deg;
         return stop;
     }

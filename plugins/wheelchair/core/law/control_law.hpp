@@ -25,16 +25,16 @@ class ControlLaw {
 
   private:
     void update_state(double t, const Stamped<Reference>& reference, const Stamped<WheelSpeed>& wheels);
-    Reference followed(const Reference& reference);
-    bool standing(double mean, double difference);
+    Reference effective_reference(const Reference& reference);
+    bool update_standstill(double mean, double difference);
     Voltage drive(const Reference& reference, double mean, double difference);
-    void release();
+    void reset_integrators();
 
     ControlParameters parameters_;
     ControlState state_ = ControlState::run;
     double filtered_direction_ = 0.0, last_direction_ = 0.0, speed_ = 0.0;
     double mean_integral_ = 0.0, ratio_integral_ = 0.0; // V
-    int still_ = 0;
+    int still_tick_count_ = 0;
 };
 
 } // namespace tandem::wheelchair

@@ -20,7 +20,7 @@ constexpr const char* heading_line = "t,jx,jy,ref_dir_deg,ref_speed,dir_filt_deg
                                      "theta,phiL_deg,phiR_deg,brake,state\n";
 
 /// The part of a row that HWComp's publication fixes.
-Row row_of(const HWRecord& h) {
+Row make_row(const HWRecord& h) {
     Row r;
     r.t = h.sequence * tick_seconds;
     r.jx = std::lround(h.jx);
@@ -59,9 +59,9 @@ double used(const ControlRecord& c) { return c.wheel_sequence; }
 
 /// Walks a component's records alongside HWComp's publications.
 template <class Record>
-class Follower {
+class RecordMatcher {
   public:
-    explicit Follower(const std::vector<Record>& records) : records_(records) {}
+    explicit RecordMatcher(const std::vector<Record>& records) : records_(records) {}
 
     /// The record that used publication `h`, else the last one found, else nothing.
     const Record* at(const HWRecord& h) {
@@ -114,7 +114,7 @@ std::vector<Row> simulate(const Scenario& scenario) {
         const auto reference = joystick.tick(chair.joystick());
         if (!scenario.muted(t)) sent = {t, tick, reference};
         const auto voltage = control.tick(t, sent, {t, tick, chair.wheel_speed()});
-        Row row = row_of(record_of(chair));
+        Row row = make_row(make_record(chair));
         row.reference_direction_deg = reference.direction_deg;
         row.reference_speed = reference.speed;
         row.filtered_direction_deg = control.filtered_direction_deg();
@@ -131,11 +131,11 @@ std::vector<Row> simulate(const Scenario& scenario) {
 
 std::vector<Row> merge(const std::vector<HWRecord>& hw, const std::vector<JoystickRecord>& joystick,
                        const std::vector<ControlRecord>& control, int last_tick) {
-    Follower<JoystickRecord> references(joystick);
-    Follower<ControlRecord> voltages(control);
+    RecordMatcher<JoystickRecord> references(joystick);
+    RecordMatcher<ControlRecord> voltages(control);
     std::vector<Row> rows;
     for (std::size_t i = last_start(hw); i < hw.size() && hw[i].sequence <= last_tick; ++i) {
-        Row row = row_of(hw[i]);
+        Row row = make_row(hw[i]);
         if (const auto* j = references.at(hw[i])) add(row, *j);
         if (const auto* c = voltages.at(hw[i])) add(row, *c);
         rows.push_back(row);

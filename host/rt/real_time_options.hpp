@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real-time switches of both hosts, under one name each.
+// The real-time options of both hosts, under one name each.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ class App;
 
 namespace tandem::rt {
 
-struct Switches {
+struct RealTimeOptions {
     int cpu = -1;            ///< --cpu: for threads that tick; in wait mode same-core for the whole process
     double tick_spin_us = 0; ///< --tick-spin
     std::string wait_mode;   ///< --wait-mode; empty: the bridges' own default
@@ -24,11 +24,11 @@ struct Switches {
     }
 };
 
-void declare(CLI::App& cli, Switches& switches);
+void add_real_time_options(CLI::App& cli, RealTimeOptions& options);
 
 /// [main-thread, before there are others: they inherit it] Asks the kernel, sets a timer slack of 1 ns, and
 /// hands the wait mode on to the bridges that this host will load, as $TANDEM_WAIT_MODE. Returns a notice of
-/// one line for each refusal. Throws std::runtime_error when the switches contradict each other.
-std::vector<std::string> apply(const Switches& switches);
+/// one line for each refusal. Throws std::runtime_error when the options contradict each other.
+std::vector<std::string> apply(const RealTimeOptions& options);
 
 } // namespace tandem::rt

@@ -11,9 +11,9 @@ namespace tandem::wheelchair {
 
 /// A component's trace, followed while it grows. Works before the component exists and after it was killed.
 template <class Record>
-class LiveTrace {
+class TraceFollower {
   public:
-    explicit LiveTrace(std::string path) : path_(std::move(path)) {}
+    explicit TraceFollower(std::string path) : path_(std::move(path)) {}
 
     /// Reads what has come since the last call. Throws InputError when the file is no trace.
     void update() {
@@ -37,13 +37,13 @@ class LiveTrace {
     std::vector<Record> records_;
 };
 
-struct LiveTraces {
-    LiveTrace<HWRecord> hw;
-    LiveTrace<JoystickRecord> joystick;
-    LiveTrace<ControlRecord> control;
+struct ComponentTraces {
+    TraceFollower<HWRecord> hw;
+    TraceFollower<JoystickRecord> joystick;
+    TraceFollower<ControlRecord> control;
 
     /// `folder`: where the run directory has its traces.
-    explicit LiveTraces(const std::string& folder)
+    explicit ComponentTraces(const std::string& folder)
         : hw(folder + "/HWComp.trace"), joystick(folder + "/JoystickComp.trace"),
           control(folder + "/ControlComp.trace") {}
 

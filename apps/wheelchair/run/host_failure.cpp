@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/wheelchair/run/incident.hpp"
+#include "apps/wheelchair/run/host_failure.hpp"
 
 namespace tandem::wheelchair {
 
@@ -23,8 +23,8 @@ const ControlRecord* next_reference(double after, const std::vector<ControlRecor
 
 } // namespace
 
-std::optional<double> stopped_after_ms(double died_at, const std::vector<HWRecord>& hw,
-                                       const std::vector<ControlRecord>& control) {
+std::optional<double> motors_off_after_ms(double died_at, const std::vector<HWRecord>& hw,
+                                          const std::vector<ControlRecord>& control) {
     const ControlRecord* last = last_reference(died_at + in_flight, control);
     if (!last) return {};
     for (const HWRecord& r : hw)
@@ -33,15 +33,15 @@ std::optional<double> stopped_after_ms(double died_at, const std::vector<HWRecor
     return {};
 }
 
-bool Incident::update(const std::vector<HWRecord>& hw, const std::vector<ControlRecord>& control) {
+bool HostFailure::update(const std::vector<HWRecord>& hw, const std::vector<ControlRecord>& control) {
     bool news = false;
-    if (!stopped_after_ms && !had_hw) {
-        stopped_after_ms = wheelchair::stopped_after_ms(at, hw, control);
-        news = stopped_after_ms.has_value();
+    if (!motors_off_after_ms && !had_hw) {
+        motors_off_after_ms = wheelchair::motors_off_after_ms(at, hw, control);
+        news = motors_off_after_ms.has_value();
     }
-    if (!back_after_ms) {
+    if (!data_back_after_ms) {
         if (const ControlRecord* back = next_reference(at + in_flight, control)) {
-            back_after_ms = (back->reference_read_at - (ready_again_at > 0.0 ? ready_again_at : at)) * 1e3;
+            data_back_after_ms = (back->reference_read_at - (restarted_at > 0.0 ? restarted_at : at)) * 1e3;
             news = true;
         }
     }

@@ -13,22 +13,22 @@
 namespace tandem::wheelchair {
 
 /// Lock-step: asks the hosts for one component's cycle after the other, in the order of the specification.
-class Conductor {
+class LockstepDriver {
   public:
     /// Connects to the hosts of the run. Throws std::runtime_error.
-    Conductor(const RunDirectory& run, Configuration configuration);
+    LockstepDriver(const RunDirectory& run, Configuration configuration);
 
     /// JoystickComp, ControlComp, and unless `last` HWComp. Throws std::runtime_error with the host's
     /// message.
-    void tick(bool last);
+    void run_tick(bool last);
 
   private:
-    struct Seat {
+    struct Step {
         rt::StepClient* host;
         std::string instance;
     };
     std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_;
-    std::vector<Seat> seats_; // in order
+    std::vector<Step> steps_; // in order
 };
 
 } // namespace tandem::wheelchair

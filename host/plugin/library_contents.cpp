@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/plugin/contents.hpp"
+#include "host/plugin/library_contents.hpp"
 
 #include "host/plugin/elf_file.hpp"
 #include "host/plugin/error.hpp"
@@ -14,8 +14,8 @@ bool uses_class(const ElfContents& elf, const std::string& mangled) {
                        [&](const std::string& name) { return name.find(mangled) != std::string::npos; });
 }
 
-Headers headers(ElfContents& elf, Model model, const std::string& mangled) {
-    return {std::move(elf.numbers[note_owner(model)]), uses_class(elf, mangled)};
+HeaderUse header_use(ElfContents& elf, ComponentModel model, const std::string& mangled) {
+    return {std::move(elf.note_numbers[note_owner(model)]), uses_class(elf, mangled)};
 }
 
 // The init function is named after the library's file, which may have been renamed since: any one will do.
@@ -28,65 +28,68 @@ std::string init_function(const std::set<std::string>& exports) {
     return found == exports.end() ? "" : *found;
 }
 
-const char* expected_text(Kind kind) {
+const char* expected_text(LibraryKind kind) {
     switch (kind) {
-    case Kind::opros_component:
+    case LibraryKind::opros_component:
         return "an OPRoS component, which exports getComponent";
-    case Kind::rtc_module:
+    case LibraryKind::rtc_module:
         return "an RTC module, which exports NAMEInit (extern \"C\")";
-    case Kind::device_api:
+    case LibraryKind::device_api:
         return "a device API, which exports GetAPI (extern \"C\")";
     default:
         return kind_text(kind);
     }
 }
 
-const char* remedy(Kind kind) {
-    if (kind == Kind::rtc_module) return "; rtm_host runs it";
-    if (kind == Kind::opros_component) return "; opros_host runs it";
-    if (kind == Kind::device_api) return "; a component opens it, by its property APIName";
+const char* remedy(LibraryKind kind) {
+    if (kind == LibraryKind::rtc_module) return "; rtm_host runs it";
+    if (kind == LibraryKind::opros_component) return "; opros_host runs it";
+    if (kind == LibraryKind::device_api) return "; a component opens it, by its property APIName";
     return "";
 }
 
 } // namespace
 
-const char* note_owner(Model model) { return model == Model::opros ? "TandemOPRoS" : "TandemRTM"; }
+const char* note_owner(ComponentModel model) {
+    return model == ComponentModel::opros ? "TandemOPRoS" : "TandemRTM";
+}
 
-const char* kind_text(Kind kind) {
+const char* kind_text(LibraryKind kind) {
     switch (kind) {
-    case Kind::opros_component:
+    case LibraryKind::opros_component:
         return "an OPRoS component";
-    case Kind::rtc_module:
+    case LibraryKind::rtc_module:
         return "an RTC module";
-    case Kind::device_api:
+    case LibraryKind::device_api:
         return "a device API";
-    case Kind::other:
+    case LibraryKind::other:
         break;
     }
     return "neither an OPRoS component nor an RTC module nor a device API";
 }
 
-Contents read_contents(const std::filesystem::path& library) {
+LibraryContents read_contents(const std::filesystem::path& library) {
     ElfContents elf = read_elf(library);
-    Contents contents;
-    contents.opros = headers(elf, Model::opros, "_ZN9ComponentC2E"); // the constructor of Component
-    contents.rtm = headers(elf, Model::rtm, "3RTC7Manager");         // RTC::Manager
+    LibraryContents contents;
+    contents.opros =
+        header_use(elf, ComponentModel::opros, "_ZN9ComponentC2E");      // the constructor of Component
+    contents.rtm = header_use(elf, ComponentModel::rtm, "3RTC7Manager"); // RTC::Manager
     if (elf.defined.count("getComponent")) {
-        contents.kind = Kind::opros_component;
+        contents.kind = LibraryKind::opros_component;
         contents.entry = "getComponent";
     } else if (const std::string init = init_function(elf.defined);
                init == "rtc_init" || (!init.empty() && contents.rtm.used)) {
-        contents.kind = Kind::rtc_module;
+        contents.kind = LibraryKind::rtc_module;
         contents.entry = init;
     } else if (elf.defined.count("GetAPI")) {
-        contents.kind = Kind::device_api;
+        contents.kind = LibraryKind::device_api;
         contents.entry = "GetAPI";
     }
     contents.exports = std::move(elf.defined);
     return contents;
 }
 
-void require_kind(const std::filesystem::path& library, const Contents& contents, Kind kind) {
+void require_kind(const std::filesystem::path& library, const LibraryContents& contents, LibraryKind kind) {
     if (contents.kind == kind) return;
     const std::string entry = contents.entry.empty() ? "" : " (exports " + contents.entry + ")";
     throw Error(Reason::wrong_model, "library " + library.string() + " is " + kind_text(contents.kind) +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/plugin/probed_side.hpp"
+#include "host/plugin/probe_child.hpp"
 
-#include "host/plugin/probe_words.hpp"
+#include "host/plugin/probe_protocol.hpp"
 #include "host/process/child_process.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace tandem::plugin {
 namespace {
 
 // Without buffer: the next thing the process does may be its last.
-void tell(std::string_view text) {
+void write_report(std::string_view text) {
     while (!text.empty()) {
         const ssize_t sent = write(process::report_descriptor, text.data(), text.size());
         if (sent < 0 && errno == EINTR) continue;
@@ -37,19 +37,21 @@ std::string one_line(std::string text) {
         ProbeReport report;
         tasks.at(argv[2])({argv[3], {argv + 4, argv + argc}}, report);
     } catch (const std::exception& error) {
-        tell(failed_word + one_line(error.what()) + "\n");
+        write_report(failed_tag + one_line(error.what()) + "\n");
         _exit(1);
     }
-    tell(done_word);
+    write_report(done_line);
     _exit(0); // the library is gone; what else may run at exit is the program's own
 }
 
 } // namespace
 
-void ProbeReport::stage(const std::string& function) { tell(stage_word + one_line(function) + "\n"); }
+void ProbeReport::begin_stage(const std::string& function) {
+    write_report(stage_tag + one_line(function) + "\n");
+}
 
 void ProbeReport::finish(const std::string& result) {
-    tell(result_word + std::to_string(result.size()) + "\n" + result + done_word);
+    write_report(result_tag + std::to_string(result.size()) + "\n" + result + done_line);
     _exit(0);
 }
 

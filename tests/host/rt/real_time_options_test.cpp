@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rt/switches.hpp"
+#include "host/rt/real_time_options.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 using tandem::rt::apply;
-using tandem::rt::Switches;
+using tandem::rt::RealTimeOptions;
 
 namespace {
 
@@ -41,13 +41,13 @@ TEST_CASE("threads started after the switches are applied have a timer slack of 
 
 TEST_CASE("in wait mode same-core all threads of the process stay on its processor") {
     CHECK(in_a_process([] {
-        Switches switches;
-        switches.cpu = sched_getcpu();
-        switches.wait_mode = "same-core";
-        return apply(switches).empty() && of_a_later_thread([&] {
+        RealTimeOptions options;
+        options.cpu = sched_getcpu();
+        options.wait_mode = "same-core";
+        return apply(options).empty() && of_a_later_thread([&] {
                    cpu_set_t set;
                    return sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) == 1 &&
-                          CPU_ISSET(static_cast<std::size_t>(switches.cpu), &set);
+                          CPU_ISSET(static_cast<std::size_t>(options.cpu), &set);
                });
     }));
 }
@@ -56,30 +56,30 @@ TEST_CASE("other wait modes leave threads on all processors and reach the bridge
     CHECK(in_a_process([] {
         cpu_set_t before, after;
         sched_getaffinity(0, sizeof before, &before);
-        Switches switches;
-        switches.cpu = sched_getcpu();
-        switches.wait_mode = "spin";
-        const bool quiet = apply(switches).empty();
+        RealTimeOptions options;
+        options.cpu = sched_getcpu();
+        options.wait_mode = "spin";
+        const bool quiet = apply(options).empty();
         sched_getaffinity(0, sizeof after, &after);
         return quiet && CPU_EQUAL(&before, &after) && std::string(getenv("TANDEM_WAIT_MODE")) == "spin";
     }));
 }
 
 TEST_CASE("same-core without a processor is refused") {
-    Switches switches;
-    switches.wait_mode = "same-core";
-    CHECK_THROWS_WITH(apply(switches),
+    RealTimeOptions options;
+    options.wait_mode = "same-core";
+    CHECK_THROWS_WITH(apply(options),
                       "--wait-mode same-core needs --cpu N, the same processor for both hosts");
 }
 
 TEST_CASE("what the kernel refuses is one line for each switch and the process goes on") {
     CHECK(in_a_process([] {
         if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) return false;
-        Switches switches;
-        switches.cpu = 100000;
-        switches.wait_mode = "same-core";
-        switches.low_latency_idle = true;
-        const auto notices = apply(switches);
+        RealTimeOptions options;
+        options.cpu = 100000;
+        options.wait_mode = "same-core";
+        options.low_latency_idle = true;
+        const auto notices = apply(options);
         if (notices.size() != 2) return false;
         for (const auto& notice : notices)
             if (notice.find('\n') != std::string::npos) return false;

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 using tandem::plugin::Error;
-using tandem::plugin::Kind;
+using tandem::plugin::LibraryKind;
 using tandem::plugin::read_contents;
 using tandem::plugin::Reason;
 
@@ -59,12 +59,12 @@ bool mapped(const std::string& file) {
 } // namespace
 
 TEST_CASE("a library tells its component model without being mapped") {
-    CHECK(read_contents(OPROS_PLUGIN).kind == Kind::opros_component);
+    CHECK(read_contents(OPROS_PLUGIN).kind == LibraryKind::opros_component);
     const auto module = read_contents(RTM_PLUGIN);
-    CHECK(module.kind == Kind::rtc_module);
+    CHECK(module.kind == LibraryKind::rtc_module);
     CHECK(module.entry == "HWCompInit");
-    CHECK(read_contents(ZOO "/opros/device_api.so").kind == Kind::device_api);
-    CHECK(read_contents(ZOO "/opros/no_entry.so").kind == Kind::other);
+    CHECK(read_contents(ZOO "/opros/device_api.so").kind == LibraryKind::device_api);
+    CHECK(read_contents(ZOO "/opros/no_entry.so").kind == LibraryKind::other);
     CHECK(read_contents(GOOD_LIBRARY).exports.count("answer") == 1);
     CHECK_FALSE(mapped(OPROS_PLUGIN));
     CHECK_FALSE(mapped(RTM_PLUGIN));
@@ -73,25 +73,25 @@ TEST_CASE("a library tells its component model without being mapped") {
 TEST_CASE("a library tells the ABI number of the headers that it was built against") {
     const std::set<std::uint32_t> none;
     const auto component = read_contents(OPROS_PLUGIN), module = read_contents(RTM_PLUGIN);
-    CHECK(component.opros.abi.size() == 1); // of several object files
+    CHECK(component.opros.abi_numbers.size() == 1); // of several object files
     CHECK(component.opros.used);
-    CHECK(component.rtm.abi == none);
-    CHECK(module.rtm.abi.size() == 1);
+    CHECK(component.rtm.abi_numbers == none);
+    CHECK(module.rtm.abi_numbers.size() == 1);
     CHECK(module.rtm.used);
-    CHECK(module.opros.abi == none);
-    CHECK(read_contents(ZOO "/opros/another_tandem.so").opros.abi == std::set<std::uint32_t>{999999});
-    CHECK(read_contents(ZOO "/opros/another_tandem_in_part.so").opros.abi.size() == 2);
+    CHECK(module.opros.abi_numbers == none);
+    CHECK(read_contents(ZOO "/opros/another_tandem.so").opros.abi_numbers == std::set<std::uint32_t>{999999});
+    CHECK(read_contents(ZOO "/opros/another_tandem_in_part.so").opros.abi_numbers.size() == 2);
     const auto before = read_contents(ZOO "/rtm/before_the_numbers.so");
-    CHECK(before.rtm.abi == none);
+    CHECK(before.rtm.abi_numbers == none);
     CHECK(before.rtm.used);
     CHECK_FALSE(read_contents(GOOD_LIBRARY).opros.used);
 }
 
 TEST_CASE("a library is taken with our number and without any if it does not use the headers") {
     const auto require = [](const char* file, std::uint32_t ours) {
-        tandem::plugin::require_abi(file, read_contents(file), tandem::plugin::Model::opros, ours);
+        tandem::plugin::require_abi(file, read_contents(file), tandem::plugin::ComponentModel::opros, ours);
     };
-    const std::uint32_t number = *read_contents(OPROS_PLUGIN).opros.abi.begin();
+    const std::uint32_t number = *read_contents(OPROS_PLUGIN).opros.abi_numbers.begin();
     CHECK_NOTHROW(require(OPROS_PLUGIN, number));
     CHECK_THROWS_WITH(require(OPROS_PLUGIN, number + 1),
                       Catch::Contains("against the headers of another Tandem"));
@@ -100,19 +100,20 @@ TEST_CASE("a library is taken with our number and without any if it does not use
 }
 
 TEST_CASE("a library of the wrong model is refused with what it is and which program takes it") {
-    const auto require = [](const char* file, Kind kind) {
+    const auto require = [](const char* file, LibraryKind kind) {
         tandem::plugin::require_kind(file, read_contents(file), kind);
     };
-    CHECK_NOTHROW(require(OPROS_PLUGIN, Kind::opros_component));
-    CHECK_THROWS_WITH(require(RTM_PLUGIN, Kind::opros_component),
+    CHECK_NOTHROW(require(OPROS_PLUGIN, LibraryKind::opros_component));
+    CHECK_THROWS_WITH(require(RTM_PLUGIN, LibraryKind::opros_component),
                       Catch::Contains("is an RTC module (exports HWCompInit), expected an OPRoS component") &&
                           Catch::Contains("rtm_host runs it"));
-    CHECK_THROWS_WITH(require(OPROS_PLUGIN, Kind::rtc_module),
+    CHECK_THROWS_WITH(require(OPROS_PLUGIN, LibraryKind::rtc_module),
                       Catch::Contains("is an OPRoS component (exports getComponent)") &&
                           Catch::Contains("opros_host runs it"));
-    CHECK_THROWS_WITH(require(ZOO "/opros/device_api.so", Kind::opros_component),
+    CHECK_THROWS_WITH(require(ZOO "/opros/device_api.so", LibraryKind::opros_component),
                       Catch::Contains("a device API"));
-    CHECK_THROWS_WITH(require(ZOO "/opros/no_entry.so", Kind::opros_component), Catch::Contains("neither"));
+    CHECK_THROWS_WITH(require(ZOO "/opros/no_entry.so", LibraryKind::opros_component),
+                      Catch::Contains("neither"));
 }
 
 TEST_CASE("what is no library of this machine is refused with its own reason") {

@@ -14,7 +14,7 @@ class ProbeReport {
   public:
     /// Code of the library runs from now on, in this function ("getComponent()"): named if the process does
     /// not survive it.
-    void stage(const std::string& function);
+    void begin_stage(const std::string& function);
     /// The parent's probe() returns this text. Ends the process: nothing of the library is released or unloaded.
     [[noreturn]] void finish(const std::string& result);
 };

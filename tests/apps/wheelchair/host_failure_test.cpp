@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <catch2/catch.hpp>
 
-#include "apps/wheelchair/run/incident.hpp"
+#include "apps/wheelchair/run/host_failure.hpp"
 
 using namespace tandem::wheelchair;
 
@@ -30,28 +30,28 @@ struct Traces {
 
 TEST_CASE("the stop is counted from the last reference, not from when the death was noticed") {
     const Traces t(2.035);
-    const auto ms = stopped_after_ms(2.012, t.hw, t.control);
+    const auto ms = motors_off_after_ms(2.012, t.hw, t.control);
     REQUIRE(ms);
     CHECK(*ms == Approx(44.0));
 }
 
 TEST_CASE("without a stop in the trace nothing is claimed") {
     const Traces t(9.0);
-    CHECK_FALSE(stopped_after_ms(2.012, t.hw, t.control));
-    CHECK_FALSE(stopped_after_ms(2.012, t.hw, {}));
+    CHECK_FALSE(motors_off_after_ms(2.012, t.hw, t.control));
+    CHECK_FALSE(motors_off_after_ms(2.012, t.hw, {}));
 }
 
 TEST_CASE("data that flow again are counted from the restarted host's ready line") {
     Traces t(2.035);
-    Incident i;
+    HostFailure i;
     i.at = 2.012;
     CHECK(i.update(t.hw, t.control));
-    CHECK(i.stopped_after_ms);
-    CHECK_FALSE(i.back_after_ms);
-    i.ready_again_at = 2.395;
+    CHECK(i.motors_off_after_ms);
+    CHECK_FALSE(i.data_back_after_ms);
+    i.restarted_at = 2.395;
     t.control[140].references_received = 1; // read at 2.401 s
     t.control[141].references_received = 1;
     CHECK(i.update(t.hw, t.control));
-    CHECK(*i.back_after_ms == Approx(6.0));
+    CHECK(*i.data_back_after_ms == Approx(6.0));
     CHECK_FALSE(i.update(t.hw, t.control));
 }

@@ -12,13 +12,13 @@ class App;
 
 namespace tandem::plugin {
 
-struct ProbeSwitches {
-    bool off = false;    ///< --no-probe
-    double seconds = 10; ///< --probe-timeout
+struct ProbeCliOptions {
+    bool disabled = false; ///< --no-probe
+    double timeout_s = 10; ///< --probe-timeout
 
-    std::optional<Probe> probe() const;
+    std::optional<ProbeOptions> probe_options() const;
 };
 
-void declare(CLI::App& cli, ProbeSwitches& switches);
+void add_probe_options(CLI::App& cli, ProbeCliOptions& switches);
 
 } // namespace tandem::plugin

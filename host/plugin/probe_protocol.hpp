@@ -5,9 +5,9 @@
 namespace tandem::plugin {
 
 constexpr char probe_argument[] = "--probe-in-child"; ///< first argument; then task, library, arguments
-constexpr char stage_word[] = "stage ";
-constexpr char failed_word[] = "failed ";
-constexpr char result_word[] = "result "; ///< number of bytes, newline, that many bytes
-constexpr char done_word[] = "done\n";    ///< last; without it the process has ended half-way
+constexpr char stage_tag[] = "stage ";
+constexpr char failed_tag[] = "failed ";
+constexpr char result_tag[] = "result "; ///< number of bytes, newline, that many bytes
+constexpr char done_line[] = "done\n";   ///< last; without it the process has ended half-way
 
 } // namespace tandem::plugin

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/plugin/probe_cli_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace tandem::plugin {
+
+std::optional<ProbeOptions> ProbeCliOptions::probe_options() const {
+    if (disabled) return std::nullopt;
+    ProbeOptions options;
+    options.timeout = std::chrono::milliseconds(static_cast<long>(timeout_s * 1000));
+    return options;
+}
+
+void add_probe_options(CLI::App& cli, ProbeCliOptions& switches) {
+    cli.add_flag("--no-probe", switches.disabled,
+                 "Load libraries without trying them in a child process first");
+    cli.add_option("--probe-timeout", switches.timeout_s,
+                   "Seconds within which a library that is tried must make its components (10)")
+        ->check(CLI::Range(0.1, 3600.));
+}
+
+} // namespace tandem::plugin
