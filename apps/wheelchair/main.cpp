@@ -16,7 +16,7 @@ namespace {
 
 using namespace tandem::wheelchair;
 
-/// All that can be refused before anything is started.
+/// Refuses bad input before any host is started.
 void check(const Options& options) {
     load_scenario(options.scenario, options.joystick_file);
     if (!options.plot.empty()) check_figure_path(options.plot);
@@ -25,13 +25,14 @@ void check(const Options& options) {
             throw InputError(path + ": its folder does not exist; make it first");
 }
 
-/// DIR/log.csv -> DIR/log-mixed.csv, where several configurations write one each.
+/// DIR/log.csv -> DIR/log-mixed.csv: with --compare each configuration writes a file of its own.
 std::string with_name(const std::string& path, Configuration configuration) {
     const std::filesystem::path p(path);
     return (p.parent_path() / (p.stem().string() + "-" + name_of(configuration) + p.extension().string()))
         .string();
 }
 
+// One figure: all runs together with --compare, else the one run.
 void draw(const Options& options, const Report& report) {
     const bool simulated = options.lockstep || options.configuration == Configuration::memory;
     const std::string kind = simulated ? "simulated time" : "real time";
@@ -55,6 +56,7 @@ void write_files(const Options& options, const Report& report) {
     if (!options.plot.empty()) draw(options, report);
 }
 
+// Performs the runs, prints the report and writes the files. The exit code: 0 if everything is accepted.
 int drive(Options options) {
     check(options);
     std::vector<Configuration> configurations{options.configuration};
@@ -77,8 +79,9 @@ int drive(Options options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    std::signal(SIGPIPE,
-                SIG_IGN); // a reader of our output that leaves early must not keep us from stopping the hosts
+    std::signal(
+        SIGPIPE,
+        SIG_IGN); // if the reader of this program's output ends early, the hosts are still stopped in order
     const Options options = parse_options(argc, argv);
     try {
         return drive(options);

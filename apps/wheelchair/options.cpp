@@ -21,7 +21,7 @@ std::string absolute(const std::string& path) {
     return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// Options handed on to both hosts unchanged.
+/// Options that are passed to both hosts unchanged (host/rt/README.md).
 void add_host_options(CLI::App& app, Options& o, std::optional<double>& spin,
                       std::optional<std::string>& wait, bool& idle, bool& lock) {
     app.add_option("--opros-cpu", o.opros_cpu, "core for opros_host's tick threads");
@@ -74,7 +74,7 @@ Options parse_options(int argc, char** argv) {
         ->check(CLI::Range(0.1, 600.0))
         ->capture_default_str();
     app.add_option("--poll-us", o.poll_us,
-                   "how long ControlComp looks out for a reference in each tick, real time")
+                   "how long ControlComp polls for a reference in each tick, real time")
         ->check(CLI::Range(0.0, 9000.0))
         ->capture_default_str();
     add_host_options(app, o, spin, wait, idle, lock);

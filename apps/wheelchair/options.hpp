@@ -7,30 +7,32 @@
 
 namespace tandem::wheelchair {
 
-/// Where the three components run. memory: in this process without any host, what the others must reproduce.
-/// mixed: the joystick an RTC, control and hardware OPRoS components; swapped: the other way round.
+/// Where the three components run. opros, rtm: all in that host. mixed: JoystickComp is an RTC, ControlComp and
+/// HWComp are OPRoS components; swapped: the other way round. memory: in this process, without hosts and ports;
+/// gives the rows that every other configuration must reproduce in lock-step.
 enum class Configuration { opros, rtm, mixed, swapped, memory };
 
 std::string name_of(Configuration configuration);
 
+/// The command line. Paths are absolute.
 struct Options {
     Configuration configuration = Configuration::mixed;
     std::string scenario;      // empty: step20, or what --joystick records
-    std::string joystick_file; // absolute
+    std::string joystick_file; // empty: the scenario's own stick
     bool lockstep = false;
     bool compare = false;
     bool restart = false;
-    double duration = 0.0; // s, 0: as long as the scenario
+    double duration = 0.0; // [s]; 0: as long as the scenario
     double host_wait =
-        10.0; // s a host may take to become ready, and the halves of the link to find each other
+        10.0; // [s] for a host to become ready, and for the two ends of a link to find each other
     std::string csv, plot, json;
-    std::string keep; // run directory to keep; empty: a temporary one, removed afterwards
-    std::vector<std::string> host_arguments; // for both hosts
+    std::string keep;                        // run folder to keep; empty: a temporary one that is removed
+    std::vector<std::string> host_arguments; // passed to both hosts
     int opros_cpu = -1, rtm_cpu = -1;
-    double poll_us = 3000.0;
+    double poll_us = 3000.0; // ControlComp's parameter of this name
 };
 
-/// Paths come back absolute. Prints help or one line about a wrong option and ends the program.
+/// Parses the command line. Prints help, the version or one line about a wrong option, and ends the program then.
 Options parse_options(int argc, char** argv);
 
 } // namespace tandem::wheelchair

@@ -27,14 +27,16 @@ std::string joined(const Numbers& numbers) {
                                           "); build it again" + remedy);
 }
 
-/// The notes of what is loaded, until one of another number has been found.
+/// Searches the notes of loaded objects for ABI numbers of `owner` other than the expected one. Passed through
+/// dl_iterate_phdr().
 struct NoteSearch {
     std::string owner;
     std::uint32_t expected;
-    std::string after{};  ///< what was loaded before this library is not looked at
-    std::string object{}; ///< its file, empty for the program
+    std::string after{};  ///< objects before this library are skipped; empty: none are
+    std::string object{}; ///< file of the first object with another number; empty: the program
     Numbers others{};
 
+    /// Reads the notes of one PT_NOTE segment. Name and description of each are padded to `alignment` bytes.
     void search_notes(const char* at, const char* end, std::size_t alignment) {
         const auto aligned = [&](std::size_t bytes) {
             return (bytes + alignment - 1) / alignment * alignment;
@@ -45,7 +47,7 @@ struct NoteSearch {
             const char* const name = at + sizeof note;
             const std::size_t to_number = aligned(sizeof note + note.n_namesz);
             const std::size_t whole = aligned(to_number + note.n_descsz);
-            if (whole > static_cast<std::size_t>(end - at)) return;
+            if (whole > static_cast<std::size_t>(end - at)) return; // the sizes in the note are wrong
             std::uint32_t number = expected;
             if (note.n_type == 1 && note.n_descsz == sizeof number && note.n_namesz == owner.size() + 1 &&
                 std::memcmp(name, owner.c_str(), note.n_namesz) == 0)
@@ -56,19 +58,20 @@ struct NoteSearch {
     }
 };
 
+// dl_iterate_phdr() calls this in load order, beginning with the program.
 int search_object(dl_phdr_info* object, std::size_t, void* argument) {
     auto& search = *static_cast<NoteSearch*>(argument);
     if (search.after == object->dlpi_name) search.after.clear();
     if (!search.after.empty()) return 0;
     for (int i = 0; i < object->dlpi_phnum; ++i) {
         const auto& segment = object->dlpi_phdr[i];
-        if (segment.p_type != PT_NOTE) continue;
+        if (segment.p_type != PT_NOTE) continue; // notes are mapped, section headers are not
         const char* const start = reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr);
         search.search_notes(start, start + segment.p_memsz, segment.p_align == 8 ? 8 : 4);
     }
     if (search.others.empty()) return 0;
     search.object = object->dlpi_name;
-    return 1; // the first one is enough
+    return 1; // ends dl_iterate_phdr()
 }
 
 } // namespace

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether code was built against this Tandem's headers: they leave an ABI number in it (TandemAbi.h).
+// Checks whether code was built against the headers of this Tandem. The public headers of each component model
+// put an ABI number into every object file that includes them, as an ELF note (TandemAbi.h).
 #pragma once
 
 #include "host/plugin/library_contents.hpp"
 
 namespace tandem::plugin {
 
-/// Throws Error abi_mismatch, with what to do, if the model's headers have left another number than expected in
-/// the library, or none although it refers to their classes. What does not come from such headers passes.
+/// Checks a library before it is loaded. Throws Error abi_mismatch, with what to do, if the library has another
+/// ABI number than `expected` for this model, or has none although it refers to classes of the model's headers.
+/// A library that does not use these headers passes. [any-thread]
 void require_abi(const std::filesystem::path& library, const LibraryContents& contents, ComponentModel model,
                  std::uint32_t expected);
 
-/// Throws the same if the program or a library that is loaded has another number than expected; with `plugin`,
-/// one that has come with it, or since. [any-thread]
+/// Checks the program and all loaded libraries instead: a plugin may have brought libraries built against other
+/// headers. Throws Error abi_mismatch for the first one with another number. With `plugin`, only this library
+/// and those loaded after it are checked. [any-thread]
 void require_abi_of_process(ComponentModel model, std::uint32_t expected,
                             const std::filesystem::path& plugin = {});
 

@@ -2,6 +2,7 @@
 #include "host/plugin/elf_file.hpp"
 
 #include "host/plugin/error.hpp"
+#include "host/process/file_descriptor.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -13,23 +14,23 @@
 namespace tandem::plugin {
 namespace {
 
-/// An open ELF file. libelf reads it piece by piece and checks each against the file's size.
+/// An open ELF file. libelf reads it piece by piece and checks each against the file's size; where it does not,
+/// contains_range() does.
 class ElfFile {
   public:
     explicit ElfFile(const std::filesystem::path& file) : file_(file) {
-        static const bool version_known = elf_version(EV_CURRENT) != EV_NONE;
-        // Not blocking: a named pipe would wait for its writer for ever.
-        fd_ = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-        if (fd_ < 0) fail(Reason::not_found, std::string("cannot be opened: ") + std::strerror(errno));
+        static const bool version_known =
+            elf_version(EV_CURRENT) != EV_NONE; // libelf demands this call first
+        // O_NONBLOCK: opening a named pipe would otherwise wait for its writer without a bound.
+        fd_ = process::FileDescriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+        if (!fd_) fail(Reason::not_found, std::string("cannot be opened: ") + std::strerror(errno));
         struct stat status {};
-        if (fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) give_up(Reason::not_found, "is not a file");
+        if (fstat(fd_.get(), &status) != 0 || !S_ISREG(status.st_mode))
+            fail(Reason::not_found, "is not a file");
         size_ = static_cast<std::uint64_t>(status.st_size);
-        elf_ = version_known ? elf_begin(fd_, ELF_C_READ, nullptr) : nullptr;
+        elf_ = version_known ? elf_begin(fd_.get(), ELF_C_READ, nullptr) : nullptr;
     }
-    ~ElfFile() {
-        elf_end(elf_);
-        close(fd_);
-    }
+    ~ElfFile() { elf_end(elf_); }
     ElfFile(const ElfFile&) = delete;
     ElfFile& operator=(const ElfFile&) = delete;
 
@@ -54,21 +55,17 @@ class ElfFile {
     }
 
   private:
-    // The destructor does not run when the constructor throws.
-    [[noreturn]] void give_up(Reason reason, const std::string& why) const {
-        close(fd_);
-        fail(reason, why);
-    }
+    // The first two bytes of a Windows library are "MZ"; users try to load such components of OPRoS.
     [[noreturn]] void fail_not_elf() const {
         char start[2] = {};
-        if (pread(fd_, start, 2, 0) == 2 && start[0] == 'M' && start[1] == 'Z')
+        if (pread(fd_.get(), start, 2, 0) == 2 && start[0] == 'M' && start[1] == 'Z')
             fail(Reason::not_a_library,
                  "is for Windows; build the component from its source: tandem opros build");
         fail(Reason::not_a_library, "is not a shared library (no ELF file)");
     }
 
     std::filesystem::path file_;
-    int fd_ = -1;
+    process::FileDescriptor fd_;
     std::uint64_t size_ = 0;
     Elf* elf_ = nullptr;
 };
@@ -90,6 +87,7 @@ std::string machine_name(unsigned machine) {
     }
 }
 
+// The file of this program tells what the machine runs.
 void check_machine(const ElfFile& elf, const GElf_Ehdr& header) {
     const ElfFile own("/proc/self/exe");
     const GElf_Ehdr ours = own.header();
@@ -111,7 +109,7 @@ void check_type(const ElfFile& elf, const GElf_Ehdr& header) {
              std::string("is ") + what + ", expected a shared library (link it with -shared)");
 }
 
-// What the dynamic linker maps must be in the file.
+// The dynamic linker maps PT_LOAD segments without comparing them with the file's size.
 void check_segments(const ElfFile& elf) {
     std::size_t count = 0;
     if (elf_getphdrnum(elf.get(), &count) != 0) elf.fail_damaged("its program headers cannot be read");
@@ -130,7 +128,7 @@ void read_symbols(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header,
     Elf_Data* data = elf_getdata(section, nullptr);
     if (!data || header.sh_entsize == 0) elf.fail_damaged("its dynamic symbols cannot be read");
     const auto count = header.sh_size / header.sh_entsize;
-    for (std::size_t i = 1; i < count; ++i) { // the first one is nothing by definition
+    for (std::size_t i = 1; i < count; ++i) { // symbol 0 is undefined by the ELF specification
         GElf_Sym symbol;
         if (!gelf_getsym(data, static_cast<int>(i), &symbol)) elf.fail_damaged("it lacks dynamic symbols");
         const char* name = elf_strptr(elf.get(), header.sh_link, symbol.st_name);
@@ -141,7 +139,7 @@ void read_symbols(const ElfFile& elf, Elf_Scn* section, const GElf_Shdr& header,
     }
 }
 
-// Only notes of type 1 with a description of four bytes, as our headers write them (TandemAbi.h).
+// Reads notes of type 1 with a description of four bytes, which is what TandemAbi.h writes; skips all others.
 void read_notes(const ElfFile& elf, Elf_Scn* section, ElfContents& contents) {
     Elf_Data* data = elf_getdata(section, nullptr);
     if (!data) elf.fail_damaged("its notes cannot be read");
@@ -164,6 +162,7 @@ ElfContents read_elf(const std::filesystem::path& library) {
     check_machine(elf, header);
     check_type(elf, header);
     check_segments(elf);
+    // Without section headers libelf finds neither symbols nor notes, although the library could be loaded.
     if (header.e_shoff == 0)
         elf.fail(Reason::damaged,
                  "has no section headers, so that it cannot be looked at without running it; link it again");

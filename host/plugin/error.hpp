@@ -6,19 +6,20 @@
 
 namespace tandem::plugin {
 
+/// Why a library cannot be used, for callers that treat some reasons in a way of their own.
 enum class Reason {
     not_found,          ///< no such file in any folder of the search path
     not_a_library,      ///< no ELF file, or a program, an object file
-    damaged,            ///< ELF, but cut off or with contents that cannot be
-    wrong_architecture, ///< for another processor than this program
-    wrong_model,        ///< a library, but not of the kind that was asked for
+    damaged,            ///< an ELF file that is truncated or inconsistent
+    wrong_architecture, ///< for another processor than that of this program
+    wrong_model,        ///< a library, but not of the kind that was expected
     abi_mismatch,       ///< built against the headers of another Tandem
-    load_failed,        ///< the dynamic linker refused it
-    missing_symbol,     ///< the library is loaded and lacks a function that was asked for
-    probe_failed,       ///< tried in a child process, it crashed, hung or threw
+    load_failed,        ///< the dynamic linker cannot load it
+    missing_symbol,     ///< loaded, but without a function that was asked for
+    probe_failed,       ///< it crashed, hung or threw in a child process
 };
 
-/// what() is one line that names the file or the symbol.
+/// A library cannot be used. what() is one line that names the file or the symbol, and what to do about it.
 class Error : public std::runtime_error {
   public:
     Error(Reason reason, const std::string& what) : std::runtime_error(what), reason_(reason) {}

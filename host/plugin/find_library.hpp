@@ -7,12 +7,13 @@
 
 namespace tandem::plugin {
 
-/// The file names a library of this name may have: profiles in the wild say X, X.so, libX.so, X.dll,
-/// libX.dll.so.
+/// The file names that a library of this name may have. Profiles of existing components name a library as X,
+/// X.so, libX.so, X.dll or libX.dll.so, whatever its file is called.
 std::vector<std::string> library_file_names(const std::string& name);
 
-/// The first folder's first match. A name with a folder in it is taken relative to each search folder, or as
-/// it is when absolute. Throws plugin::Error that lists the names and folders tried.
+/// Searches the folders in order and returns the first file with one of these names. A name that contains a
+/// folder is relative to each search folder; an absolute name is used as it is. Throws Error not_found that
+/// lists the names and folders tried. [any-thread]
 std::filesystem::path find_library(const std::string& name,
                                    const std::vector<std::filesystem::path>& search_dirs);
 

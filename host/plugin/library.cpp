@@ -7,7 +7,7 @@
 namespace tandem::plugin {
 namespace {
 
-// Why the dynamic linker has refused a file: it alone says which symbol or which other file is missing.
+// Boost.DLL's own error says only that loading failed; dlerror() says which symbol or file is missing.
 std::string dlerror_text() {
     const char* message = dlerror();
     std::string text = message ? message : "the dynamic linker gives no reason";
@@ -17,8 +17,8 @@ std::string dlerror_text() {
 
 } // namespace
 
-// An exception is the library's own: the C library ends the process when a static constructor throws, but the
-// dlopen() of the sanitizers lets it through.
+// glibc's dlopen() ends the process when a static constructor throws; the dlopen() of the sanitizers passes the
+// exception on, which is caught here.
 Library::Library(const std::filesystem::path& file)
     : path_(std::filesystem::absolute(file)), contents_(read_contents(path_)) {
     boost::dll::fs::error_code refused;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shared libraries as both hosts load them: all symbols resolved at once, none exported to later libraries.
+// Loads shared libraries the way both hosts need it: all symbols are resolved at once (RTLD_NOW), so that a
+// missing one shows now and not in mid-run, and none are visible to libraries loaded later (RTLD_LOCAL), so that
+// two components may define the same names.
 #pragma once
 
 #include "host/plugin/error.hpp"
@@ -12,18 +14,19 @@
 
 namespace tandem::plugin {
 
+/// A loaded library. Whoever holds a pointer to it or to an instance of share_instance() keeps it loaded.
 class Library {
   public:
-    /// Loads the file, after a look at what is in it; what an instance needs, keeps it: see own().
-    /// [any-thread] Throws Error: those of read_contents(), or load_failed with the dynamic linker's reason.
+    /// Reads the file's contents, then loads it. Throws Error: those of read_contents(), or load_failed with the
+    /// dynamic linker's reason. [any-thread]
     static std::shared_ptr<Library> load(const std::filesystem::path& file);
 
-    /// Whether the file is loaded in this process, by whomever.
+    /// Whether the file is loaded in this process, no matter by which code. [any-thread]
     static bool is_loaded(const std::filesystem::path& file);
 
     bool has(const std::string& name) const { return library_.has(name); }
 
-    /// The exported function or variable of type F. Throws Error that names symbol and file.
+    /// The exported function or variable of type F, which is not checked. Throws Error missing_symbol.
     template <class F>
     F* symbol(const std::string& name) {
         require_symbol(name);
@@ -42,7 +45,8 @@ class Library {
     boost::dll::shared_library library_;
 };
 
-/// An instance made by the library: `release` ends it, and the library stays loaded until after that.
+/// Wraps an instance that the library has made. The last owner calls `release`, and only after that is the
+/// library unloaded: code of the destructor is in it.
 template <class T, class Release>
 std::shared_ptr<T> share_instance(std::shared_ptr<Library> library, T* instance, Release release) {
     return std::shared_ptr<T>(instance,

@@ -15,23 +15,29 @@
 namespace tandem::plugin {
 namespace {
 
+// The library's code may write as much as it likes; this process must not run out of memory over it.
 constexpr std::size_t max_report_bytes = std::size_t{16} << 20, max_error_bytes = 4096;
 
+/// What the child has written, as far as it came (probe_protocol.hpp).
 struct Report {
-    std::string stage, failure, result;
-    bool done = false;
+    std::string stage;   ///< the function of the library that ran last
+    std::string failure; ///< why the task has failed
+    std::string result;
+    bool done = false; ///< the task has come to its end
 };
 
-// The library's own code may have written between the words: what is not understood is passed over.
+// The library's own code may write to the same descriptor between the child's lines, so lines without a known
+// tag are skipped.
 Report read_report(const std::string& text) {
     Report report;
     std::istringstream lines(text);
-    const auto starts = [](const std::string& line, const char* word) { return line.rfind(word, 0) == 0; };
+    const auto starts = [](const std::string& line, const char* tag) { return line.rfind(tag, 0) == 0; };
     for (std::string line; std::getline(lines, line);) {
         if (starts(line, stage_tag)) report.stage = line.substr(std::strlen(stage_tag));
         if (starts(line, failed_tag)) report.failure = line.substr(std::strlen(failed_tag));
         if (line + "\n" == done_line) report.done = true;
         if (!starts(line, result_tag)) continue;
+        // The number may be forged, but a result cannot be longer than the whole report.
         const auto bytes = std::strtoull(line.c_str() + std::strlen(result_tag), nullptr, 10);
         report.result.resize(std::min<std::size_t>(bytes, text.size()));
         lines.read(report.result.data(), static_cast<std::streamsize>(report.result.size()));
@@ -39,8 +45,8 @@ Report read_report(const std::string& text) {
     return report;
 }
 
-// The last thing on standard error, or all that std::terminate() says.
-std::string last_words(const std::string& errors) {
+// The last line on standard error, or from where std::terminate() begins to write; as one printable line.
+std::string last_error(const std::string& errors) {
     std::string text = errors.substr(0, errors.find_last_not_of(" \n") + 1);
     auto start = text.find("terminate called");
     if (start == std::string::npos) start = text.rfind('\n') + 1; // npos + 1 is the beginning
@@ -53,20 +59,21 @@ std::string last_words(const std::string& errors) {
     return text.empty() ? "" : ": " + text;
 }
 
-std::string bound_text(std::chrono::milliseconds bound) {
+std::string seconds_text(std::chrono::milliseconds time) {
     std::ostringstream text;
-    text << static_cast<double>(bound.count()) / 1000 << " s";
+    text << static_cast<double>(time.count()) / 1000 << " s";
     return text.str();
 }
 
+// How the child ended without a complete report.
 std::string reason(const ProbeOptions& options, const process::CommandResult& end, const Report& report) {
     const std::string where = report.stage.empty() ? "the probe" : report.stage;
-    if (end.timed_out) return "did not return from " + where + " within " + bound_text(options.timeout);
+    if (end.timed_out) return "did not return from " + where + " within " + seconds_text(options.timeout);
     if (end.status.signalled)
         return "crashed in " + where + " with signal " + std::to_string(end.status.code) + " (" +
-               strsignal(end.status.code) + ")" + last_words(end.errors);
+               strsignal(end.status.code) + ")" + last_error(end.errors);
     return "ended the process in " + where + " with exit code " + std::to_string(end.status.code) +
-           last_words(end.errors);
+           last_error(end.errors);
 }
 
 } // namespace
@@ -78,7 +85,7 @@ std::string run_probe(const ProbeOptions& options, const std::string& task,
     process::CommandOptions child;
     child.timeout = options.timeout;
     child.capture_report = true;
-    child.discard_output = true;
+    child.discard_output = true; // what a library prints when it is loaded belongs to no log
     child.max_output = max_report_bytes;
     child.max_errors = max_error_bytes;
     process::CommandResult end;
@@ -89,6 +96,7 @@ std::string run_probe(const ProbeOptions& options, const std::string& task,
                                               " cannot be tried in a child process: " + error.what());
     }
     const Report report = read_report(end.report);
+    // A complete report counts even if a static destructor of the child has crashed since.
     if (report.done && !end.timed_out) return report.result;
     if (!report.failure.empty()) throw Error(Reason::probe_failed, report.failure);
     throw Error(Reason::probe_failed, options.subject + " " + library.string() + " " +

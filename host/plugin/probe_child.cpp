@@ -17,16 +17,17 @@
 namespace tandem::plugin {
 namespace {
 
-// Without buffer: the next thing the process does may be its last.
+// Unbuffered, because the library's code that runs next may end the process.
 void write_report(std::string_view text) {
     while (!text.empty()) {
         const ssize_t sent = write(process::report_descriptor, text.data(), text.size());
         if (sent < 0 && errno == EINTR) continue;
-        if (sent <= 0) _exit(1); // nobody listens any more
+        if (sent <= 0) _exit(1); // the parent has closed its end of the pipe
         text.remove_prefix(static_cast<std::size_t>(sent));
     }
 }
 
+// The protocol is made of lines.
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
@@ -41,7 +42,7 @@ std::string one_line(std::string text) {
         _exit(1);
     }
     write_report(done_line);
-    _exit(0); // the library is gone; what else may run at exit is the program's own
+    _exit(0); // not exit(): the library is unloaded, and this program's exit handlers are not under test
 }
 
 } // namespace
@@ -57,9 +58,9 @@ void ProbeReport::finish(const std::string& result) {
 
 void serve_probe(int argc, char** argv, const ProbeTasks& tasks) {
     if (argc < 4 || std::strcmp(argv[1], probe_argument) != 0) return;
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // the thread that waits for us
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // when the thread that has started this process and waits for it ends
     const rlimit none{0, 0};
-    setrlimit(RLIMIT_CORE, &none); // a crash is an answer here
+    setrlimit(RLIMIT_CORE, &none); // a crash is an ordinary result here and needs no core file
     run(tasks, argc, argv);
 }
 

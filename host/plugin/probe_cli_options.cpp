@@ -12,10 +12,10 @@ std::optional<ProbeOptions> ProbeCliOptions::probe_options() const {
     return options;
 }
 
-void add_probe_options(CLI::App& cli, ProbeCliOptions& switches) {
-    cli.add_flag("--no-probe", switches.disabled,
+void add_probe_options(CLI::App& cli, ProbeCliOptions& options) {
+    cli.add_flag("--no-probe", options.disabled,
                  "Load libraries without trying them in a child process first");
-    cli.add_option("--probe-timeout", switches.timeout_s,
+    cli.add_option("--probe-timeout", options.timeout_s,
                    "Seconds within which a library that is tried must make its components (10)")
         ->check(CLI::Range(0.1, 3600.));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The switches of both hosts that say how plugins are tried, under one name each.
+// The command-line options of both hosts about probes, so that they have the same names in both.
 #pragma once
 
 #include "host/plugin/probe.hpp"
@@ -12,13 +12,15 @@ class App;
 
 namespace tandem::plugin {
 
+/// Values of these options as parsed.
 struct ProbeCliOptions {
     bool disabled = false; ///< --no-probe
     double timeout_s = 10; ///< --probe-timeout
 
-    std::optional<ProbeOptions> probe_options() const;
+    std::optional<ProbeOptions> probe_options() const; ///< nothing if probes are disabled
 };
 
-void add_probe_options(CLI::App& cli, ProbeCliOptions& switches);
+/// Declares the options; parsing writes to `options`, which must live as long as `cli`.
+void add_probe_options(CLI::App& cli, ProbeCliOptions& options);
 
 } // namespace tandem::plugin

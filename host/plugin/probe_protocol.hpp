@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words between the two sides of a probe: lines on report_descriptor, the result last.
+// The protocol from a probe's child process to its parent: lines on process::report_descriptor, each with one of
+// these tags, the result last. Internal to host/plugin.
 #pragma once
 
 namespace tandem::plugin {
 
-constexpr char probe_argument[] = "--probe-in-child"; ///< first argument; then task, library, arguments
-constexpr char stage_tag[] = "stage ";
-constexpr char failed_tag[] = "failed ";
+constexpr char probe_argument[] =
+    "--probe-in-child";                  ///< first argument of the child; then task, library, arguments
+constexpr char stage_tag[] = "stage ";   ///< name of the library's function that runs next
+constexpr char failed_tag[] = "failed "; ///< the reason
 constexpr char result_tag[] = "result "; ///< number of bytes, newline, that many bytes
-constexpr char done_line[] = "done\n";   ///< last; without it the process has ended half-way
+constexpr char done_line[] = "done\n";   ///< the last line; without it the child has ended early
 
 } // namespace tandem::plugin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines over a unix stream socket: what StepServer and StepClient share. Internal to host/rt.
+// Lines of text over a unix stream socket, for StepServer and StepClient. Internal to host/rt.
 #pragma once
 
 #include "host/process/file_descriptor.hpp"
@@ -13,21 +13,23 @@ namespace tandem::rt {
 
 using process::FileDescriptor;
 
-/// Throws std::runtime_error when the path is longer than a unix socket address can hold.
+/// The path as an address. Throws std::runtime_error when it is empty or longer than an address can hold (107).
 sockaddr_un socket_address(const std::string& path);
 
-/// Collects received bytes and hands them out line by line; a line longer than 4096 bytes is refused.
+/// Collects received bytes and returns them line by line. The peer is not trusted: a line longer than 4096 bytes
+/// is an error.
 class LineBuffer {
   public:
-    /// False: the peer is gone or has sent an overlong line. Does not block beyond what the socket has ready.
+    /// Receives what the socket has ready, without waiting. False: the peer has closed or sent an overlong line.
     bool fill(int fd);
+    /// The next complete line without its newline, if there is one.
     std::optional<std::string> take_line();
 
   private:
     std::string bytes_;
 };
 
-/// Sends everything, without SIGPIPE; false when the peer is gone or does not read for a second.
+/// Sends the whole text. False: the peer has closed, or has not read for one second. Raises no SIGPIPE.
 bool send_all(int fd, std::string_view text);
 
 } // namespace tandem::rt

@@ -11,16 +11,18 @@ namespace tandem::rt {
 namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
-// A sleep is never longer, so that interrupt() works without a signal; periods up to this cost one system
-// call.
+// interrupt() sets a flag that a sleeping thread sees only when it wakes, so a longer wait is divided into sleeps
+// of this length. A period up to this length costs one system call.
 constexpr std::int64_t max_sleep_ns = 100'000'000;
 
+// An absolute time: a relative sleep would add the time between reading the clock and sleeping to every period.
 void sleep_until(std::int64_t when) {
     const timespec at{static_cast<time_t>(when / second_ns), static_cast<long>(when % second_ns)};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
     }
 }
 
+// Tells the processor that this is a polling loop: saves power, and leaves the core to its other hyper-thread.
 void relax() {
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
@@ -47,13 +49,15 @@ void PeriodicTick::plan_first(std::int64_t now) {
     started_ = true;
     next_ = now;
     if (!aligned_) return;
+    // The outer modulo makes the remainder positive when `now` lies before the phase.
     const std::int64_t into_period = ((now - phase_) % period_ + period_) % period_;
     next_ = now - into_period + period_;
 }
 
 std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
     next_ += period_;
-    if (now <= next_) return 0;
+    if (now <= next_) return 0; // in time
+    // The tick is due already. Those of whole periods that have passed are dropped.
     overruns_.fetch_add(1, std::memory_order_relaxed);
     const std::int64_t missed = (now - next_) / period_;
     next_ += missed * period_;
@@ -62,6 +66,7 @@ std::uint64_t PeriodicTick::plan_next(std::int64_t now) {
 }
 
 void PeriodicTick::sleep_until_next() {
+    // Three stretches: sleep, warm up, poll.
     const std::int64_t poll_from = next_ - spin_;
     std::int64_t now = monotonic_ns();
     while (now < poll_from && !interrupted()) {
@@ -75,6 +80,7 @@ void PeriodicTick::sleep_until_next() {
     }
     const std::int64_t lateness = now - next_;
     lateness_last_.store(lateness, std::memory_order_relaxed);
+    // Only this thread writes, so no compare-and-exchange is needed.
     if (lateness > lateness_max_.load(std::memory_order_relaxed))
         lateness_max_.store(lateness, std::memory_order_relaxed);
 }

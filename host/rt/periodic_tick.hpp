@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A periodic tick on CLOCK_MONOTONIC: the clock of every executor of both hosts.
+// A periodic tick on CLOCK_MONOTONIC. Every periodic executor (OPRoS) and execution context (RTM) waits on one.
 #pragma once
 
 #include <atomic>
@@ -10,50 +10,54 @@
 
 namespace tandem::rt {
 
-/// Where on CLOCK_MONOTONIC the grid of all aligned ticks begins. The kernel's own timer tick falls on whole
-/// multiples of its period (1 to 10 ms; so aligned since Linux 6.3), and takes tens of us on a virtual machine:
-/// ticks of whole milliseconds would all wait for it. This is far from it for periods down to 250 us.
+/// Offset of all aligned ticks on CLOCK_MONOTONIC. The kernel's own timer tick falls on whole multiples of its
+/// period (1 to 10 ms; so since Linux 6.3) and takes tens of us on a virtual machine: a tick on a whole
+/// millisecond would wait for it. The offset keeps ticks apart from it for periods down to 250 us.
 inline constexpr std::chrono::nanoseconds grid_origin{375'000};
 
+/// When a PeriodicTick ticks and how it waits.
 struct TickOptions {
     std::chrono::nanoseconds period;
-    std::chrono::nanoseconds phase{0};
-    /// Ticks fall on grid_origin plus multiples of the period plus the phase, so that two hosts share one grid
-    /// without talking. Otherwise the grid starts at the first wait(), whose tick comes at once.
+    std::chrono::nanoseconds phase{0}; ///< shifts the ticks of this object on the common grid
+    /// True: ticks fall on grid_origin + phase + multiples of the period, so that two processes share one grid
+    /// without communicating. False: the grid starts at the first wait(), which returns at once.
     bool aligned = true;
-    /// The last stretch before a tick is polled instead of slept.
+    /// For this long before each tick the clock is polled instead of sleeping: on time to nanoseconds, for
+    /// that share of a processor.
     std::chrono::nanoseconds spin{0};
-    /// [tick-thread] Called when the polling begins, if there is any: goes the way that the tick will go, as
-    /// far as that does nothing, so that its code and data are in the caches again when the time comes.
+    /// Called when polling begins, if `spin` is above 0. It is to follow the path of the coming tick without
+    /// effects, so that code and data of the tick are in the caches when its time comes. [tick-thread]
     std::function<void()> warm_up{};
 };
 
+/// Counters of a PeriodicTick since its construction.
 struct TickStats {
-    std::uint64_t ticks;    ///< waits that ended in a tick
-    std::uint64_t overruns; ///< ticks whose time had passed when wait() was called
-    std::uint64_t skipped;  ///< periods that never got a tick
-    std::int64_t lateness_ns_last;
+    std::uint64_t ticks;           ///< calls of wait() that ended with a tick
+    std::uint64_t overruns;        ///< ticks that were already due when wait() was called
+    std::uint64_t skipped;         ///< periods without a tick, because the work before took too long
+    std::int64_t lateness_ns_last; ///< from the planned time to the return of wait()
     std::int64_t lateness_ns_max;
 };
 
+/// Owned by the thread that ticks; other threads may call interrupt() and stats().
 class PeriodicTick {
   public:
     /// Throws std::invalid_argument unless period > 0.
     explicit PeriodicTick(const TickOptions& options);
 
-    /// [tick-thread] Sleeps to the next tick and returns how many periods were skipped because the work
-    /// overran. A tick late by less than one period comes at once; older ones are dropped and the grid is
-    /// kept.
+    /// Waits for the next tick. Returns how many periods were skipped because the work since the last tick took
+    /// longer than a period: a tick late by less than one period comes at once, older ones are dropped, and the
+    /// grid stays as it is. [tick-thread]
     std::uint64_t wait();
 
-    /// [any-thread] Makes the wait under way, and all later ones, return within 100 ms without a tick.
+    /// Makes the current and all later calls of wait() return within 100 ms without a tick. [any-thread]
     void interrupt() noexcept { interrupted_.store(true, std::memory_order_relaxed); }
     bool interrupted() const noexcept { return interrupted_.load(std::memory_order_relaxed); }
 
-    /// [tick-thread] The time the present tick was planned for, in ns of CLOCK_MONOTONIC.
+    /// The planned time of the current tick, in ns of CLOCK_MONOTONIC. [tick-thread]
     std::int64_t planned_ns() const noexcept { return next_; }
 
-    /// [any-thread]
+    /// Each counter by itself is exact; together they are no snapshot. [any-thread]
     TickStats stats() const;
 
   private:
@@ -62,28 +66,29 @@ class PeriodicTick {
     void sleep_until_next();
 
     const std::int64_t period_;
-    const std::int64_t phase_; // from the clock's beginning
+    const std::int64_t phase_; // offset from zero of the clock, grid_origin included; all times in ns
     const std::int64_t spin_;
     const bool aligned_;
     const std::function<void()> warm_up_;
     bool started_ = false;
-    std::int64_t next_ = 0;
+    std::int64_t next_ = 0; // planned time of the coming, then of the current tick
     std::atomic<bool> interrupted_{false};
     std::atomic<std::uint64_t> ticks_{0}, overruns_{0}, skipped_{0};
     std::atomic<std::int64_t> lateness_last_{0}, lateness_max_{0};
 };
 
-/// Now, in ns of CLOCK_MONOTONIC.
+/// CLOCK_MONOTONIC in ns. [any-thread]
 std::int64_t monotonic_ns() noexcept;
 
-/// For a warm_up: the first 2 KiB of an object with virtual functions, for writing, and the table of those.
+/// Prefetches the first 2 KiB of an object with virtual functions, for writing, and its table of virtual
+/// functions. For TickOptions::warm_up; reads nothing of the object but its table pointer.
 template <class Object>
 void prefetch(const Object& object) {
     constexpr std::size_t line = 64, bytes = 2048;
     const auto* whole = static_cast<const std::byte*>(dynamic_cast<const void*>(&object));
     const auto* functions = *reinterpret_cast<const std::byte* const*>(whole);
     for (std::size_t at = 0; at < bytes; at += line) {
-        __builtin_prefetch(whole + at, 1); // a prefetch beyond the end does nothing
+        __builtin_prefetch(whole + at, 1); // a prefetch of an invalid address has no effect
         __builtin_prefetch(functions + at);
     }
 }

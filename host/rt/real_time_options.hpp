@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real-time options of both hosts, under one name each.
+// The real-time command-line options of both hosts, so that they have the same names in both (README.md).
 #pragma once
 
 #include <chrono>
@@ -13,10 +13,12 @@ class App;
 
 namespace tandem::rt {
 
+/// Values of these options as parsed.
 struct RealTimeOptions {
-    int cpu = -1;            ///< --cpu: for threads that tick; in wait mode same-core for the whole process
-    double tick_spin_us = 0; ///< --tick-spin
-    std::string wait_mode;   ///< --wait-mode; empty: the bridges' own default
+    int cpu =
+        -1; ///< --cpu: processor of threads that tick, in wait mode same-core of the whole process; -1: any
+    double tick_spin_us = 0; ///< --tick-spin [us]
+    std::string wait_mode;   ///< --wait-mode; empty: the default of the proxy's two components
     bool low_latency_idle = false, lock_memory = false, parent_death = false;
 
     std::chrono::nanoseconds tick_spin() const {
@@ -24,11 +26,12 @@ struct RealTimeOptions {
     }
 };
 
+/// Declares the options; parsing writes to `options`, which must live as long as `cli`.
 void add_real_time_options(CLI::App& cli, RealTimeOptions& options);
 
-/// [main-thread, before there are others: they inherit it] Asks the kernel, sets a timer slack of 1 ns, and
-/// hands the wait mode on to the bridges that this host will load, as $TANDEM_WAIT_MODE. Returns a notice of
-/// one line for each refusal. Throws std::runtime_error when the options contradict each other.
+/// Requests from the kernel what the options ask for, sets a timer slack of 1 ns, and passes the wait mode to
+/// plugins loaded later, as $TANDEM_WAIT_MODE. Returns one line for each request that was refused. Throws
+/// std::runtime_error when options contradict each other. [main-thread, before other threads exist: they inherit]
 std::vector<std::string> apply(const RealTimeOptions& options);
 
 } // namespace tandem::rt

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The conductor's end of the lock-step protocol (step_server.hpp).
+// Client of the lock-step protocol (step_server.hpp).
 #pragma once
 
 #include "host/rt/line_socket.hpp"
@@ -9,15 +9,16 @@
 
 namespace tandem::rt {
 
+/// Lets a host run cycles of its components one at a time. For one thread.
 class StepClient {
   public:
-    /// Connects, waiting up to `connect_timeout` for a server to listen. Throws std::runtime_error when none
-    /// does.
+    /// Connects, and waits up to `connect_timeout` for a server that does not listen yet. Throws
+    /// std::runtime_error when there is none by then.
     StepClient(const std::string& socket_path, std::chrono::nanoseconds connect_timeout);
 
-    /// One cycle of the component. Throws std::runtime_error with the server's message, when the server is
-    /// gone, or when it has not answered within `reply_timeout`; after the latter two the client is of no further
-    /// use.
+    /// Runs one cycle of the component and returns when it has ended. Throws std::runtime_error with the
+    /// server's message when the cycle fails. Also throws when the server has closed or has not replied within
+    /// `reply_timeout`: the client cannot be used any further then, since a late reply would be taken for the next.
     void step(const std::string& component,
               std::chrono::nanoseconds reply_timeout = std::chrono::seconds(10));
 

@@ -17,6 +17,7 @@ namespace {
 
 std::string error_text(int error) { return std::strerror(error); }
 
+// A longer name than 15 characters would be refused as a whole.
 void set_name(const std::string& name) {
     if (!name.empty()) pthread_setname_np(pthread_self(), name.substr(0, 15).c_str());
 }
@@ -74,7 +75,7 @@ std::optional<std::string> lock_memory() {
 }
 
 std::optional<std::string> hold_low_latency_idle() {
-    // The kernel honours the request as long as the file is open: it is meant to stay open until the end.
+    // The kernel honours the request while the file is open, so it is never closed.
     const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
     const std::int32_t microseconds = 0;
     if (file >= 0 && ::write(file, &microseconds, sizeof microseconds) == sizeof microseconds)
@@ -88,6 +89,7 @@ std::optional<std::string> hold_low_latency_idle() {
 std::optional<std::string> terminate_with_parent() {
     if (prctl(PR_SET_PDEATHSIG, static_cast<unsigned long>(SIGTERM), 0UL, 0UL, 0UL) != 0)
         return "the parent's death will go unnoticed: " + error_text(errno);
+    // The parent may have died before prctl(): then this process has been adopted by process 1.
     if (getppid() != 1) return std::nullopt;
     return std::string("the parent process is gone already");
 }

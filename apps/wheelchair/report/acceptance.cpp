@@ -14,6 +14,7 @@ namespace tandem::wheelchair {
 namespace {
 
 constexpr double step_time = 5.0, goal = 20.0; // s, deg
+// Rows are 10 ms apart. Steady state is measured over the last 2 s.
 constexpr std::size_t step_row = 500, last_row = 1000, steady_rows = 200;
 constexpr double unbounded = -std::numeric_limits<double>::infinity();
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
@@ -34,6 +35,7 @@ double settling(const std::vector<Row>& rows, double band) {
     return 0.0;
 }
 
+// The largest value(row) from row `first` on.
 template <class Value>
 double largest(const std::vector<Row>& rows, std::size_t first, Value value) {
     double maximum = unbounded;
@@ -41,12 +43,13 @@ double largest(const std::vector<Row>& rows, std::size_t first, Value value) {
     return maximum;
 }
 
-double off(double angle) { return std::abs(angle - goal); }
+double error_of(double angle) { return std::abs(angle - goal); }
 
 double forward_speed(const Row& r) {
     return 0.5 * PlantParameters{}.wheel_radius * (r.wheel_left + r.wheel_right);
 }
 
+// Of the steering angle, over the last 2 s.
 double mean_error(const std::vector<Row>& rows) {
     double sum = 0.0;
     for (std::size_t i = rows.size() - steady_rows; i < rows.size(); ++i) sum += rows[i].steering_true_deg;
@@ -58,6 +61,7 @@ double mean_error(const std::vector<Row>& rows) {
 std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& all) {
     if (all.size() <= last_row) return {};
     const std::vector<Row> rows(all.begin(), all.begin() + last_row + 1);
+    // Only the first 10 s: a run with --duration may be longer.
     const double t10 = crossing(rows, 0.1 * goal);
     const auto tail = rows.size() - steady_rows;
     return {
@@ -69,9 +73,10 @@ std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& all) {
         {"settling to 2 %", "s", settling(rows, 0.02 * goal), unbounded, 0.7},
         {"steady error, 8..10 s", "deg", mean_error(rows), unbounded, 0.02},
         {"steady band, true", "deg",
-         largest(rows, tail, [](const Row& r) { return off(r.steering_true_deg); }), unbounded, 0.03},
+         largest(rows, tail, [](const Row& r) { return error_of(r.steering_true_deg); }), unbounded, 0.03},
         {"steady band, measured", "deg",
-         largest(rows, tail, [](const Row& r) { return off(r.steering_measured_deg); }), unbounded, 0.12},
+         largest(rows, tail, [](const Row& r) { return error_of(r.steering_measured_deg); }), unbounded,
+         0.12},
         {"largest voltage", "V",
          largest(rows, 0,
                  [](const Row& r) { return std::max(std::abs(r.volts_left), std::abs(r.volts_right)); }),

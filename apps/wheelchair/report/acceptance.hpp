@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The figures by which a step20 run is judged (specification, sections 8 and 10).
+// Checks whether a step20 run meets the figures of docs/wheelchair.md, sections 8 and 10.
 #pragma once
 
 #include <string>
@@ -9,33 +9,37 @@
 
 namespace tandem::wheelchair {
 
-/// One figure against its bounds.
+/// One figure of a run and its bounds.
 struct AcceptanceCheck {
     std::string name, unit;
-    double value, min, max; // min <= value <= max is a pass; NaN never is
+    double value, min, max; // an infinite bound is open; a NaN never passes
     bool pass() const { return value >= min && value <= max; }
 };
 
-/// Section 8 over the steering angle from the step at 5 s to the end. Needs the rows of a full step20 run;
-/// empty when there are fewer.
+/// The checks of docs/wheelchair.md, section 8: the response of the steering angle to the step at 5 s. Empty if
+/// `rows` are fewer than those of a whole step20 run.
 std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& rows);
 
+/// Of two runs in one column: root mean square and largest absolute value.
 struct Difference {
     double rms = 0.0, max = 0.0;
 };
-/// Of one column of two runs over [from, to] seconds of scenario time.
+/// The difference over [from, to] seconds of scenario time; NaN if the runs have no rows there.
 Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, double Row::*column, double from,
                       double to);
 
-/// Section 10: whether two real-time runs of step20 steer the same over 5..10 s.
+/// The checks of section 10 for two real-time runs of step20: whether they steer almost the same over 5..10 s.
+/// `names` begins the name of each check.
 std::vector<AcceptanceCheck> check_similar(const std::string& names, const std::vector<Row>& a,
                                            const std::vector<Row>& b);
 
-/// Section 10: whether two lock-step runs have the same log, byte for byte.
+/// The check of section 10 for two lock-step runs: whether their CSV rows are the same, byte for byte.
 std::vector<AcceptanceCheck> check_identical(const std::string& names, const std::vector<Row>& a,
                                              const std::vector<Row>& b);
 
 bool all_pass(const std::vector<AcceptanceCheck>& checks);
+
+/// A table for people, with `pass` or `FAIL` for each check.
 std::string acceptance_table(const std::string& title, const std::vector<AcceptanceCheck>& checks);
 
 } // namespace tandem::wheelchair

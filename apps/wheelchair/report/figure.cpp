@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <system_error>
 
 #include "host/process/run_command.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Dark, middle and light, each with its own dash: told apart in print and by the colour-blind.
+// Dark, middle and light, each with its own dash, so that they differ in print and for the colour-blind.
 constexpr const char* styles =
     "set style line 1 lc rgb '#0072b2' lw 2\n"
     "set style line 2 lc rgb '#d55e00' lw 2 dt (12,4)\n"
@@ -44,20 +45,28 @@ std::string data(const std::string& name, const std::vector<Row>& rows,
     return out + "EOD\n";
 }
 
+process::CommandResult run_gnuplot(const process::CommandOptions& options) {
+    try {
+        return process::run_command({"gnuplot", "-"}, options);
+    } catch (const std::system_error& error) {
+        throw InputError(std::string(error.what()) + "; install gnuplot-nox");
+    }
+}
+
+// Runs the script in the figure's folder: it names its output file without a folder.
 void gnuplot(const fs::path& figure, const std::string& script) {
     const auto folder = figure.parent_path();
     process::CommandOptions options;
     options.input = script;
     options.folder = folder.string();
-    const auto result = process::run_command({"gnuplot", "-"}, options);
+    const auto result = run_gnuplot(options);
     if (!result.succeeded())
         throw InputError(fmt::format(
             "gnuplot could not draw {}: {}; install gnuplot-nox, and check that the folder exists",
             figure.string(), result.failure()));
 }
 
-/// Where the scenario's step family changes direction, the interesting part begins; elsewhere show
-/// everything.
+// The whole run, so that figures of the same scenario have the same axis.
 std::string time_axis(const std::vector<Row>& rows) {
     const double end = rows.empty() ? 1.0 : rows.back().t;
     return fmt::format("set xrange [0:{:g}]\n", end);

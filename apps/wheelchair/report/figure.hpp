@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drawings of a run, by gnuplot.
+// Draws runs with gnuplot.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace tandem::wheelchair {
 
-/// Steering angle, wheel speeds and voltages of one run into `path` (.svg or .png).
-/// Throws InputError when the ending is another, or gnuplot is missing or fails.
+/// Draws steering angle, wheel speeds and voltages of one run to `path` (.svg or .png). Throws InputError when the
+/// suffix is another one, or gnuplot is missing or fails.
 void draw_run(const std::string& path, const std::string& title, const std::vector<Row>& rows);
 
-/// The paper's Fig. 14: measured steering angles of several configurations, and under them the differences to
-/// the first. Writes `path` (.svg or .png) and its sibling of the other kind.
+/// Draws the paper's Fig. 14: measured steering angles of several configurations, and below them the differences to
+/// the first one. Writes `path` and a file of the same name with the other suffix. Throws as draw_run().
 void draw_comparison(const std::string& path, const std::string& title,
                      const std::vector<std::pair<std::string, std::vector<Row>>>& runs);
 
-/// Throws InputError unless `path` ends in .svg or .png: said before a run, not after it.
+/// Throws InputError unless `path` ends in .svg or .png. To be called before the run, not only after it.
 void check_figure_path(const std::string& path);
 
 } // namespace tandem::wheelchair

@@ -11,7 +11,7 @@ namespace tandem::wheelchair {
 
 namespace {
 constexpr std::size_t table_size = 100;
-constexpr std::size_t settled = 100; // ticks: one second
+constexpr std::size_t skipped = 100; // ticks; the hosts are still busy with their start in the first second
 } // namespace
 
 Statistics statistics(const std::vector<double>& values) {
@@ -45,7 +45,7 @@ std::vector<double> latencies_us(const std::vector<ControlRecord>& control) {
 }
 
 std::vector<double> table_samples(const std::vector<double>& latencies) {
-    const std::size_t first = latencies.size() >= settled + table_size ? settled : 0;
+    const std::size_t first = latencies.size() >= skipped + table_size ? skipped : 0;
     const std::size_t last = std::min(first + table_size, latencies.size());
     return {latencies.begin() + static_cast<std::ptrdiff_t>(first),
             latencies.begin() + static_cast<std::ptrdiff_t>(last)};
@@ -59,8 +59,8 @@ SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
         if (r.references_received <= 0) continue;
         if (count.received == 0) first = r.reference_stamp;
         last = r.reference_stamp;
-        // Of several that came in one tick only the newest has its stamp recorded; at the start the window
-        // begins there.
+        // Of several references in one tick only the newest one's stamp is recorded. The window begins with the
+        // first recorded stamp, so older ones of that tick are not in it.
         count.received += count.received == 0 ? 1 : std::lround(r.references_received);
     }
     if (count.received == 0) return count;

@@ -19,7 +19,7 @@ using nlohmann::ordered_json;
 ordered_json json_of(const std::vector<AcceptanceCheck>& checks) {
     ordered_json list = ordered_json::array();
     for (const AcceptanceCheck& j : checks) {
-        // JSON has no infinity: an open bound and a figure that could not be measured are null.
+        // JSON has no infinity and no NaN: the library writes null for an open bound or a figure that is missing.
         list.push_back({{"name", j.name},
                         {"unit", j.unit},
                         {"value", j.value},
@@ -73,6 +73,7 @@ ordered_json json_of(const RunResult& r, const std::vector<AcceptanceCheck>& acc
     return j;
 }
 
+// One line for people: where the chair was at the end.
 std::string final_pose(const RunResult& r) {
     if (r.rows.empty()) return "";
     const Row& last = r.rows.back();
@@ -97,6 +98,7 @@ Report make_report(std::vector<RunResult> runs, const Options& options) {
         const bool step = r.scenario == "step20" && options.joystick_file.empty() && r.host_failures.empty();
         report.acceptance.push_back(step ? check_step20(r.rows) : std::vector<AcceptanceCheck>{});
     }
+    // With --compare the last run is the mixed one; it is compared with each run of one model.
     for (std::size_t i = 0; runs.size() > 1 && i + 1 < runs.size(); ++i) {
         const auto name =
             fmt::format("{} - {}", name_of(runs.back().configuration), name_of(runs[i].configuration));

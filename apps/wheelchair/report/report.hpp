@@ -10,19 +10,21 @@
 
 namespace tandem::wheelchair {
 
-/// What was run, and how it is judged.
+/// The results of all runs of one call of the program, and whether they are accepted.
 struct Report {
     std::vector<RunResult> runs;
-    std::vector<std::vector<AcceptanceCheck>> acceptance; // one per run; empty where the scenario has none
-    std::vector<AcceptanceCheck> pairs;                   // of --compare
+    std::vector<std::vector<AcceptanceCheck>>
+        acceptance;                     // one list per run; empty if its scenario has no checks
+    std::vector<AcceptanceCheck> pairs; // of --compare: the last run against each other one
     bool lockstep = false;
 
-    bool good() const; // every run clean and complete, every judgement passed
+    bool good() const; // every run is complete and without failures, and every check has passed
 };
 
+/// Performs the checks that apply to these runs.
 Report make_report(std::vector<RunResult> runs, const Options& options);
 
-/// Tables for people; one line per failure is not part of it.
+/// Tables for people, without RunResult::failures.
 std::string text_of(const Report& report);
 
 /// Writes the figures as JSON; throws InputError when the file cannot be written.

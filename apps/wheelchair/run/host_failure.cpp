@@ -5,15 +5,17 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// A reference may still be under way when its sender's death is noticed; nobody restarts a host that fast.
+// [s] A reference that arrives within this time after the failure was sent before it: no restart is that fast.
 constexpr double in_flight = 0.020;
 
+// The record of the last reference read up to time `until`; null if there is none.
 const ControlRecord* last_reference(double until, const std::vector<ControlRecord>& control) {
     for (auto r = control.rbegin(); r != control.rend(); ++r)
         if (r->references_received > 0 && r->reference_read_at <= until) return &*r;
     return nullptr;
 }
 
+// The record of the first reference read after time `after`; null if there is none.
 const ControlRecord* next_reference(double after, const std::vector<ControlRecord>& control) {
     const ControlRecord* found = nullptr;
     for (auto r = control.rbegin(); r != control.rend() && r->reference_read_at > after; ++r)
@@ -23,9 +25,9 @@ const ControlRecord* next_reference(double after, const std::vector<ControlRecor
 
 } // namespace
 
-std::optional<double> motors_off_after_ms(double died_at, const std::vector<HWRecord>& hw,
+std::optional<double> motors_off_after_ms(double failed_at, const std::vector<HWRecord>& hw,
                                           const std::vector<ControlRecord>& control) {
-    const ControlRecord* last = last_reference(died_at + in_flight, control);
+    const ControlRecord* last = last_reference(failed_at + in_flight, control);
     if (!last) return {};
     for (const HWRecord& r : hw)
         if (r.applied_at > last->reference_read_at && r.volts_left == 0.0 && r.volts_right == 0.0)
@@ -34,18 +36,18 @@ std::optional<double> motors_off_after_ms(double died_at, const std::vector<HWRe
 }
 
 bool HostFailure::update(const std::vector<HWRecord>& hw, const std::vector<ControlRecord>& control) {
-    bool news = false;
+    bool found_one = false;
     if (!motors_off_after_ms && !had_hw) {
         motors_off_after_ms = wheelchair::motors_off_after_ms(at, hw, control);
-        news = motors_off_after_ms.has_value();
+        found_one = motors_off_after_ms.has_value();
     }
     if (!data_back_after_ms) {
         if (const ControlRecord* back = next_reference(at + in_flight, control)) {
             data_back_after_ms = (back->reference_read_at - (restarted_at > 0.0 ? restarted_at : at)) * 1e3;
-            news = true;
+            found_one = true;
         }
     }
-    return news;
+    return found_one;
 }
 
 } // namespace tandem::wheelchair

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host that died in mid-run: what is known about it, and what the traces say about its consequences.
+// A host that ended in mid-run: what is known about it, and what the traces tell about the consequences.
 #pragma once
 
 #include <optional>
@@ -12,26 +12,28 @@
 
 namespace tandem::wheelchair {
 
+/// Times are seconds of CLOCK_MONOTONIC unless a name says otherwise.
 struct HostFailure {
     std::string host;
     pid_t pid = 0;
     std::string exit_status;   // "was killed by signal 9 (Killed)"
-    double at = 0.0;           // CLOCK_MONOTONIC [s] when it was noticed
-    double run_time = 0.0;     // scenario seconds
-    double restarted_at = 0.0; // of the restarted host, 0: not restarted
-    bool had_hw = false;       // HWComp was in it
+    double at = 0.0;           // when the end of the process was noticed
+    double run_time = 0.0;     // the same in seconds of the scenario
+    double restarted_at = 0.0; // when the restarted host was ready; 0: it was not restarted
+    bool had_hw = false;       // HWComp ran in this host
 
-    std::optional<double> motors_off_after_ms; // both motor voltages at 0, after the last reference
-    std::optional<double>
-        data_back_after_ms; // next reference at ControlComp, after restarted_at, else after `at`
+    // From the last reference to both motor voltages at 0; unknown when HWComp ended with the host.
+    std::optional<double> motors_off_after_ms;
+    // From restarted_at (from `at` without a restart) to the next reference that ControlComp received.
+    std::optional<double> data_back_after_ms;
 
-    /// Looks in the traces for what is not known yet. True when something was found.
+    /// Searches the traces for the two durations that are not known yet. True if one was found.
     bool update(const std::vector<HWRecord>& hw, const std::vector<ControlRecord>& control);
 };
 
-/// Milliseconds from the last reference that ControlComp received before `died_at` to the first tick in which
-/// HWComp applied 0 V to both motors; nothing when it has not (yet).
-std::optional<double> motors_off_after_ms(double died_at, const std::vector<HWRecord>& hw,
+/// Milliseconds from the last reference that ControlComp received before `failed_at` to the first tick in which
+/// HWComp applied 0 V to both motors. Nothing if the traces do not show it (yet).
+std::optional<double> motors_off_after_ms(double failed_at, const std::vector<HWRecord>& hw,
                                           const std::vector<ControlRecord>& control);
 
 } // namespace tandem::wheelchair

@@ -9,7 +9,7 @@ namespace tandem::wheelchair {
 
 namespace {
 
-bool among(const std::vector<RunComponent>& members, const std::string& name) {
+bool contains(const std::vector<RunComponent>& members, const std::string& name) {
     return std::any_of(members.begin(), members.end(), [&](const RunComponent& m) { return m.name == name; });
 }
 
@@ -20,9 +20,10 @@ LockstepDriver::LockstepDriver(const RunDirectory& run, Configuration configurat
         hosts_[host.name] =
             std::make_unique<rt::StepClient>(run.step_socket(host.name), std::chrono::seconds(5));
     for (const char* component : {"JoystickComp", "ControlComp", "HWComp"}) {
-        if (among(opros_components(configuration), component))
+        if (contains(opros_components(configuration), component))
             steps_.push_back({hosts_["opros_host"].get(), component});
         else
+            // An RTC's instance name is its type and a number.
             steps_.push_back({hosts_["rtm_host"].get(), std::string(component) + "0"});
     }
 }

@@ -12,23 +12,25 @@
 
 namespace tandem::wheelchair {
 
-/// Lock-step: asks the hosts for one component's cycle after the other, in the order of the specification.
+/// Runs the three components in simulation time: asks the hosts for one component's cycle after the other, always
+/// in the same order (docs/wheelchair.md, section 5.1), so that every run of a scenario gives the same bytes.
 class LockstepDriver {
   public:
-    /// Connects to the hosts of the run. Throws std::runtime_error.
+    /// Connects to the hosts of the run. Throws std::runtime_error when one does not listen within 5 s.
     LockstepDriver(const RunDirectory& run, Configuration configuration);
 
-    /// JoystickComp, ControlComp, and unless `last` HWComp. Throws std::runtime_error with the host's
-    /// message.
+    /// Runs one cycle of JoystickComp, of ControlComp and of HWComp; of the latter not in the last tick, whose
+    /// log row ends before HWComp. Throws std::runtime_error with the host's message.
     void run_tick(bool last);
 
   private:
+    /// One cycle within a tick.
     struct Step {
         rt::StepClient* host;
-        std::string instance;
+        std::string instance; // the component's name in that host
     };
     std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_;
-    std::vector<Step> steps_; // in order
+    std::vector<Step> steps_; // in the order of a tick
 };
 
 } // namespace tandem::wheelchair

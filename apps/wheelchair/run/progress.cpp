@@ -11,11 +11,13 @@
 namespace tandem::wheelchair {
 
 Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(STDERR_FILENO)) {
+    // A run shorter than that shows no progress at all.
     next_ = monotonic_seconds() + (terminal_ ? 0.5 : 10.0);
 }
 
 Progress::~Progress() { clear(); }
 
+// \r and the escape sequence for "erase to the end of the line".
 void Progress::clear() {
     if (visible_) fmt::print(stderr, "\r\033[K");
     visible_ = false;

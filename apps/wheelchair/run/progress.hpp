@@ -5,13 +5,15 @@
 
 namespace tandem::wheelchair {
 
-/// One line on stderr while a run lasts: rewritten in place on a terminal, every ten seconds anew elsewhere.
+/// Shows on standard error how far a run is: on a terminal one line that is rewritten in place, elsewhere a new line
+/// every ten seconds. For one thread.
 class Progress {
   public:
-    explicit Progress(std::string what);
-    ~Progress(); // wipes the line
+    explicit Progress(std::string what); // `what` names the run
+    ~Progress();                         // clears the line
+    /// Shows `seconds` of `of` seconds, if it is time for that.
     void show(double seconds, double of);
-    /// A line that stays, not torn by the progress line.
+    /// Prints a line that stays; removes the progress line from the terminal before.
     void print_line(const std::string& line);
 
   private:
@@ -19,7 +21,7 @@ class Progress {
 
     std::string what_;
     bool terminal_, visible_ = false;
-    double next_ = 0.0; // CLOCK_MONOTONIC [s]
+    double next_ = 0.0; // CLOCK_MONOTONIC [s] of the next time that show() prints
 };
 
 } // namespace tandem::wheelchair

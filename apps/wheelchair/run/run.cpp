@@ -22,13 +22,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// --duration replaces the scenario's own length.
 Scenario scenario_of(const Options& options) {
     Scenario scenario = load_scenario(options.scenario, options.joystick_file);
     if (options.duration > 0.0) scenario.seconds = options.duration;
     return scenario;
 }
 
-/// One run with hosts. Members are destroyed in reverse: hosts first, then the folder they write into.
+/// One run with hosts. The order of the members matters: at the end the hosts go before the folder into which they
+/// write.
 class HostedRun {
   public:
     HostedRun(const Options& options, Configuration configuration)
@@ -37,10 +39,10 @@ class HostedRun {
           progress_(name_of(configuration) + " " + scenario_.name) {}
 
     ~HostedRun() {
-        if (!stopped_) stop_hosts(); // an error is on its way up
+        if (!stopped_) stop_hosts(); // an exception is leaving execute()
     }
 
-    RunResult drive() {
+    RunResult execute() {
         start_hosts();
         if (options_.lockstep)
             run_lockstep();
@@ -51,6 +53,7 @@ class HostedRun {
     }
 
   private:
+    // The printed pids are what a user needs to kill a host in mid-run.
     void start_hosts() {
         std::string pids;
         for (const auto& host : directory_.hosts()) {
@@ -59,28 +62,33 @@ class HostedRun {
         }
         fmt::print("{}: {}\n", name_of(configuration_), pids);
         std::fflush(stdout);
-        // The halves of a link wait for each other before their hosts are ready.
+        // AdaptorComp and InterceptorComp wait for each other before their hosts report ready, so with a link each host
+        // may also need the other one's time.
         supervisor_.wait_until_ready(options_.host_wait * (directory_.links().empty() ? 1.0 : 2.0));
     }
 
+    // Simulation time: this program asks for every cycle, as fast as the hosts answer.
     void run_lockstep() {
         LockstepDriver driver(directory_, configuration_);
         for (int n = 0; n <= scenario_.last_tick(); ++n) {
             try {
                 driver.run_tick(n == scenario_.last_tick());
             } catch (const std::runtime_error& e) {
-                handle_events(supervisor_.watch(200ms)); // says which host died, if one did
+                // The socket closes before the process has ended: wait for that, so that the host is named.
+                handle_events(supervisor_.watch(200ms));
                 failures_.push_back(fmt::format("lock-step ended at tick {}: {}", n, e.what()));
                 return;
             }
-            if (n % 50 == 0) handle_events(supervisor_.watch(0ms));
+            if (n % 50 == 0)
+                handle_events(supervisor_.watch(0ms)); // every tick would cost too many system calls
             if (n == 0 && component_missing()) return;
             progress_.show(n * tick_seconds, scenario_.seconds);
         }
     }
 
+    // Real time: the components tick by themselves; this program watches their traces and processes.
     void run_real_time() {
-        // Bounded, whatever becomes of the hosts: the scenario and a little more.
+        // Ends in bounded time even if HWComp's ticks are never recorded to the end.
         const double start = monotonic_seconds(), end = start + scenario_.seconds + 2.0;
         bool checked = false;
         while (!finished() && monotonic_seconds() < end) {
@@ -96,8 +104,8 @@ class HostedRun {
         }
     }
 
-    /// A host may be ready although a component refused to start, as the real engines are. True if one never
-    /// ticked.
+    /// True, and recorded as a failure, if a component has not ticked. A host reports ready although a component
+    /// refused to start, as the real engines do, so only the traces show it.
     bool component_missing() {
         traces_.update();
         std::string missing;
@@ -105,13 +113,14 @@ class HostedRun {
         if (traces_.control.records().empty()) missing = "ControlComp";
         if (traces_.hw.records().empty()) missing = "HWComp";
         if (missing.empty()) return false;
-        std::string words;
+        std::string errors;
         for (const Host& host : supervisor_.hosts())
-            words += fmt::format("; {}: {}", host.name, host.first_error());
-        failures_.push_back(missing + " does not run" + words);
+            errors += fmt::format("; {}: {}", host.name, host.first_error());
+        failures_.push_back(missing + " does not run" + errors);
         return true;
     }
 
+    // HWComp's ticks are the clock of the scenario. 0 before the first one.
     double scenario_time() const {
         const auto& hw = traces_.hw.records();
         return hw.empty() ? 0.0 : hw.back().sequence * tick_seconds;
@@ -119,24 +128,27 @@ class HostedRun {
 
     bool finished() const {
         const auto& hw = traces_.hw.records();
-        // One tick more than logged, so that ControlComp has used the last publication.
+        // One tick more than is logged, so that ControlComp has used the last publication.
         return !hw.empty() && hw.back().sequence > scenario_.last_tick() + 1;
     }
 
-    /// Without --restart a dead host may come back by hand, but only while another one waits for it.
+    /// Without --restart the run goes on as long as a host runs: the user may restart the other one by hand.
     bool no_host_running() {
-        auto& hosts = supervisor_.hosts();
+        const auto& hosts = supervisor_.hosts();
         return std::none_of(hosts.begin(), hosts.end(), [](const Host& h) { return h.running(); });
     }
 
-    void handle_events(const Supervisor::Events& news) {
-        if (news.interrupted) throw Interrupted();
-        for (Host* host : news.became_ready)
-            for (HostFailure& i : host_failures_)
-                if (i.host == host->name && i.restarted_at == 0.0) i.restarted_at = host->ready_at;
-        for (Host* host : news.ended) on_host_ended(*host);
+    void handle_events(const Supervisor::Events& events) {
+        if (events.interrupted) throw Interrupted();
+        for (Host* host : events.became_ready)
+            for (HostFailure& failure : host_failures_)
+                if (failure.host == host->name && failure.restarted_at == 0.0)
+                    failure.restarted_at = host->ready_at;
+        for (Host* host : events.ended) on_host_ended(*host);
     }
 
+    // Records and prints the failure; starts the host again with --restart. A lock-step run cannot go on: its
+    // components would begin at tick 0.
     void on_host_ended(Host& host) {
         traces_.update();
         HostFailure i;
@@ -162,6 +174,7 @@ class HostedRun {
         }
     }
 
+    // Prints each duration of a failure once, as soon as the traces show it.
     void report_consequences() {
         for (HostFailure& i : host_failures_) {
             const bool had_stopped = i.motors_off_after_ms.has_value();
@@ -177,7 +190,7 @@ class HostedRun {
         }
     }
 
-    /// HWComp's host first, so that the motors are off before the joystick goes.
+    /// In start order, that is HWComp's host first: the motors are off before anything else stops.
     void stop_hosts() {
         stopped_ = true;
         for (Host& host : supervisor_.hosts()) {
@@ -189,9 +202,11 @@ class HostedRun {
                                 host.process.poll() ? host.process.poll()->text() : "hangs",
                                 host.first_error().empty() ? "" : ", it said: ", host.first_error()));
         }
+        // A killed host leaves its segment in /dev/shm; nobody else will use these links any more.
         for (const auto& [adaptor, link] : directory_.links()) shm::remove_dead(link);
     }
 
+    // A run with a host failure may lack rows and references; without one that is a failure by itself.
     RunResult result() {
         traces_.update();
         report_consequences();
@@ -237,7 +252,7 @@ bool RunResult::complete() const {
 
 RunResult run(const Options& options, Configuration configuration) {
     if (configuration == Configuration::memory) return run_in_memory(options);
-    return HostedRun(options, configuration).drive();
+    return HostedRun(options, configuration).execute();
 }
 
 } // namespace tandem::wheelchair

@@ -11,22 +11,22 @@
 
 namespace tandem::wheelchair {
 
-/// What one run of one configuration gave.
+/// The result of one run of one configuration.
 struct RunResult {
     Configuration configuration;
     std::string scenario;
-    double seconds = 0.0; // planned
+    double seconds = 0.0; // planned length of the scenario
     std::vector<Row> rows;
-    std::vector<double> latencies; // us, empty in lock-step
+    std::vector<double> latencies; // joystick send -> control receive [us]; empty in lock-step
     SampleCount samples;
-    std::vector<HostFailure> host_failures; // hosts that died; told when it happened
-    std::vector<std::string> failures;      // one line each: what else was wrong
+    std::vector<HostFailure> host_failures; // hosts that ended in mid-run; already printed
+    std::vector<std::string> failures;      // one line each: whatever else went wrong
 
-    bool complete() const; // every tick is there
+    bool complete() const; // every tick of the scenario was recorded
 };
 
-/// Runs one configuration from start to end. Throws InputError (bad input, a host that never came) or
-/// Interrupted.
+/// Runs one configuration: starts the hosts, drives the scenario, stops the hosts. Throws InputError (bad input, a
+/// host that did not become ready) or Interrupted; what goes wrong later is in the result. [main-thread]
 RunResult run(const Options& options, Configuration configuration);
 
 } // namespace tandem::wheelchair

@@ -33,20 +33,21 @@ void write_file(const fs::path& path, const std::string& text) {
     if (!file) throw InputError(path.string() + ": cannot be written");
 }
 
-constexpr const char* mark = "wheelchair-run"; // an empty file that says: this folder is ours
+constexpr const char* marker_file =
+    "wheelchair-run"; // empty; its presence says that a run has made the folder
 
-/// A kept folder may hold an earlier run, which goes: its traces would be continued. Nothing else is ever
-/// removed.
+/// Prepares the folder that the user wants to keep. An earlier run in it is removed, because components continue
+/// trace files that exist. A folder with anything else in it is refused: this program never deletes user files.
 fs::path kept_folder(const fs::path& path) {
     std::error_code error;
-    const bool ours = fs::exists(path / mark);
+    const bool ours = fs::exists(path / marker_file);
     if (!ours && fs::exists(path) && !fs::is_empty(path, error))
         throw InputError(path.string() +
                          ": holds something else than an earlier run; give an empty or a new folder");
     for (const char* part : {"opros", "rtm", "trace", "log"}) fs::remove_all(path / part, error);
     fs::create_directories(path, error);
     if (error) throw InputError(path.string() + ": cannot be made: " + error.message());
-    write_file(path / mark, "");
+    write_file(path / marker_file, "");
     return path;
 }
 
@@ -56,6 +57,7 @@ fs::path run_folder(const Options& options, Configuration configuration) {
                                        : fs::path(options.keep));
 }
 
+// Escapes a text for an XML element.
 std::string escaped(const std::string& text) {
     std::string out;
     for (char c : text) {
@@ -75,6 +77,7 @@ Parameters adaptor_parameters(const std::string& link, const Options& o) {
     return {{"link", link}, {"wait", fmt::format("{:g}", o.host_wait)}};
 }
 
+// The scenario goes by name to each component: the three read the same one.
 Parameters parameters_of(const std::string& member, const Options& o, const fs::path& run) {
     Parameters p{{"scenario", load_scenario(o.scenario, o.joystick_file).name},
                  {"joystick_file", o.joystick_file},
@@ -109,6 +112,7 @@ std::string list_setting(const char* key, const std::vector<std::string>& values
     return values.empty() ? "" : fmt::format("{}: {}\n", key, fmt::join(values, ", "));
 }
 
+// Nothing may end the host but this program, and RTCs are not published: two runs may go on at the same time.
 constexpr const char* rtc_conf_head =
     "# Settings of rtm_host for one wheelchair run. No name service: the RTCs find each other in this "
     "process.\n"
@@ -127,6 +131,7 @@ Folder::~Folder() {
 RunDirectory::RunDirectory(const Options& options, Configuration configuration, const fs::path& programs)
     : folder_(run_folder(options, configuration), !options.keep.empty()),
       sockets_(temporary_folder("tandem-step"), false) {
+    // The process id makes link names unique among runs at the same time on this machine.
     for (const Bridge& bridge : bridges(configuration))
         links_[bridge.adaptor] = fmt::format("wheelchair-{}{}", getpid(), bridge.link_suffix);
     for (const char* part : {"trace", "log"}) fs::create_directories(path() / part);
@@ -150,7 +155,7 @@ void RunDirectory::add_host(const Options& options, const std::string& name, con
     HostCommand host{name, {(programs / name).string()}, (path() / "log" / (name + ".log")).string()};
     auto& c = host.command;
     c.insert(c.end(), profile.begin(), profile.end());
-    c.push_back("--parent-death");
+    c.push_back("--parent-death"); // no host outlives this program, even if it is killed
     if (options.lockstep) c.insert(c.end(), {"--lockstep", step_socket(name)});
     const int cpu = name == "opros_host" ? options.opros_cpu : options.rtm_cpu;
     if (cpu >= 0) c.insert(c.end(), {"--cpu", std::to_string(cpu)});

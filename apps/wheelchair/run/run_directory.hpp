@@ -10,14 +10,14 @@
 
 namespace tandem::wheelchair {
 
-/// How to start one host of a run.
+/// How one host of a run is started.
 struct HostCommand {
-    std::string name; // opros_host, rtm_host
+    std::string name; // opros_host or rtm_host
     std::vector<std::string> command;
-    std::string log;
+    std::string log; // file for its standard error
 };
 
-/// A folder that goes with its owner unless it is to be kept.
+/// Owns a folder and removes it at the end, unless `keep` is true.
 class Folder {
   public:
     Folder(std::filesystem::path path, bool keep) : path_(std::move(path)), keep_(keep) {}
@@ -31,22 +31,25 @@ class Folder {
     bool keep_;
 };
 
-/// The folder of one run: the hosts' profiles with the run's parameters, traces, logs. It is also an example:
-/// the commands can be typed by hand.
-///   opros/wheelchair.xml (component profiles lie beside the plugins)     rtm/rtc.conf and a .conf for each
-///   RTC trace/COMPONENT.trace     log/HOST.log
+/// The folder of one run: profiles and configuration files with the run's parameters, traces and logs. A user can
+/// start the hosts on a kept folder by hand. It contains:
+///   opros/wheelchair.xml     application profile; component profiles are beside the plugins
+///   rtm/rtc.conf             configuration of rtm_host, and COMPONENT0.conf for each RTC
+///   trace/COMPONENT.trace    what each component did, tick by tick (core/record/trace.hpp)
+///   log/HOST.log             standard error of each host
 class RunDirectory {
   public:
-    /// Writes everything. `programs`: folder of the hosts' programs. Throws InputError.
+    /// Writes all files. `programs` is the folder of the hosts' programs. Throws InputError when the folder to keep
+    /// holds other files than an earlier run's, or cannot be written.
     RunDirectory(const Options& options, Configuration configuration, const std::filesystem::path& programs);
 
     const std::filesystem::path& path() const { return folder_.path(); }
     std::string traces() const { return (path() / "trace").string(); }
     const std::vector<HostCommand>& hosts() const { return hosts_; }
-    /// Name of the link between the two halves; empty without one.
-    /// Of the links between the hosts, by the AdaptorComp that has it.
+    /// Names of the links between the two hosts, by the instance name of their AdaptorComp; empty unless the
+    /// configuration has both hosts.
     const std::map<std::string, std::string>& links() const { return links_; }
-    /// Where the host listens for a driver in lock-step.
+    /// Path of the socket at which the host listens for the LockstepDriver.
     std::string step_socket(const std::string& host) const;
 
   private:
@@ -56,12 +59,12 @@ class RunDirectory {
                   const std::vector<std::string>& profile);
 
     Folder folder_;
-    Folder sockets_; // apart and short: a socket's path may have 107 characters
+    Folder sockets_; // in a folder with a short path of its own: a socket's path has at most 107 characters
     std::map<std::string, std::string> links_;
     std::vector<HostCommand> hosts_;
 };
 
-/// Folder of the running program.
+/// Folder of the running program, where the hosts' programs are, too.
 std::filesystem::path program_folder();
 
 } // namespace tandem::wheelchair

@@ -23,18 +23,20 @@ namespace {
 using namespace std::chrono_literals;
 constexpr auto stop_grace = 5s;
 
-sigset_t ending_signals() {
+sigset_t shutdown_signals() {
     sigset_t set;
     sigemptyset(&set);
     for (int s : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, s);
     return set;
 }
 
+/// A process and the pipe from its standard output.
 struct Started {
     process::ChildProcess process;
     process::OutputPipe output;
 };
 
+// 0 if the file does not exist.
 std::streamoff size_of(const std::string& path) {
     std::ifstream file(path, std::ios::ate);
     return file ? static_cast<std::streamoff>(file.tellg()) : 0;
@@ -49,6 +51,8 @@ Started start_process(const std::vector<std::string>& command, const std::string
     return {std::move(child), std::move(output)};
 }
 
+// Quotes a word for a POSIX shell if it has to be: a single quote inside ends the quotes, is escaped, and begins
+// them again.
 std::string quoted(const std::string& word) {
     const bool plain = word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                               "_-./:=,+@%") == word.npos;
@@ -66,7 +70,8 @@ std::string quoted(const std::string& word) {
 std::string Host::command_line() const {
     std::vector<std::string> words;
     for (const auto& word : command)
-        if (word != "--parent-death") words.push_back(quoted(word));
+        if (word != "--parent-death")
+            words.push_back(quoted(word)); // the user's shell may end before the host
     return fmt::format("{}", fmt::join(words, " "));
 }
 
@@ -82,14 +87,15 @@ std::string Host::first_error() const {
 }
 
 Supervisor::Supervisor() {
-    const auto set = ending_signals();
+    // Before any thread or child exists. ChildProcess gives its children an empty signal mask.
+    const auto set = shutdown_signals();
     sigprocmask(SIG_BLOCK, &set, nullptr);
     signals_ = process::FileDescriptor(signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
 Supervisor::~Supervisor() {
     for (auto host = hosts_.rbegin(); host != hosts_.rend(); ++host) stop(*host);
-    const auto set = ending_signals();
+    const auto set = shutdown_signals();
     sigprocmask(SIG_UNBLOCK, &set, nullptr);
 }
 
@@ -111,38 +117,39 @@ void Supervisor::restart(Host& host) {
     host.ended = false;
 }
 
-void Supervisor::read_output(Host& host, Events& news) {
+void Supervisor::read_output(Host& host, Events& found) {
     constexpr std::size_t max_line = 4096;
     host.output.read_available(host.unread);
     for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
         if (host.unread.substr(0, end) == "ready" && !host.ready()) {
             host.ready_at = monotonic_seconds();
-            news.became_ready.push_back(&host);
+            found.became_ready.push_back(&host);
         }
         host.unread.erase(0, end + 1);
     }
     if (host.unread.size() > max_line) host.unread.clear(); // "ready" cannot be the end of such a line
 }
 
-Supervisor::Events Supervisor::watch(std::chrono::milliseconds bound) {
+Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
+    // A host's output is read only until it is ready: hosts write nothing to it afterwards.
     std::vector<pollfd> events{{signals_.get(), POLLIN, 0}};
     for (Host& host : hosts_) {
         if (!host.running()) continue;
         events.push_back({host.process.pidfd(), POLLIN, 0});
         if (!host.ready()) events.push_back({host.output.reader(), POLLIN, 0});
     }
-    poll(events.data(), events.size(), static_cast<int>(bound.count()));
-    Events news;
+    poll(events.data(), events.size(), static_cast<int>(timeout.count()));
+    Events found;
     signalfd_siginfo info{};
-    while (read(signals_.get(), &info, sizeof info) == sizeof info) news.interrupted = true;
+    while (read(signals_.get(), &info, sizeof info) == sizeof info) found.interrupted = true;
     for (Host& host : hosts_) {
         if (!host.running()) continue;
-        read_output(host, news);
+        read_output(host, found);
         if (!host.process.poll()) continue;
         host.ended = true;
-        news.ended.push_back(&host);
+        found.ended.push_back(&host);
     }
-    return news;
+    return found;
 }
 
 void Supervisor::wait_until_ready(double seconds) {
@@ -157,9 +164,9 @@ void Supervisor::wait_until_ready(double seconds) {
                 fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more with --host-wait",
                             missing->name, missing->process.pid(), seconds,
                             missing->first_error().empty() ? "" : ", it said: ", missing->first_error()));
-        const auto news = watch(50ms);
-        if (news.interrupted) throw Interrupted();
-        for (Host* host : news.ended)
+        const auto found = watch(50ms);
+        if (found.interrupted) throw Interrupted();
+        for (Host* host : found.ended)
             throw InputError(fmt::format("{} (pid {}) {} before it was ready: {}", host->name,
                                          host->process.pid(), host->process.poll()->text(),
                                          host->first_error()));

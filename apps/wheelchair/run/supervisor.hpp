@@ -12,47 +12,50 @@
 
 namespace tandem::wheelchair {
 
-/// A host process of the run, and how to start it (again).
+/// A host process of the run, and what is needed to start it again.
 struct Host {
     std::string name;
     std::vector<std::string> command;
-    std::string log;          // file with its stderr
-    std::streamoff log_start; // where this process's part of it begins
+    std::string log; // file for its standard error
+    std::streamoff
+        log_start; // offset at which this process began to write: a restarted host continues the file
     process::ChildProcess process;
-    process::OutputPipe output; // its stdout
-    std::string unread{};       // beginning of a line of its stdout
-    double ready_at = 0.0;      // CLOCK_MONOTONIC [s] of its line `ready`; 0: not yet
-    bool ended = false;         // its end was reported by watch()
+    process::OutputPipe output; // its standard output
+    std::string unread{};       // the beginning of an incomplete line of its standard output
+    double ready_at = 0.0;      // CLOCK_MONOTONIC [s] at which it wrote the line `ready`; 0: not yet
+    bool ended = false;         // watch() has reported its end
 
     bool ready() const { return ready_at > 0.0; }
     bool running() const { return !ended; }
-    std::string command_line() const; // quoted for a shell
-    std::string first_error() const;  // first error in its log, else the last line
+    std::string command_line() const; // for a user to type: quoted for a shell
+    std::string first_error() const;  // first line with "error" that this process logged, else its last line
 };
 
-/// Starts hosts, watches them, and ends them. Takes over SIGINT, SIGTERM and SIGHUP of this program while it
-/// lives.
+/// Starts, watches and stops the hosts of a run. While it exists, SIGINT, SIGTERM and SIGHUP of this program are
+/// blocked and reported by watch() instead, so that the hosts can be stopped in order. [main-thread]
 class Supervisor {
   public:
     Supervisor();
-    ~Supervisor(); // stops what still runs, last started first
+    ~Supervisor(); // stops the hosts that still run, in reverse start order
 
+    /// `log` is appended to. Throws InputError or std::system_error when the host cannot be started.
     Host& start(const std::string& name, const std::vector<std::string>& command, const std::string& log);
-    /// Starts an ended host once more, same command, log continued.
+    /// Starts a host that has ended once more, with the same command and log.
     void restart(Host& host);
 
+    /// What has happened since the last call of watch().
     struct Events {
         std::vector<Host*> ended, became_ready;
-        bool interrupted = false;
+        bool interrupted = false; // a signal asked this program to end
     };
-    /// Waits for news, at most `bound`.
-    Events watch(std::chrono::milliseconds bound);
+    /// Waits until something happens, at most `timeout`.
+    Events watch(std::chrono::milliseconds timeout);
 
-    /// Until all hosts are ready. Throws InputError with the host's last words when one ends before, when
-    /// `seconds` are over, or when the user interrupts.
+    /// Waits until all hosts are ready. Throws InputError with the host's first error when one ends or is not ready
+    /// within `seconds`, and Interrupted when a signal asks this program to end.
     void wait_until_ready(double seconds);
 
-    /// SIGTERM, bounded wait, SIGKILL. True if it ended by itself with exit code 0.
+    /// Sends SIGTERM, and SIGKILL if the host has not ended after 5 s. True if it exited with code 0.
     bool stop(Host& host);
 
     std::deque<Host>& hosts() { return hosts_; }
@@ -60,11 +63,11 @@ class Supervisor {
   private:
     void read_output(Host& host, Events& news);
 
-    std::deque<Host> hosts_; // a deque: Hosts stay where they are
+    std::deque<Host> hosts_; // not a vector: references to a Host stay valid
     process::FileDescriptor signals_;
 };
 
-/// This program was asked to end.
+/// A signal asked this program to end.
 class Interrupted : public std::runtime_error {
   public:
     Interrupted() : std::runtime_error("interrupted") {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is connected to whom in the wheelchair, as data; run_directory.cpp writes it in the words of each
-// model.
+// Which components each host runs in a configuration, and how their ports are connected. Data only:
+// run_directory.cpp writes it in the file formats of the two component models.
 #pragma once
 
 #include <string>
@@ -10,30 +10,34 @@
 
 namespace tandem::wheelchair {
 
-/// One of the three components as a run sets it up.
+/// A component as a run sets it up.
 struct RunComponent {
     std::string name;
-    double phase_ms; // place in the 10 ms grid, real time: hardware, then joystick, then control in one chain
-    int priority;    // real-time, where permitted; the same as in the OPRoS component profiles
+    double phase_ms; // offset of its ticks on the common 10 ms grid, in real time
+    int priority;    // of its thread, where permitted; the OPRoS component profiles have the same
 };
 
-/// A connection; for data the sender first, for services the one who calls.
+/// A connection between two ports. `from` is the sender of data, or the caller of a service.
 struct Connection {
     enum Kind { data, service } kind;
     std::string from, from_port, to, to_port;
 };
 
-/// In the order in which they have to start: a service's provider before those who call it.
+/// The components of each host, in start order: the provider of a service before its callers.
 std::vector<RunComponent> opros_components(Configuration configuration);
 std::vector<RunComponent> rtm_components(Configuration configuration);
+/// The connections within each host.
 std::vector<Connection> opros_connections(Configuration configuration);
 std::vector<Connection> rtm_connections(Configuration configuration);
 
-/// One link between the hosts: AdaptorComp's name among the OPRoS components, and the RTC it stands for.
+/// A link between the hosts: the instance name of its AdaptorComp in opros_host, and the RTC in rtm_host whose
+/// ports that AdaptorComp mirrors.
 struct Bridge {
     std::string adaptor, rtc;
-    std::string link_suffix; // after the run's link name
+    std::string link_suffix; // appended to the run's link name
 };
+
+/// Empty unless the configuration has both hosts.
 std::vector<Bridge> bridges(Configuration configuration);
 
 } // namespace tandem::wheelchair

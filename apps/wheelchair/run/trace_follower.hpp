@@ -9,18 +9,20 @@
 
 namespace tandem::wheelchair {
 
-/// A component's trace, followed while it grows. Works before the component exists and after it was killed.
+/// Reads a component's trace file while the component writes it. The file may not exist yet, and the component may
+/// have been killed since. For one thread.
 template <class Record>
 class TraceFollower {
   public:
     explicit TraceFollower(std::string path) : path_(std::move(path)) {}
 
-    /// Reads what has come since the last call. Throws InputError when the file is no trace.
+    /// Reads the records added since the last call. Throws InputError when the file is no trace of this record type.
     void update() {
         if (!reader_) {
             if (!trace_exists(path_)) return;
             reader_ = std::make_unique<TraceReader>(path_, column_names<Record>());
         }
+        // A record is an array of doubles in the file as in memory (records.hpp).
         const auto doubles = reader_->read(records_.size(), reader_->size());
         const auto added = doubles.size() / std::size(Record::names);
         const auto had = records_.size();
@@ -37,12 +39,13 @@ class TraceFollower {
     std::vector<Record> records_;
 };
 
+/// The traces of the three components of one run.
 struct ComponentTraces {
     TraceFollower<HWRecord> hw;
     TraceFollower<JoystickRecord> joystick;
     TraceFollower<ControlRecord> control;
 
-    /// `folder`: where the run directory has its traces.
+    /// `folder` is RunDirectory::traces().
     explicit ComponentTraces(const std::string& folder)
         : hw(folder + "/HWComp.trace"), joystick(folder + "/JoystickComp.trace"),
           control(folder + "/ControlComp.trace") {}

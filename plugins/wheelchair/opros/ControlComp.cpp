@@ -10,6 +10,7 @@
 
 using namespace tandem::wheelchair;
 
+/// ControlBody with the ports, properties and life cycle of an OPRoS component.
 class ControlComp : public Component, private ControlPorts {
   public:
     ControlComp() { portSetup(); }
@@ -24,6 +25,7 @@ class ControlComp : public Component, private ControlPorts {
         return component::guarded("ControlComp", [this] { settings_ = component::settings_of(*this); });
     }
 
+    // The first call over the service port: it fails here, and not in mid-run, if the port is not connected.
     ReturnType onStart() override {
         return component::guarded("ControlComp", [this] {
             check_joystick(joystick_->dead_zone(), joystick_->direction_rate());
@@ -46,6 +48,7 @@ class ControlComp : public Component, private ControlPorts {
         addPort("refVoltage", &refVoltage_);
     }
 
+    // The last command that HWComp gets from this component; without it the watchdog would act 50 ms later.
     ReturnType stop() {
         if (body_) body_->deactivate(*this);
         return OPROS_SUCCESS;

@@ -13,6 +13,7 @@
 
 using namespace tandem::wheelchair;
 
+/// HWBody with the ports, properties and life cycle of an OPRoS component.
 class HWComp : public Component, public IChair, private HWPorts {
   public:
     HWComp() { portSetup(); }
@@ -21,6 +22,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     std::vector<double> limits() override { return chair_limits(); }
     bool emergency_stop() override { return emergency_ = true; }
 
+    // A service call may come in any thread; it only sets a flag, which acts here.
     ReturnType onExecute() override {
         if (emergency_) body_->emergency_stop();
         body_->tick(*this);
@@ -32,6 +34,7 @@ class HWComp : public Component, public IChair, private HWPorts {
         return component::guarded("HWComp", [this] { settings_ = component::settings_of(*this); });
     }
 
+    // Publishes once, so that the other components find values in their first tick.
     ReturnType onStart() override {
         return component::guarded("HWComp", [this] {
             emergency_ = false;
@@ -56,6 +59,7 @@ class HWComp : public Component, public IChair, private HWPorts {
         addPort("wheelSpeed", &wheelSpeed_);
     }
 
+    // Safe stop: needs no other component and no tick.
     ReturnType stop() {
         if (body_) body_->stop();
         return OPROS_SUCCESS;
@@ -64,6 +68,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     Received<Voltage> voltages() override { return component::receive_all<Voltage>(refVoltage_); }
     Received<LinkState> link_states() override { return component::receive_all<LinkState>(linkState_); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
+        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the same tick.
         component::push(wheelSpeed_, buffer_, wheels);
         component::push(joystickPos_, buffer_, position);
     }

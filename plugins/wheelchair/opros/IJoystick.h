@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Service of JoystickComp.
+/// The service that JoystickComp provides.
 class IJoystick {
   public:
     virtual ~IJoystick() = default;

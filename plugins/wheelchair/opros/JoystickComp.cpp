@@ -10,6 +10,7 @@
 
 using namespace tandem::wheelchair;
 
+/// JoystickBody with the ports, properties and life cycle of an OPRoS component.
 class JoystickComp : public Component, public IJoystick, private JoystickPorts {
   public:
     JoystickComp() { portSetup(); }
@@ -27,6 +28,7 @@ class JoystickComp : public Component, public IJoystick, private JoystickPorts {
         return component::guarded("JoystickComp", [this] { settings_ = component::settings_of(*this); });
     }
 
+    // Asks HWComp for the chair's limits, so HWComp must have been started before.
     ReturnType onStart() override {
         return component::guarded("JoystickComp", [this] {
             body_.reset(); // closes the trace of an earlier start

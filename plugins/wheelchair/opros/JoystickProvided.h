@@ -7,7 +7,7 @@
 
 #include "IJoystick.h"
 
-/// Provided port of service IJoystick: hands each call to the component.
+/// Provided port of service IJoystick: passes each call to the component, in the caller's thread.
 class JoystickProvided : public ProvidedServicePort {
   public:
     explicit JoystickProvided(IJoystick* component) {

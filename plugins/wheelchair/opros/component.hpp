@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the three OPRoS components share: their ports' type, their properties, and how they report a refusal.
+// What the three OPRoS components share: the type of their ports, their properties, and how they report errors.
 #pragma once
 
 #include <Component.h>
@@ -18,14 +18,16 @@
 
 namespace tandem::wheelchair::component {
 
+/// The type of all data ports.
 using Values = std::vector<double>;
+/// Messages that a port holds. A sender ticks every 10 ms, so this covers a reader that is late by 150 ms.
 constexpr int queue_length = 16;
 
-/// Most messages taken in one tick, so that a mad sender cannot hold it: more than a sender at 10 ms leaves behind
-/// while this process was paused for half a minute, since what is newest only comes after all that is old.
+/// Bounds the messages taken in one tick, so that a sender that never pauses cannot hold the tick. It is more than a
+/// sender at 10 ms leaves while this process is paused for half a minute: the newest message comes after all older.
 constexpr int max_messages_per_tick = 4096;
 
-/// Empties the port.
+/// Takes all messages from the port. [tick-thread]
 template <class T>
 Received<T> receive_all(InputDataPort<Values>& port) {
     Received<T> in;
@@ -37,6 +39,7 @@ Received<T> receive_all(InputDataPort<Values>& port) {
     return in;
 }
 
+/// Sends a value. `buffer` keeps its memory from tick to tick, so that no tick allocates. [tick-thread]
 template <class T>
 void push(OutputDataPort<Values>& port, Values& buffer, const Stamped<T>& value) {
     const auto message = pack(value);
@@ -44,13 +47,14 @@ void push(OutputDataPort<Values>& port, Values& buffer, const Stamped<T>& value)
     port.push(buffer);
 }
 
+/// The component's properties, checked. Throws InputError.
 inline Settings settings_of(Component& component) {
     return read_settings({component.getProperty("scenario"), component.getProperty("joystick_file"),
                           component.getProperty("clock"), component.getProperty("poll_us"),
                           component.getProperty("trace")});
 }
 
-/// Runs a step of the component's life; a refusal becomes one line and an error code for the engine.
+/// Runs a life-cycle callback. An exception becomes one line on standard error and an error code for the engine.
 template <class Step>
 ReturnType guarded(const char* component, Step step) {
     try {

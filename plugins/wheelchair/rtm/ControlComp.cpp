@@ -7,6 +7,7 @@
 
 using namespace tandem::wheelchair;
 
+/// ControlBody with the ports, configuration sets and life cycle of an RTC.
 class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
   public:
     explicit ControlComp(RTC::Manager* manager)
@@ -40,6 +41,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
     RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return stop(); }
 
   private:
+    // The first call over the service port: it fails at activation, and not in mid-run, if the port is not connected.
     void ask_joystick() {
         if (CORBA::is_nil(joystick_._ptr()))
             throw InputError(
@@ -47,6 +49,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
         check_joystick(joystick_->dead_zone(), joystick_->direction_rate());
     }
 
+    // The last command that HWComp gets from this component; without it the watchdog would act 50 ms later.
     RTC::ReturnCode_t stop() {
         if (body_) body_->deactivate(*this);
         return RTC::RTC_OK;

@@ -11,6 +11,7 @@ using namespace tandem::wheelchair;
 
 namespace {
 
+// The caller of the servant releases the sequence, as the CORBA C++ mapping has it.
 Wheelchair::Values* values(const std::vector<double>& from) {
     auto* out = new Wheelchair::Values;
     out->length(from.size());
@@ -18,17 +19,19 @@ Wheelchair::Values* values(const std::vector<double>& from) {
     return out;
 }
 
+/// The servant of service chair. The ORB calls it in its own threads.
 class ChairService : public POA_Wheelchair::Chair, public virtual PortableServer::RefCountServantBase {
   public:
     Wheelchair::Values* parameters() override { return values(chair_parameters()); }
     Wheelchair::Values* limits() override { return values(chair_limits()); }
     CORBA::Boolean emergency_stop() override { return emergency_ = true; }
 
-    std::atomic<bool> emergency_{false}; // asked for from any thread
+    std::atomic<bool> emergency_{false}; // set by the service, read in each tick
 };
 
 } // namespace
 
+/// HWBody with the ports, configuration sets and life cycle of an RTC.
 class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
   public:
     explicit HWComp(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager), chairPort_("chair") {}
@@ -44,6 +47,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
         return RTC::RTC_OK;
     }
 
+    // Publishes once, so that the other components find values in their first tick.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::guarded(getInstanceName(), [this] {
             chair_.emergency_ = false;
@@ -64,6 +68,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     RTC::ReturnCode_t onFinalize() override { return stop(); }
 
   private:
+    // Safe stop: needs no other component and no tick.
     RTC::ReturnCode_t stop() {
         if (body_) body_->stop();
         return RTC::RTC_OK;
@@ -72,6 +77,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     Received<Voltage> voltages() override { return refVoltage_.receive_all<Voltage>(); }
     Received<LinkState> link_states() override { return linkState_.receive_all<LinkState>(); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
+        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the same tick.
         wheelSpeed_.write(wheels);
         joystickPos_.write(position);
     }

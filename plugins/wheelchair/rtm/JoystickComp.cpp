@@ -10,6 +10,7 @@ using namespace tandem::wheelchair;
 
 namespace {
 
+/// The servant of service joystick. The ORB calls it in its own threads.
 class JoystickService : public POA_Wheelchair::Joystick, public virtual PortableServer::RefCountServantBase {
   public:
     CORBA::Double dead_zone() override { return JoystickParameters{}.dead_zone; }
@@ -20,6 +21,7 @@ class JoystickService : public POA_Wheelchair::Joystick, public virtual Portable
     std::atomic<double> direction_rate_{JoystickParameters{}.direction_rate};
 };
 
+// Calls limits() of service chair. Throws InputError if the port is not connected, CORBA exceptions if the call fails.
 std::vector<double> limits(Wheelchair::Chair_ptr chair) {
     if (CORBA::is_nil(chair))
         throw InputError("port chair is not connected; connect it to a provider of Wheelchair::Chair");
@@ -29,6 +31,7 @@ std::vector<double> limits(Wheelchair::Chair_ptr chair) {
 
 } // namespace
 
+/// JoystickBody with the ports, configuration sets and life cycle of an RTC.
 class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
   public:
     explicit JoystickComp(RTC::Manager* manager)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the three RTCs share: their parameters, their ports' type, and how they report a refusal.
+// What the three RTCs share: their parameters, the type of their ports, and how they report errors.
 #pragma once
 
 #include <rtm/CorbaPort.h>
@@ -21,13 +21,14 @@
 
 namespace tandem::wheelchair::component {
 
-constexpr int max_messages_per_tick =
-    4096; // messages read from a port, so a fast sender cannot hold the tick
+/// Bounds the messages taken in one tick, so that a sender that never pauses cannot hold the tick.
+constexpr int max_messages_per_tick = 4096;
 
-/// An in-port with the variable it reads into.
+/// An in-port and the variable into which it reads.
 struct SequenceIn {
     explicit SequenceIn(const char* name) : port(name, value) {}
 
+    /// Takes all messages from the port. [tick-thread]
     template <class T>
     Received<T> receive_all() {
         Received<T> in;
@@ -42,10 +43,11 @@ struct SequenceIn {
     RTC::InPort<RTC::TimedDoubleSeq> port;
 };
 
-/// An out-port with the variable it writes from.
+/// An out-port and the variable from which it writes.
 struct SequenceOut {
     explicit SequenceOut(const char* name) : port(name, value) {}
 
+    /// Sends a value, with its stamp also as the time of RTM's Timed types. [tick-thread]
     template <class T>
     void write(const Stamped<T>& stamped) {
         const auto message = pack(stamped);
@@ -60,10 +62,11 @@ struct SequenceOut {
     RTC::OutPort<RTC::TimedDoubleSeq> port;
 };
 
-/// The parameters every component of the run has, bound to its configuration sets.
+/// The parameters that all three components have, bound to their configuration sets.
 struct Parameters {
     RawSettings texts;
 
+    /// To be called in onInitialize(): the manager then writes the active set's values to `texts`.
     template <class Component>
     void bind(Component& component) {
         component.bindParameter("scenario", texts.scenario, "step20");
@@ -73,7 +76,7 @@ struct Parameters {
     }
 };
 
-/// The component's own description, for the manager and for tools.
+/// The component profile for the manager and for tools such as RTSystemEditor.
 inline coil::Properties profile(const char* name, const char* description) {
     const char* const spec[] = {"implementation_id",
                                 name,
@@ -109,7 +112,7 @@ inline coil::Properties profile(const char* name, const char* description) {
     return coil::Properties(spec);
 }
 
-/// Runs a step of the component's life; a refusal becomes one line and RTC_ERROR.
+/// Runs a life-cycle callback. An exception becomes one line on standard error and RTC_ERROR.
 template <class Step>
 RTC::ReturnCode_t guarded(const char* instance, Step step) {
     try {

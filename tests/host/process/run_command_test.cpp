@@ -13,7 +13,7 @@ using tandem::process::run_command;
 
 namespace {
 
-tandem::process::CommandResult shell(const std::string& script, CommandOptions options = {}) {
+tandem::process::CommandResult run_shell(const std::string& script, CommandOptions options = {}) {
     options.capture_report = true;
     return run_command({"/bin/sh", "-c", script}, options);
 }
@@ -40,7 +40,7 @@ bool has_ended(const std::string& pid) {
 } // namespace
 
 TEST_CASE("a command's output, errors, report and exit code come back") {
-    const auto end = shell("echo report >&3; echo output; echo error >&2; exit 5");
+    const auto end = run_shell("echo report >&3; echo output; echo error >&2; exit 5");
     CHECK(end.report == "report\n");
     CHECK(end.output == "output\n");
     CHECK(end.errors == "error\n");
@@ -51,7 +51,7 @@ TEST_CASE("a command's output, errors, report and exit code come back") {
 }
 
 TEST_CASE("a command that a signal has killed is told from one that has exited") {
-    const auto end = shell("kill -SEGV $$");
+    const auto end = run_shell("kill -SEGV $$");
     CHECK(end.status.signalled);
     CHECK(end.status.code == SIGSEGV);
     CHECK(end.exit_code() == -1);
@@ -61,7 +61,7 @@ TEST_CASE("a command that a signal has killed is told from one that has exited")
 TEST_CASE("of a long standard error the end is kept") {
     CommandOptions options;
     options.max_errors = 4096;
-    const auto end = shell("head -c 9000 /dev/zero | tr '\\0' x >&2; echo last >&2", options);
+    const auto end = run_shell("head -c 9000 /dev/zero | tr '\\0' x >&2; echo last >&2", options);
     CHECK(end.errors.size() == 4096);
     CHECK(end.errors.substr(4091) == "last\n");
 }
@@ -79,7 +79,7 @@ TEST_CASE("a command reads its input and runs in its folder") {
 TEST_CASE("merged errors keep their place in the output") {
     CommandOptions options;
     options.merge_errors = true;
-    const auto end = shell("echo one; echo two >&2; echo three", options);
+    const auto end = run_shell("echo one; echo two >&2; echo three", options);
     CHECK(end.output == "one\ntwo\nthree\n");
     CHECK(end.errors.empty());
 }
@@ -87,18 +87,18 @@ TEST_CASE("merged errors keep their place in the output") {
 TEST_CASE("a command that writes without end is killed") {
     CommandOptions options;
     options.max_output = 1 << 20;
-    CHECK(shell("yes", options).timed_out);
-    CHECK(shell("yes >&3", options).timed_out);
+    CHECK(run_shell("yes", options).timed_out);
+    CHECK(run_shell("yes >&3", options).timed_out);
 }
 
 TEST_CASE("a command that does not end is killed and so are its own children") {
-    const auto end = shell("sleep 1000 & echo $! >&3; wait", with_timeout(1s));
+    const auto end = run_shell("sleep 1000 & echo $! >&3; wait", with_timeout(1s));
     CHECK(end.timed_out);
     CHECK(has_ended(end.report));
 }
 
 TEST_CASE("a grandchild that holds the pipes open does not hold up the caller and is killed") {
-    const auto end = shell("sleep 1000 & echo $! >&3");
+    const auto end = run_shell("sleep 1000 & echo $! >&3");
     CHECK_FALSE(end.timed_out);
     CHECK(has_ended(end.report));
 }
@@ -106,7 +106,7 @@ TEST_CASE("a grandchild that holds the pipes open does not hold up the caller an
 TEST_CASE("a signal to this process ends the command and not this process when the caller asks for it") {
     CommandOptions options;
     options.stop_on_signal = true;
-    const auto end = shell("kill -HUP $PPID; sleep 1000", options);
+    const auto end = run_shell("kill -HUP $PPID; sleep 1000", options);
     CHECK(end.stop_signal == SIGHUP);
     CHECK_THAT(end.failure(), Catch::StartsWith("was ended by a signal: "));
 }
@@ -118,10 +118,10 @@ TEST_CASE("a command that cannot be started is an error that names it") {
 }
 
 TEST_CASE("commands leave no descriptors behind") {
-    shell("exit 0");
+    run_shell("exit 0");
     const auto before = open_descriptors();
-    for (int i = 0; i < 20; ++i) shell("echo x >&3");
+    for (int i = 0; i < 20; ++i) run_shell("echo x >&3");
     CHECK_THROWS(run_command({"/no/such/program"}));
-    shell("sleep 1000", with_timeout(10ms));
+    run_shell("sleep 1000", with_timeout(10ms));
     CHECK(open_descriptors() == before);
 }

@@ -7,15 +7,14 @@
 
 namespace tandem::wheelchair {
 
-/// CLOCK_MONOTONIC in seconds, one clock for all processes of a machine.
+/// CLOCK_MONOTONIC in seconds: one clock for all processes of a machine, so stamps of different hosts compare.
 inline double monotonic_seconds() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The time a component stamps with: its own tick count times 10 ms in simulation, the monotonic clock
-/// otherwise.
+/// The clock of a component's stamps: in simulation the number of its tick times 10 ms, else CLOCK_MONOTONIC.
 class TickClock {
   public:
     explicit TickClock(bool simulated) : simulated_(simulated) {}

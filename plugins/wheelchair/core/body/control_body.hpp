@@ -9,17 +9,18 @@
 
 namespace tandem::wheelchair {
 
-/// ControlComp without its component model: made at activation, ticked every 10 ms.
+/// ControlComp without a component model: constructed at each activation, ticked every 10 ms.
 class ControlBody {
   public:
     explicit ControlBody(const Settings& settings); // throws InputError
 
     void tick(ControlPorts& ports);       // [tick-thread]
-    void deactivate(ControlPorts& ports); // sends 0 V and brake, once
+    void deactivate(ControlPorts& ports); // sends 0 V and the brake flag, once
 
     ControlState state() const { return law_.state(); }
 
   private:
+    /// Result of read_reference(): how many references came, and when the newest was read.
     struct Read {
         int count;
         double at;
@@ -32,7 +33,7 @@ class ControlBody {
     ControlLaw law_;
     Stamped<Reference> reference_;
     Stamped<WheelSpeed> wheels_;
-    bool sender_restarted_ = false;
+    bool sender_restarted_ = false; // sequence numbers began anew
     double first_tick_at_ = 0.0;
     int tick_ = 0;
 };

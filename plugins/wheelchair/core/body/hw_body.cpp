@@ -52,7 +52,7 @@ void HWBody::publish(HWPorts& ports) {
     auto wheels = chair_.wheel_speed();
     if (emergency_) position.emergency_stop = wheels.emergency_stop = true;
     const double stamp = clock_.at(chair_.tick()), sequence = chair_.tick();
-    // Recorded first: whoever uses this publication is later in the trace than the publication itself.
+    // Recorded before it is sent: merge() relies on records of receivers being later than that of the publication.
     if (chair_.tick() == 0) trace_.append(record({}, monotonic_seconds()));
     ports.send({stamp, sequence, position}, {stamp, sequence, wheels});
 }
@@ -61,7 +61,7 @@ void HWBody::tick(HWPorts& ports) {
     const auto in = ports.voltages();
     if (const auto link = ports.link_states(); link.newest) link_up_ = link.newest->value.up;
     const double now = clock_.at(chair_.tick());
-    if (!ticked_) chair_.start_watchdog(now);
+    if (!ticked_) chair_.start_watchdog(now); // activation may have been long ago
     ticked_ = true;
     if (in.newest) voltage_ = *in.newest;
     chair_.apply(now, in.newest, !link_up_ || emergency_);

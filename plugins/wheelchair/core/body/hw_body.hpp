@@ -11,17 +11,17 @@
 
 namespace tandem::wheelchair {
 
-/// HWComp without its component model: made at activation, ticked every 10 ms. Whatever ends it
-/// (deactivation, stop, error) calls stop(), which needs nobody else.
+/// HWComp without a component model: constructed at each activation, ticked every 10 ms. Deactivation, stop and error
+/// of the component call stop(), which works without any other component.
 class HWBody {
   public:
     explicit HWBody(const Settings& settings); // throws InputError
 
-    void publish(HWPorts& ports); // once at activation, t = 0
+    void publish(HWPorts& ports); // at activation: the values of t = 0
     void tick(HWPorts& ports);    // [tick-thread]
     void stop() { chair_.stop(); }
 
-    /// Latches the emergency stop; acts in the next tick. [any-thread]
+    /// Stops the motors in the next tick and keeps them stopped. [any-thread]
     void emergency_stop() { emergency_ = true; }
 
     const Chair& chair() const { return chair_; }
@@ -37,7 +37,7 @@ class HWBody {
     std::atomic<bool> emergency_{false};
 };
 
-/// The part of a record that describes the chair as it stands.
+/// A record with those columns that describe the chair; the others are 0.
 HWRecord make_record(const Chair& chair);
 
 } // namespace tandem::wheelchair

@@ -28,9 +28,10 @@ void JoystickBody::tick(JoystickPorts& ports) {
     const auto in = ports.positions();
     if (in.newest) position_ = *in.newest;
     const Reference reference = law_.tick(position_.value);
-    // An old stick position must not look new: after a pause of this process the driver may have let go long ago.
+    // A reference gets a new stamp, so an old stick position would look new: after a pause of this process the driver
+    // may have released the stick long ago. Without a reference ControlComp stops the chair.
     const bool position_is_stale = clock_.at(tick_) - position_.stamp > stale_seconds + 1e-9;
-    // The mute window is part of the scenario, whose time is that of HWComp's ticks.
+    // The mute window belongs to the scenario, whose time is counted in HWComp's ticks.
     const bool sent = !position_is_stale && !scenario_.muted(position_.sequence * tick_seconds);
     const Stamped<Reference> out{clock_.at(tick_), static_cast<double>(tick_), reference};
     if (sent) ports.send(out);

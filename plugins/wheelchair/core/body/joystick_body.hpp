@@ -11,10 +11,10 @@
 
 namespace tandem::wheelchair {
 
-/// JoystickComp without its component model: made at activation, ticked every 10 ms.
+/// JoystickComp without a component model: constructed at each activation, ticked every 10 ms.
 class JoystickBody {
   public:
-    /// `chair_limits`: answer of the chair's service, see limits.hpp. Throws InputError.
+    /// `chair_limits` is the result of limits() of service chair. Throws InputError (chair_limits_from()).
     JoystickBody(const Settings& settings, const std::vector<double>& chair_limits);
 
     void tick(JoystickPorts& ports); // [tick-thread]

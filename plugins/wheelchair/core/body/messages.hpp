@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the values look on a port: a sequence of doubles, stamp and sequence number first, then the elements.
-// Flags and counts are exact as doubles. Both component models send the same numbers.
+// The form of the values on a port (docs/wheelchair.md, section 5): a sequence of doubles, first stamp and sequence
+// number, then the elements. Flags and counts are exact as doubles. Both component models send the same numbers, so
+// that a port of one can be connected to a port of the other.
 #pragma once
 
 #include <array>
@@ -14,13 +15,14 @@
 
 namespace tandem::wheelchair {
 
-/// A link's own report on a port `linkState`: 1 while the partner process is there, 0 when it is gone.
+/// What AdaptorComp and InterceptorComp send on their port `linkState`: 1 while the peer process is there, else 0.
 struct LinkState {
     bool up = true;
 };
 
 using Elements3 = std::array<double, 3>;
 
+// elements(): a value as the elements of its message. assign(): the inverse.
 inline Elements3 elements(const JoystickPosition& p) { return {p.x, p.y, p.emergency_stop ? 1.0 : 0.0}; }
 inline std::array<double, 2> elements(const Reference& r) { return {r.direction_deg, r.speed}; }
 inline std::array<double, 5> elements(const WheelSpeed& w) {
@@ -35,6 +37,7 @@ inline void assign(WheelSpeed& w, std::span<const double> e) { w = {e[0], e[1], 
 inline void assign(Voltage& v, std::span<const double> e) { v = {e[0], e[1], e[2] != 0.0}; }
 inline void assign(LinkState& l, std::span<const double> e) { l = {e[0] != 0.0}; }
 
+/// Number of doubles in a message of T.
 template <class T>
 inline constexpr std::size_t message_size = 2 + std::tuple_size_v<decltype(elements(T{}))>;
 
@@ -49,7 +52,8 @@ Message<T> pack(const Stamped<T>& in) {
     return out;
 }
 
-/// Nothing when the length is not that of T's message, or stamp or number are none: not to be believed.
+/// The inverse of pack(). Nothing if the length is not that of T's message, or stamp or sequence number are not
+/// finite: the sender may be a component of somebody else.
 template <class T>
 std::optional<Stamped<T>> unpack(std::span<const double> in) {
     if (in.size() != message_size<T> || !std::isfinite(in[0]) || !std::isfinite(in[1])) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a component's body asks of its ports. The OPRoS and the RTM component each implement this with the
-// ports of their model; the bodies are the same. All calls come from the thread that ticks.
+// What the bodies need of a component's ports. The OPRoS and the RTM component each implement this interface with the
+// ports of their model and share the bodies. All functions are called by the thread that ticks.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,13 @@
 
 namespace tandem::wheelchair {
 
-/// What an in-port held: its newest message, and how many there were (older ones are counted, then
-/// discarded).
+/// All messages that an in-port held: the newest one, and the number of them. Older ones are only counted.
 template <class T>
 struct Received {
     std::optional<Stamped<T>> newest;
     int count = 0;
 
-    /// Takes the next older-to-newer message in; false when it is malformed.
+    /// Adds a message that is newer than those before. False: it is malformed and was ignored.
     bool add(std::span<const double> message) {
         const auto value = unpack<T>(message);
         if (!value) return false;
@@ -48,7 +47,7 @@ class ControlPorts {
 class HWPorts {
   public:
     virtual Received<Voltage> voltages() = 0;
-    virtual Received<LinkState> link_states() = 0; // empty when no link is connected
+    virtual Received<LinkState> link_states() = 0; // empty if the port is not connected
     virtual void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) = 0;
 
   protected:

@@ -15,7 +15,7 @@ bool simulated(const std::string& clock) {
     throw InputError("parameter clock is '" + clock + "'; expected monotonic or simulated");
 }
 
-/// Shorter than a tick, or the component could not keep its period.
+/// Must be shorter than a tick, or the component could not keep its period.
 double poll_seconds(const std::string& text) {
     if (text.empty()) return 0.0;
     double us = -1.0;

@@ -7,16 +7,17 @@
 
 namespace tandem::wheelchair {
 
-/// Parameters as texts, as profiles and rtc.conf give them; empty means default. Each component reads those
-/// it has.
+/// The parameters of a component as texts, as profiles (OPRoS) and rtc.conf (RTM) have them. Empty: the default. Each
+/// component has only some of them.
 struct RawSettings {
     std::string scenario{};      // name, default step20
     std::string joystick_file{}; // CSV with stick positions, default none
     std::string clock{};         // monotonic (default) | simulated
-    std::string poll_us{};       // how long ControlComp looks out for a new reference in a tick, default 0
-    std::string trace{};         // file to record in, default none
+    std::string poll_us{};       // how long ControlComp polls for a new reference in each tick, default 0
+    std::string trace{};         // trace file to write, default none
 };
 
+/// The parameters, checked.
 struct Settings {
     Scenario scenario;
     bool simulated = false;
@@ -24,7 +25,7 @@ struct Settings {
     std::string trace;
 };
 
-/// Throws InputError that names the parameter and what it may be.
+/// Throws InputError that names the parameter and the values it may have.
 Settings read_settings(const RawSettings& texts);
 
 } // namespace tandem::wheelchair

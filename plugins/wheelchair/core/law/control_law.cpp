@@ -16,20 +16,22 @@ bool finite(const Reference& r, const WheelSpeed& w) {
            std::isfinite(w.right);
 }
 
-/// PI with feed-forward, output limited to +-most; the integral stands still while it pushes into the limit.
-/// It is used before it is updated.
-double proportional_integral(double wanted, double error, double feed_forward, double gain,
-                             double integral_gain, double most, double& integral) {
-    const double asked = feed_forward * wanted + gain * error + integral;
-    const double given = limit(asked, -most, most);
-    if (given == asked || (asked - given) * error < 0.0) integral += integral_gain * tick_seconds * error;
-    return given;
+/// A PI controller with feed-forward whose output is limited to +-max. The integral is used before it is updated, and
+/// is not updated while the output is limited and the error would drive it further into the limit (anti-windup).
+double proportional_integral(double setpoint, double error, double feed_forward, double gain,
+                             double integral_gain, double max, double& integral) {
+    const double unlimited = feed_forward * setpoint + gain * error + integral;
+    const double output = limit(unlimited, -max, max);
+    if (output == unlimited || (unlimited - output) * error < 0.0)
+        integral += integral_gain * tick_seconds * error;
+    return output;
 }
 
 } // namespace
 
 void ControlLaw::reset_integrators() { mean_integral_ = ratio_integral_ = 0.0; }
 
+// The way out of `stale` is a released stick: the chair must not start by itself when references come again.
 void ControlLaw::update_state(double t, const Stamped<Reference>& reference,
                               const Stamped<WheelSpeed>& wheels) {
     const bool late = is_stale(t, reference.stamp);
@@ -44,11 +46,11 @@ void ControlLaw::update_state(double t, const Stamped<Reference>& reference,
     }
 }
 
-/// The reference itself, or, when it is stale, its last direction with a speed that falls to 0.
+/// The reference itself; when it is stale, its last direction with a speed that falls to 0.
 Reference ControlLaw::effective_reference(const Reference& reference) {
     if (state_ == ControlState::stale) {
-        const double most = parameters_.stop_deceleration * tick_seconds;
-        speed_ -= limit(speed_, -most, most);
+        const double max_change = parameters_.stop_deceleration * tick_seconds;
+        speed_ -= limit(speed_, -max_change, max_change);
         return {last_direction_, speed_};
     }
     speed_ = reference.speed;
@@ -56,7 +58,7 @@ Reference ControlLaw::effective_reference(const Reference& reference) {
     return reference;
 }
 
-/// Counts ticks of standstill and lets the integrators leak; true once the brake goes on.
+/// Counts the ticks of standstill, during which the integrators leak. True once the brake is to be set.
 bool ControlLaw::update_standstill(double mean, double difference) {
     const ControlParameters& p = parameters_;
     if (speed_ == 0.0 && std::abs(mean) < p.still_speed && std::abs(difference) < p.still_speed) {
@@ -72,25 +74,26 @@ bool ControlLaw::update_standstill(double mean, double difference) {
 Voltage ControlLaw::drive(const Reference& reference, double mean, double difference) {
     const ControlParameters& p = parameters_;
     const double direction = reference.direction_deg, v = reference.speed;
-    double mean_wanted = 0.0, difference_wanted = 0.0;
+    double mean_setpoint = 0.0, difference_setpoint = 0.0;
     if (std::abs(direction) >= spin_direction_deg) {
         filtered_direction_ = direction;
-        difference_wanted = (direction > 0 ? p.kappa : -p.kappa) * v / p.wheel_radius;
+        difference_setpoint = (direction > 0 ? p.kappa : -p.kappa) * v / p.wheel_radius;
     } else {
         if (std::abs(filtered_direction_) >= spin_direction_deg) filtered_direction_ = 0.0;
         filtered_direction_ += p.direction_filter * (direction - filtered_direction_);
         const double k = p.kappa * std::tan(filtered_direction_ / degrees);
-        mean_wanted = v / p.wheel_radius;
-        // At standstill a ratio says nothing: blend on the wanted speed until there is a real one.
+        mean_setpoint = v / p.wheel_radius;
+        // At standstill the ratio is not defined, so the wanted mean speed replaces the measured one there; between
+        // standstill and blend_speed both are blended.
         double blend = 1.0 - std::abs(mean) / p.blend_speed;
         if (blend < 0.0) blend = 0.0;
-        difference_wanted = k * (mean + blend * (mean_wanted - mean));
+        difference_setpoint = k * (mean + blend * (mean_setpoint - mean));
     }
-    const double ratio_error = difference_wanted - difference;
-    const double speed_error = mean_wanted - mean;
-    const double ud = proportional_integral(difference_wanted, ratio_error, p.feed_forward, p.ratio_gain,
+    const double ratio_error = difference_setpoint - difference;
+    const double speed_error = mean_setpoint - mean;
+    const double ud = proportional_integral(difference_setpoint, ratio_error, p.feed_forward, p.ratio_gain,
                                             p.ratio_integral, p.max_difference, ratio_integral_);
-    const double um = proportional_integral(mean_wanted, speed_error, p.feed_forward, p.speed_gain,
+    const double um = proportional_integral(mean_setpoint, speed_error, p.feed_forward, p.speed_gain,
                                             p.speed_integral, p.max_voltage - std::abs(ud), mean_integral_);
     return {um - ud, um + ud, false};
 }

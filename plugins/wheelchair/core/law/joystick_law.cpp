@@ -21,13 +21,14 @@ JoystickLaw::Target JoystickLaw::target(const JoystickPosition& stick) const {
 
     const double direction = ax > 0 ? side * (ax * p.max_direction_deg / span) : 0.0;
     double speed = way * (ay * (way > 0 ? p.max_forward : p.max_reverse) / span);
+    // Lateral acceleration is v^2 tan(direction) / wheelbase.
     const double tangent = std::abs(std::tan(direction / degrees));
     if (speed * speed * tangent > p.lateral_acceleration * p.wheelbase)
         speed = way * std::sqrt(p.lateral_acceleration * p.wheelbase / tangent);
     return {direction, speed, neutral, spin};
 }
 
-// Between driving and turning on the spot, and between its two sides, the chair stops first.
+// A change between driving and turning on the spot, or of the side of a spin, first brings the speed to 0.
 void JoystickLaw::change_mode(Target& target) {
     if (target.neutral) {
         if (speed_ == 0.0) {
@@ -48,17 +49,18 @@ void JoystickLaw::change_mode(Target& target) {
 
 void JoystickLaw::limit_speed(double wanted) {
     double change = wanted - speed_;
-    if (wanted * speed_ < 0.0) change = -speed_; // a reversal passes through zero
+    if (wanted * speed_ < 0.0) change = -speed_; // a reversal stops at zero first
     const bool faster = std::abs(speed_ + change) > std::abs(speed_);
-    const double most = (faster ? parameters_.acceleration : parameters_.deceleration) * tick_seconds;
-    speed_ += std::abs(change) > most ? limit(change, -most, most) : change;
+    const double max_change = (faster ? parameters_.acceleration : parameters_.deceleration) * tick_seconds;
+    speed_ += std::abs(change) > max_change ? limit(change, -max_change, max_change) : change;
 }
 
 void JoystickLaw::limit_direction(double wanted) {
     if (parameters_.direction_rate > 0.0 && !spin_) {
-        const double most = parameters_.direction_rate * tick_seconds;
+        const double max_change = parameters_.direction_rate * tick_seconds;
         const double change = wanted - direction_;
-        direction_ = std::abs(change) > most ? direction_ + limit(change, -most, most) : wanted;
+        direction_ =
+            std::abs(change) > max_change ? direction_ + limit(change, -max_change, max_change) : wanted;
     } else {
         direction_ = wanted;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The answers of the services: the chair's parameters and limits, as sequences of doubles on the port.
+// The results of the components' services: sequences of doubles on the port, and checks of them.
 #pragma once
 
 #include <cmath>
@@ -11,24 +11,25 @@
 
 namespace tandem::wheelchair {
 
-/// Service chair, limits(): m/s forward, backward, turning on the spot (point between the casters), m/s^2
-/// sideways.
+/// Result of limits() of service chair: largest speed forward, in reverse and in a spin (of the point between the
+/// casters) [m/s], largest lateral acceleration [m/s^2].
 struct ChairLimits {
     double forward, reverse, spin, lateral_acceleration;
 };
 
+/// As the service returns it.
 inline std::vector<double> chair_limits() {
     const JoystickParameters p;
     return {p.max_forward, p.max_reverse, p.max_spin, p.lateral_acceleration};
 }
 
-/// Service chair, parameters(): track, wheelbase, wheel radius [m], mass [kg], bus voltage [V].
+/// Result of parameters() of service chair: track, wheelbase, wheel radius [m], mass [kg], bus voltage [V].
 inline std::vector<double> chair_parameters() {
     const PlantParameters p;
     return {p.track, p.wheelbase, p.wheel_radius, p.mass, p.bus_voltage};
 }
 
-/// Throws InputError unless these are four positive numbers.
+/// The received result of limits(). Throws InputError unless it is four positive numbers.
 inline ChairLimits chair_limits_from(const std::vector<double>& v) {
     bool good = v.size() == 4;
     for (double x : v) good = good && std::isfinite(x) && x > 0.0;

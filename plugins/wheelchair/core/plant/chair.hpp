@@ -9,29 +9,32 @@
 
 namespace tandem::wheelchair {
 
-/// The hardware side: chair, motor drivers, encoders and the IO board with its safe stop. The safe stop
-/// depends on nothing outside: no voltage for 50 ms, stop() or a lost link set both voltages to 0 and the
-/// brake.
+/// The simulated hardware: chair, motor drivers, encoders and an IO board with a safe stop
+/// (docs/wheelchair.md, section 5.2). The safe stop depends on no other component: when no voltage has come for
+/// 50 ms, when stop() is called or the link is down, both voltages go to 0 and the brake is set.
+/// For one thread. Times are in seconds on the clock of the caller.
 class Chair {
   public:
-    /// `now`: the watchdog counts from there until the first voltage comes.
+    /// Until the first voltage comes, the watchdog counts from `now`.
     Chair(const Scenario& scenario, double now);
+    /// Makes the watchdog count from `now`: the first tick may come long after the construction.
     void start_watchdog(double now) { last_voltage_ = now; }
 
-    /// First half of a tick at time `now`: takes a new voltage if one came (stamp as sent), applies watchdog
-    /// and, while `forced_stop`, safe stop; decides on the parking brake.
+    /// First half of a tick at time `now`: sets the voltages to the newest ones received, if any; then applies the
+    /// watchdog, the safe stop if `forced_stop` is true, and the parking brake.
     void apply(double now, const std::optional<Stamped<Voltage>>& voltage, bool forced_stop);
 
-    /// Second half: moves the chair on by one tick and reads the encoders.
+    /// Second half of a tick: simulates 10 ms and reads the encoders.
     void advance();
 
+    /// Safe stop: both voltages 0, brake set.
     void stop();
 
-    int tick() const { return tick_; }
+    int tick() const { return tick_; } // number of advance() so far
     WheelSpeed wheel_speed() const;    // at tick(), from encoder counts
     JoystickPosition joystick() const; // at tick()
     Voltage applied() const { return {volts_left_, volts_right_, brake_}; }
-    bool parking_brake() const { return hold_; }
+    bool parking_brake() const { return hold_; } // closed
     bool watchdog_acts() const { return watchdog_; }
     double largest_current() const { return largest_current_; }
     const Plant& plant() const { return plant_; }

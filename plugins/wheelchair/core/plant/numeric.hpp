@@ -5,10 +5,11 @@
 
 namespace tandem::wheelchair {
 
-/// Smooth sign, x / sqrt(x^2 + s^2): exact in IEEE arithmetic, so every build agrees.
+/// A smooth sign function, x / sqrt(x^2 + scale^2). Division and square root are exact in IEEE arithmetic, unlike
+/// tanh(), so that every compiler and C library gives the same bits.
 inline double smooth_sign(double x, double scale) { return x / std::sqrt(x * x + scale * scale); }
 
-/// As std::clamp, but a NaN passes through unchanged and low > high is no undefined behaviour.
+/// As std::clamp, but returns a NaN unchanged, and low > high is defined.
 inline double limit(double x, double low, double high) { return x < low ? low : (x > high ? high : x); }
 
 } // namespace tandem::wheelchair

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of floating-point operations is part of the specification: three builds and a Python reference
-// must agree to the last encoder count, so terms are not regrouped for looks or speed.
+// The equations of docs/wheelchair.md, section 4. The order of the floating-point operations is part of the model: every
+// build and the Python reference must agree to the last encoder count, so terms must not be regrouped.
 #include "plugins/wheelchair/core/plant/plant.hpp"
 
 #include <cmath>
@@ -11,17 +11,20 @@ namespace tandem::wheelchair {
 
 namespace {
 
-constexpr double step_seconds = 0.001;
+constexpr double step_seconds = 0.001; // of the integrator; section 12 shows what it costs in accuracy
 
+/// Result of drive().
 struct Drive {
     double current_rate; // A/s
     double torque;       // N m at the wheel
 };
 
-/// One motor with driver, gear, wheel and brake. `k`: motor constant at the wheel, `load`: N on the wheel.
+/// One motor with driver, gear, wheel and brake. `wheel` is the wheel's speed [rad/s], `k` the motor constant at
+/// the wheel, `load` the force on the ground [N].
 Drive drive(const PlantParameters& p, double volts, double current, double wheel, double k, double load,
             const PlantInput& in) {
     const double back_emf = k * wheel;
+    // The driver limits the current by limiting the voltage over the armature's resistance.
     const double room = p.resistance * in.current_limit;
     const double applied = limit(volts, back_emf - room, back_emf + room);
     const double scale2 = p.current_scale * p.current_scale;
@@ -32,12 +35,15 @@ Drive drive(const PlantParameters& p, double volts, double current, double wheel
     return {(applied - back_emf - p.resistance * current) / p.inductance, torque};
 }
 
+/// Result of caster().
 struct Caster {
     double force_x;  // N on the chassis, forward
     double yaw;      // N m on the chassis
     double steering; // N m about the pivot, without the chassis' own yaw acceleration
 };
 
+/// Forces of one caster, whose pivot is `side` to the left of the centre line [m]; `angle` and `rate` are those of
+/// the caster in the chair, `v` and `w` speed and yaw rate of the chair, `load` the force on the ground [N].
 Caster caster(const PlantParameters& p, double side, double angle, double rate, double v, double w,
               double load) {
     const double c = std::cos(angle), q = std::sin(angle);
@@ -88,6 +94,7 @@ State Plant::derivative(const State& s, const PlantInput& in, double slope) cons
     const Drive left = drive(p, in.volts_left, s[index::current_left], wl, drive_left_, drive_load, in);
     const Drive right = drive(p, in.volts_right, s[index::current_right], wr, drive_right_, drive_load, in);
 
+    // Gravity on the slope, in the chair's axes.
     const double gx = -p.mass * p.gravity * sb * std::cos(uphill_ - th);
     const double gy = -p.mass * p.gravity * sb * std::sin(uphill_ - th);
     double force = gx;
@@ -101,6 +108,7 @@ State Plant::derivative(const State& s, const PlantInput& in, double slope) cons
     force += cr.force_x;
     moment += cr.yaw;
 
+    // The wheels' inertia moves with the chair, so it adds to mass and yaw inertia.
     const double r = p.wheel_radius;
     const double mass = p.mass + 2.0 * p.wheel_inertia / (r * r);
     const double inertia = p.yaw_inertia + p.mass * p.mass_centre * p.mass_centre +
@@ -116,6 +124,7 @@ State Plant::derivative(const State& s, const PlantInput& in, double slope) cons
     return d;
 }
 
+// Classical Runge-Kutta of fourth order; the slope is taken at the stage times.
 void Plant::step(double t, double h, const PlantInput& input) {
     const double middle = slope_.angle_at(t + 0.5 * h);
     const State k1 = derivative(state, input, slope_.angle_at(t));
@@ -126,6 +135,7 @@ void Plant::step(double t, double h, const PlantInput& input) {
 }
 
 void Plant::integrate(double t, double seconds, const PlantInput& input) {
+    // 1e-9: 0.01 / 0.001 is slightly below 10.
     const int steps = static_cast<int>(std::floor(seconds / step_seconds + 1e-9));
     for (int j = 0; j < steps; ++j) step(t + j * step_seconds, step_seconds, input);
     const double rest = seconds - steps * step_seconds;

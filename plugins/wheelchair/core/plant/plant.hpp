@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chair as a mechanical and electrical system: 13 states, four constant inputs per step, RK4.
+// The chair as a mechanical and electrical system of 13 states (docs/wheelchair.md, section 4).
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace tandem::wheelchair {
 
-/// Places in State. Caster angles are those in the chair (0 = trailing), wheel angles count turns unwrapped.
+/// Positions in State. A caster's angle is relative to the chair (0: it trails); a wheel's angle is not wrapped.
 namespace index {
 enum : int {
     x,
@@ -30,7 +30,7 @@ enum : int {
 
 using State = Eigen::Matrix<double, index::count, 1>;
 
-/// What acts on the chair during one integration step.
+/// What acts on the chair; constant during one call of Plant::integrate().
 struct PlantInput {
     double volts_left = 0.0, volts_right = 0.0; // after PWM
     double current_limit = 0.0;                 // A
@@ -42,20 +42,21 @@ struct Slope {
     double angle_deg = 0.0, start = 0.0, duration = 1.0;
     double uphill_heading_deg = 0.0;
     bool present = false;
-    double angle_at(double t) const;
+    double angle_at(double t) const; // [rad]
 };
 
+/// Simulates the chair. Not thread-safe; has no clock of its own.
 class Plant {
   public:
-    /// `weak_left/right` multiply the motor constant of that side (1 = healthy).
+    /// `weak_left` and `weak_right` multiply the motor constant of that side; 1 is a healthy motor.
     Plant(const PlantParameters& parameters, double weak_left, double weak_right, const Slope& slope);
 
     State state = State::Zero();
 
-    /// Advances `state` by `seconds` from time `t` in RK4 steps of 1 ms; inputs are constant. [any-thread]
+    /// Advances `state` by `seconds` from time `t`, in Runge-Kutta steps of 1 ms.
     void integrate(double t, double seconds, const PlantInput& input);
 
-    double wheel_speed_left() const;  // rad/s, the simulated one
+    double wheel_speed_left() const;  // rad/s, the true one and not the encoder's
     double wheel_speed_right() const; // rad/s
     const PlantParameters& parameters() const { return parameters_; }
 

@@ -16,7 +16,7 @@ namespace tandem::wheelchair {
 
 namespace {
 
-constexpr std::size_t max_samples = 10'000'000; // a bound on what a wrong file can make us hold
+constexpr std::size_t max_samples = 10'000'000; // bounds the memory that a wrong file can take
 
 std::string_view trimmed(std::string_view text) {
     const auto blank = " \t\r";
@@ -32,7 +32,7 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-/// Carries the place, so that every complaint names it.
+/// Parses one line; knows its place, so that every message names it.
 class Line {
   public:
     Line(const std::string& path, std::size_t number) : path_(path), number_(number) {}
@@ -59,10 +59,10 @@ class Line {
 
   private:
     void check(const std::array<double, 4>& v) const {
-        const double most = JoystickParameters{}.max_count;
+        const double max_count = JoystickParameters{}.max_count;
         if (v[0] < 0.0) wrong("time before 0");
         for (int i : {1, 2})
-            if (v[i] != std::floor(v[i]) || std::abs(v[i]) > most)
+            if (v[i] != std::floor(v[i]) || std::abs(v[i]) > max_count)
                 wrong("stick position is no whole number from -2000 to 2000");
         if (v[3] != 0.0 && v[3] != 1.0) wrong("estop is neither 0 nor 1");
     }
@@ -71,6 +71,7 @@ class Line {
     std::size_t number_;
 };
 
+// Only before the first sample; a later line of text is an error.
 bool is_heading(std::string_view text) { return text.starts_with("t,") || text.starts_with("t "); }
 
 } // namespace

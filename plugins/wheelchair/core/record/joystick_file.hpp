@@ -8,7 +8,7 @@
 
 namespace tandem::wheelchair {
 
-/// Stick positions over time; each holds until the next.
+/// Stick positions over time. Each lasts until the next one.
 class JoystickRecording {
   public:
     struct Sample {
@@ -17,16 +17,15 @@ class JoystickRecording {
     };
     explicit JoystickRecording(std::vector<Sample> samples) : samples_(std::move(samples)) {}
 
-    JoystickPosition at(double t) const; // stick released before the first sample
+    JoystickPosition at(double t) const; // released before the first sample
     double seconds() const { return samples_.empty() ? 0.0 : samples_.back().t; }
 
   private:
     std::vector<Sample> samples_;
 };
 
-/// Reads CSV lines `t, jx, jy, estop` (s, counts -2000..2000, counts, 0 or 1; a heading line and lines that
-/// begin with # may be there; t must not fall). Throws InputError `file:line: what is wrong, what is
-/// expected`.
+/// Reads a CSV file with lines `t, jx, jy, estop`: seconds (not falling), two counts from -2000 to 2000, 0 or 1. A
+/// heading line, blank lines and lines that begin with # are skipped. Throws InputError with file and line.
 JoystickRecording read_joystick_file(const std::string& path);
 
 } // namespace tandem::wheelchair

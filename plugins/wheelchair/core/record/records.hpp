@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each component records per tick. `at` is CLOCK_MONOTONIC [s] in all three, so traces of two processes
-// can be laid side by side; everything else is in the units of the ports.
+// What each component records per tick: one column per double, in the order of the members. `at` is CLOCK_MONOTONIC
+// [s] in all three, so that traces of different processes can be compared; all else is in the units of the ports.
 #pragma once
 
 #include <cstring>
@@ -14,6 +14,7 @@
 
 namespace tandem::wheelchair {
 
+/// Of JoystickComp.
 struct JoystickRecord {
     double at, tick;
     double position_sequence, positions_received, jx, jy, emergency_stop;
@@ -32,6 +33,7 @@ struct JoystickRecord {
                                             "stamp"};
 };
 
+/// Of ControlComp.
 struct ControlRecord {
     double at, tick, time;
     double reference_sequence, reference_stamp, reference_read_at, references_received;
@@ -54,6 +56,7 @@ struct ControlRecord {
                                             "brake"};
 };
 
+/// Of HWComp.
 struct HWRecord {
     double at, sequence; // of the publication that ends the tick
     double applied_at, voltage_sequence, voltage_stamp, voltages_received;
@@ -89,6 +92,7 @@ struct HWRecord {
                                             "caster_right"};
 };
 
+/// The column names of a record type, for TraceFile and TraceReader.
 template <class Record>
 ColumnNames column_names() {
     static_assert(sizeof(Record) == std::size(Record::names) * sizeof(double), "one name per double");
@@ -96,7 +100,7 @@ ColumnNames column_names() {
     return Record::names;
 }
 
-/// Records to a file, or nowhere when the path is empty.
+/// Writes records to a trace file; to none if the path is empty. For one thread.
 template <class Record>
 class Trace {
   public:
@@ -111,7 +115,7 @@ class Trace {
     std::unique_ptr<TraceFile> file_;
 };
 
-/// Records [first, ...) of a trace file; empty when there is no such file yet.
+/// The records of a trace file from number `first` on; empty if the file does not exist yet.
 template <class Record>
 std::vector<Record> read_trace(const std::string& path, std::uint64_t first = 0) {
     if (!trace_exists(path)) return {};

@@ -19,7 +19,7 @@ constexpr const char* heading_line = "t,jx,jy,ref_dir_deg,ref_speed,dir_filt_deg
                                      "deg,wL_meas,wR_meas,wL,wR,uL,uR,iL,iR,x,y,"
                                      "theta,phiL_deg,phiR_deg,brake,state\n";
 
-/// The part of a row that HWComp's publication fixes.
+/// A row with the columns that come from HWComp; the others are 0.
 Row make_row(const HWRecord& h) {
     Row r;
     r.t = h.sequence * tick_seconds;
@@ -54,20 +54,22 @@ void add(Row& row, const ControlRecord& c) {
     row.state = std::lround(c.state);
 }
 
-double used(const JoystickRecord& j) { return j.position_sequence; }
-double used(const ControlRecord& c) { return c.wheel_sequence; }
+// Sequence number of the publication of HWComp that the component used in that tick.
+double used_sequence(const JoystickRecord& j) { return j.position_sequence; }
+double used_sequence(const ControlRecord& c) { return c.wheel_sequence; }
 
-/// Walks a component's records alongside HWComp's publications.
+/// Finds the record that belongs to each publication of HWComp, for publications in ascending order.
 template <class Record>
 class RecordMatcher {
   public:
     explicit RecordMatcher(const std::vector<Record>& records) : records_(records) {}
 
-    /// The record that used publication `h`, else the last one found, else nothing.
+    /// The record of the tick that used publication `h`; else the last one found, else null.
     const Record* at(const HWRecord& h) {
-        while (next_ < records_.size() && (records_[next_].at < h.at || used(records_[next_]) < h.sequence))
+        while (next_ < records_.size() &&
+               (records_[next_].at < h.at || used_sequence(records_[next_]) < h.sequence))
             ++next_;
-        if (next_ < records_.size() && used(records_[next_]) == h.sequence) last_ = &records_[next_];
+        if (next_ < records_.size() && used_sequence(records_[next_]) == h.sequence) last_ = &records_[next_];
         return last_;
     }
 
@@ -77,14 +79,17 @@ class RecordMatcher {
     const Record* last_ = nullptr;
 };
 
+// A restarted HWComp continues the trace file with sequence number 0.
 std::size_t last_start(const std::vector<HWRecord>& hw) {
     for (std::size_t i = hw.size(); i-- > 0;)
         if (hw[i].sequence == 0.0) return i;
     return 0;
 }
 
-class Text {
+/// Builds lines of CSV.
+class CsvText {
   public:
+    // The bound makes -0 and the rounding noise of different builds the same text.
     void number(double x) { print("%.7g", std::abs(x) >= 1e-12 ? x : 0.0); }
     void number(long x) { print("%ld", x); }
     void end_line() { text_.back() = '\n'; }
@@ -144,17 +149,20 @@ std::vector<Row> merge(const std::vector<HWRecord>& hw, const std::vector<Joysti
 }
 
 std::string csv_text(const std::vector<Row>& rows) {
-    Text out;
+    CsvText out;
     out.text_ = heading_line;
     for (const Row& r : rows) {
-        out.number(r.t), out.number(r.jx), out.number(r.jy);
+        out.number(r.t);
+        out.number(r.jx);
+        out.number(r.jy);
         for (double x :
              {r.reference_direction_deg, r.reference_speed, r.filtered_direction_deg, r.steering_measured_deg,
               r.steering_true_deg, r.wheel_left_measured, r.wheel_right_measured, r.wheel_left, r.wheel_right,
               r.volts_left, r.volts_right, r.current_left, r.current_right, r.x, r.y, r.heading,
               r.caster_left_deg, r.caster_right_deg})
             out.number(x);
-        out.number(r.brake), out.number(r.state);
+        out.number(r.brake);
+        out.number(r.state);
         out.end_line();
     }
     return out.text_;

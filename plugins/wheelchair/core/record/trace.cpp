@@ -17,7 +17,7 @@ namespace {
 
 constexpr char magic[8] = {'T', 'A', 'N', 'D', 'T', 'R', 'C', '\n'};
 constexpr std::uint32_t version = 1;
-constexpr std::uint64_t chunk_records = 8192; // any number of columns then fills whole pages
+constexpr std::uint64_t chunk_records = 8192; // times 8 bytes: whole pages for any number of columns
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
     throw InputError("trace " + path + ": " + what);
@@ -32,7 +32,7 @@ std::uint64_t file_size(int file) {
     return fstat(file, &info) == 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
 }
 
-/// The whole first page of the file, as it would be for these columns.
+/// The first page of a new file with these columns.
 std::vector<char> header_page(ColumnNames columns) {
     std::vector<char> page(trace_header_bytes);
     TraceHeader header{};
@@ -45,7 +45,7 @@ std::vector<char> header_page(ColumnNames columns) {
     return page;
 }
 
-/// Empty when the file begins like `expected`, apart from the count of records; else what is wrong.
+/// Empty if the file's first page equals `expected`, apart from the number of records; else what is wrong.
 std::string difference(int file, const std::vector<char>& expected) {
     std::vector<char> page(trace_header_bytes);
     if (pread(file, page.data(), page.size(), 0) != static_cast<ssize_t>(page.size()))
@@ -58,6 +58,7 @@ std::string difference(int file, const std::vector<char>& expected) {
     return {};
 }
 
+// The number of records that the file claims to have, checked against its size.
 std::uint64_t committed(int file, const std::string& path, std::size_t columns) {
     std::uint64_t count = 0;
     if (pread(file, &count, sizeof count, offsetof(TraceHeader, committed)) != sizeof count)
@@ -86,6 +87,7 @@ TraceFile::TraceFile(const std::string& path, ColumnNames columns) : path_(path)
 }
 
 void TraceFile::open_or_create(ColumnNames columns) {
+    // Two writers would overwrite each other's records. The kernel releases the lock when the process ends.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) fail(path_, "another component writes it");
     const auto page = header_page(columns);
     if (file_size(file_) == 0 &&
@@ -108,7 +110,7 @@ TraceFile::~TraceFile() {
     if (file_ >= 0) close(file_);
 }
 
-// Allocated and touched here, so that no tick meets a page fault or a full disk.
+// Allocates and touches the whole chunk, so that no tick meets a page fault or a full disk within it.
 bool TraceFile::map_chunk(std::uint64_t chunk) {
     const auto bytes = chunk_bytes(columns_);
     const auto offset = static_cast<off_t>(trace_header_bytes + chunk * bytes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traces: what a component did, tick by tick, as records of doubles in a memory-mapped file. Recording costs
-// a few stores and no system call per tick; what was recorded outlives a kill -9 of the process. A restarted
-// component goes on where the killed one stopped.
+// Traces: what a component did, tick by tick, as records of doubles in a memory-mapped file. Recording costs a few
+// stores per tick and no system call, and what was recorded survives a SIGKILL of the process. A restarted component
+// continues the file where the killed one stopped. The file's layout, in native byte order:
 //
 //   offset 0      TraceHeader, then `columns` names of trace_name_bytes each, padded to one page
 //   offset 4096   records, `columns` doubles each; `committed` of them are valid
@@ -18,11 +18,12 @@
 
 namespace tandem::wheelchair {
 
+/// The beginning of the file.
 struct TraceHeader {
     char magic[8];
     std::uint32_t version;
     std::uint32_t columns;
-    std::uint64_t committed; // stored with release after the record's doubles
+    std::uint64_t committed; // number of valid records; stored with release after a record's doubles
 };
 static_assert(sizeof(TraceHeader) == 24);
 
@@ -31,15 +32,15 @@ inline constexpr std::size_t trace_header_bytes = 4096;
 inline constexpr std::size_t max_trace_columns =
     (trace_header_bytes - sizeof(TraceHeader)) / trace_name_bytes;
 
-/// Names of a record's columns, one per double; specialised beside each record type in records.hpp.
+/// Names of a record's columns, one per double (column_names() in records.hpp).
 using ColumnNames = std::span<const char* const>;
 
-/// One writer per file, one thread. Growing the file (every 8192 records) is the only time it enters the
-/// kernel; when the disk is full then, recording ends and dropped() counts.
+/// Writes a trace. One writer per file, in one thread. Enters the kernel only to grow the file, every 8192 records;
+/// if the disk is full then, recording ends and dropped() counts the records that are lost.
 class TraceFile {
   public:
-    /// Creates `path`, or continues it when it is a trace with the same columns and nobody else writes it.
-    /// Throws InputError otherwise.
+    /// Creates the file, or continues it if it is a trace with the same columns. Throws InputError if it is anything
+    /// else, if another process writes it, or if there is no room for the next records.
     TraceFile(const std::string& path, ColumnNames columns);
     ~TraceFile();
     TraceFile(const TraceFile&) = delete;
@@ -56,21 +57,21 @@ class TraceFile {
     int file_ = -1;
     std::size_t columns_;
     TraceHeader* header_ = nullptr;
-    double* chunk_ = nullptr;
+    double* chunk_ = nullptr; // the part of the file that is mapped for writing
     std::uint64_t chunk_number_ = 0, count_ = 0, dropped_ = 0;
 };
 
-/// Reads a trace, also while it is being written. Every count in the file is checked before it is used.
+/// Reads a trace, even while it is being written. A damaged file is an error: each count in it is checked.
 class TraceReader {
   public:
-    /// Throws InputError when the file is no trace with these columns.
+    /// Throws InputError unless the file is a trace with these columns.
     TraceReader(const std::string& path, ColumnNames columns);
     ~TraceReader();
     TraceReader(const TraceReader&) = delete;
     TraceReader& operator=(const TraceReader&) = delete;
 
-    std::uint64_t size() const; // records committed by now
-    /// Doubles of records [first, first + count), fewer when there are fewer.
+    std::uint64_t size() const; // number of records written by now
+    /// The doubles of records [first, first + count), or of those that exist.
     std::vector<double> read(std::uint64_t first, std::uint64_t count) const;
 
   private:
@@ -79,7 +80,7 @@ class TraceReader {
     std::size_t columns_;
 };
 
-/// Whether `path` exists and is not empty: a host that has not come yet has left no trace.
+/// Whether the file exists and is not empty: a component that was not activated yet has written no trace.
 bool trace_exists(const std::string& path);
 
 } // namespace tandem::wheelchair
