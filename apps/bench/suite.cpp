@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/suite.hpp"
 
-#include "apps/bench/harness/service.hpp"
+#include "apps/bench/harness/daemon.hpp"
 
 #include <fmt/format.h>
 

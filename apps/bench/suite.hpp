@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs cases, several times, and makes rows of them.
 #pragma once
-#include "apps/bench/harness/pair_run.hpp"
-#include "apps/bench/report/row.hpp"
+#include "apps/bench/harness/case_runner.hpp"
+#include "apps/bench/report/report.hpp"
 
 namespace tandem::bench {
 

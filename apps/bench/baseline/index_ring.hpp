@@ -3,7 +3,7 @@
 // the other side's index cached. No policies, no counters, no checks, no lengths: what remains when all that
 // makes a ring usable is left out.
 #pragma once
-#include "apps/bench/harness/measure.hpp"
+#include "apps/bench/harness/measurements.hpp"
 
 #include <linux/futex.h>
 #include <sys/syscall.h>

@@ -17,22 +17,22 @@ function(tandem_bench_peer name found package)
   endif()
 endfunction()
 
-tandem_bench_peer(boost TRUE libboost-dev SOURCES peers/peer_boost.cpp LIBRARIES Boost::headers)
-tandem_bench_peer(mqueue TRUE libc6-dev SOURCES peers/peer_mqueue.cpp LIBRARIES rt)
-tandem_bench_peer(socket TRUE libc6-dev SOURCES peers/peer_socket.cpp)
+tandem_bench_peer(boost TRUE libboost-dev SOURCES peers/boost.cpp LIBRARIES Boost::headers)
+tandem_bench_peer(mqueue TRUE libc6-dev SOURCES peers/mqueue.cpp LIBRARIES rt)
+tandem_bench_peer(socket TRUE libc6-dev SOURCES peers/unix_socket.cpp)
 
 find_package(iceoryx_posh QUIET)
 tandem_bench_peer(iceoryx "${iceoryx_posh_FOUND}" libiceoryx-posh-dev
-  SOURCES peers/peer_iceoryx.cpp LIBRARIES iceoryx_posh::iceoryx_posh)
+  SOURCES peers/iceoryx.cpp LIBRARIES iceoryx_posh::iceoryx_posh)
 
 pkg_check_modules(ZEROMQ QUIET IMPORTED_TARGET libzmq)
-tandem_bench_peer(zeromq "${ZEROMQ_FOUND}" libzmq3-dev SOURCES peers/peer_zeromq.cpp LIBRARIES PkgConfig::ZEROMQ)
+tandem_bench_peer(zeromq "${ZEROMQ_FOUND}" libzmq3-dev SOURCES peers/zeromq.cpp LIBRARIES PkgConfig::ZEROMQ)
 
 find_package(CycloneDDS QUIET)
 find_program(CYCLONE_IDLC idlc)
 if(CycloneDDS_FOUND AND CYCLONE_IDLC)
-  idlc_generate(TARGET tandem_bench_dds FILES peers/peer_cyclone.idl)
-  tandem_bench_peer(cyclone TRUE cyclonedds-dev SOURCES peers/peer_cyclone.cpp LIBRARIES tandem_bench_dds CycloneDDS::ddsc)
+  idlc_generate(TARGET tandem_bench_dds FILES peers/cyclone.idl)
+  tandem_bench_peer(cyclone TRUE cyclonedds-dev SOURCES peers/cyclone.cpp LIBRARIES tandem_bench_dds CycloneDDS::ddsc)
 else()
   tandem_bench_peer(cyclone FALSE "cyclonedds-dev cyclonedds-tools")
 endif()
@@ -43,10 +43,10 @@ find_program(OMNIIDL omniidl REQUIRED)
 set(stubs ${CMAKE_CURRENT_BINARY_DIR}/omniorb)
 file(MAKE_DIRECTORY ${stubs})
 add_custom_command(
-  OUTPUT ${stubs}/peer_omniorb.hh ${stubs}/peer_omniorbSK.cc
-  COMMAND ${OMNIIDL} -bcxx -Wbuse_quotes -C${stubs} ${CMAKE_CURRENT_SOURCE_DIR}/peers/peer_omniorb.idl
-  DEPENDS peers/peer_omniorb.idl COMMENT "omniidl peer_omniorb.idl" VERBATIM)
-set_source_files_properties(${stubs}/peer_omniorbSK.cc PROPERTIES COMPILE_OPTIONS -w SKIP_LINTING ON)
+  OUTPUT ${stubs}/omniorb.hh ${stubs}/omniorbSK.cc
+  COMMAND ${OMNIIDL} -bcxx -Wbuse_quotes -C${stubs} ${CMAKE_CURRENT_SOURCE_DIR}/peers/omniorb.idl
+  DEPENDS peers/omniorb.idl COMMENT "omniidl omniorb.idl" VERBATIM)
+set_source_files_properties(${stubs}/omniorbSK.cc PROPERTIES COMPILE_OPTIONS -w SKIP_LINTING ON)
 tandem_bench_peer(omniorb TRUE libomniorb4-dev
-  SOURCES peers/peer_omniorb.cpp ${stubs}/peer_omniorb.hh ${stubs}/peer_omniorbSK.cc LIBRARIES PkgConfig::OMNIORB)
+  SOURCES peers/omniorb.cpp ${stubs}/omniorb.hh ${stubs}/omniorbSK.cc LIBRARIES PkgConfig::OMNIORB)
 target_include_directories(tandem_bench_suite SYSTEM PRIVATE ${stubs})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "apps/bench/report/row.hpp"
+#include "apps/bench/report/report.hpp"
 
 namespace tandem::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "apps/bench/report/bar.hpp"
+#include "apps/bench/report/acceptance.hpp"
 
 namespace tandem::bench {
 

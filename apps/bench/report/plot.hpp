@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The figures of the HTML page, drawn by gnuplot as SVG.
 #pragma once
-#include "apps/bench/report/row.hpp"
+#include "apps/bench/report/report.hpp"
 
 namespace tandem::bench {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/report/compare.hpp"
-#include "tests/apps/bench/rows.hpp"
+#include "tests/apps/bench/report_fixture.hpp"
 
 #include <catch2/catch.hpp>
 

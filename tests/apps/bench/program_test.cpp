@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program itself, on its smallest run.
-#include "apps/bench/report/row.hpp"
+#include "apps/bench/report/report.hpp"
 #include "apps/bench/suite.hpp"
 #include "host/process/run_command.hpp"
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boost.Interprocess message_queue: a mutex, two condition variables and a copy each way, in shared memory.
+#include "apps/bench/harness/cases.hpp"
+#include "apps/bench/peers/peer_cases.hpp"
+
+#include <boost/interprocess/ipc/message_queue.hpp>
+
+namespace tandem::bench {
+
+namespace {
+
+namespace bip = boost::interprocess;
+
+template <std::size_t bytes, Wake wake>
+class BoostEnd {
+  public:
+    explicit BoostEnd(Session& session)
+        : out_(bip::open_or_create, (session.name() + (session.is_a() ? "-0" : "-1")).c_str(), depth, bytes),
+          in_(bip::open_or_create, (session.name() + (session.is_a() ? "-1" : "-0")).c_str(), depth, bytes) {}
+    void send(std::uint64_t sequence) {
+        message_.write(sequence);
+        out_.send(message_.data(), bytes, 0);
+    }
+    std::uint64_t receive() {
+        bip::message_queue::size_type size = 0;
+        unsigned priority = 0;
+        if constexpr (wake == Wake::spin)
+            while (!in_.try_receive(message_.data(), bytes, size, priority)) {
+            }
+        else
+            in_.receive(message_.data(), bytes, size, priority);
+        return message_.read();
+    }
+
+  private:
+    static constexpr std::size_t depth = bytes <= 4096 ? 1024 : 4;
+    Message<bytes> message_;
+    bip::message_queue out_, in_;
+};
+
+} // namespace
+
+void add_boost_cases(Registry& registry) {
+    PeerCases cases(registry, "boost-message-queue");
+    cases.one_way<BoostEnd<64, Wake::spin>>(Wake::spin);
+    cases.one_way<BoostEnd<64, Wake::blocking>>(Wake::blocking);
+    cases.call<PairClientOf<BoostEnd<64, Wake::spin>>, PairServerOf<BoostEnd<64, Wake::spin>>>(Wake::spin,
+                                                                                               "pair");
+    cases.rate<BoostEnd<64, Wake::blocking>>(Wake::blocking);
+    cases.large<BoostEnd<mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
+    cases.large<BoostEnd<6 * mebibyte, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
+}
+
+} // namespace tandem::bench

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cyclone DDS: reliable, keep-all topics over UDP on the loopback, taken by polling or from a wait set.
+#include "apps/bench/harness/cases.hpp"
+#include "apps/bench/peers/peer_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include <dds/dds.h>
+
+#include "cyclone.h"
+
+namespace tandem::bench {
+
+namespace {
+
+// Loopback only, no multicast: nothing of this leaves the machine.
+constexpr const char* configuration =
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='lo'/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize></General>"
+    "<Discovery><ParticipantIndex>auto</ParticipantIndex><Peers><Peer "
+    "address='127.0.0.1'/></Peers></Discovery>"
+    "<Tracing><Verbosity>severe</Verbosity><OutputFile>stderr</OutputFile></Tracing></Domain></CycloneDDS>";
+
+template <class T>
+const dds_topic_descriptor_t& descriptor();
+template <>
+const dds_topic_descriptor_t& descriptor<TandemBench_Small>() {
+    return TandemBench_Small_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<TandemBench_Mebibyte>() {
+    return TandemBench_Mebibyte_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<TandemBench_SixMebibytes>() {
+    return TandemBench_SixMebibytes_desc;
+}
+
+dds_entity_t good(dds_return_t result, const char* what) {
+    if (result < 0)
+        throw std::runtime_error(fmt::format("Cyclone DDS: {}: {}", what, dds_strretcode(result)));
+    return result;
+}
+
+template <class T, Wake wake>
+class CycloneEnd {
+  public:
+    explicit CycloneEnd(Session& session) : message_(std::make_unique<T>()) {
+        setenv("CYCLONEDDS_URI", configuration, 1);
+        participant_ = good(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr), "participant");
+        dds_qos_t* qos = dds_create_qos();
+        dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
+        dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+        const int depth = sizeof(T) <= 4096 ? 256 : 4;
+        dds_qset_resource_limits(qos, depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+        const auto topic = [&](const char* end) {
+            return good(dds_create_topic(participant_, &descriptor<T>(), topic_name(session, end).c_str(),
+                                         qos, nullptr),
+                        "topic");
+        };
+        writer_ = good(dds_create_writer(participant_, topic(session.is_a() ? "_0" : "_1"), qos, nullptr),
+                       "writer");
+        reader_ = good(dds_create_reader(participant_, topic(session.is_a() ? "_1" : "_0"), qos, nullptr),
+                       "reader");
+        dds_delete_qos(qos);
+        if constexpr (wake == Wake::blocking) {
+            wait_set_ = good(dds_create_waitset(participant_), "wait set");
+            good(dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS), "status mask");
+            good(dds_waitset_attach(wait_set_, reader_, 0), "wait set");
+        }
+        wait_for_match();
+    }
+    ~CycloneEnd() { dds_delete(participant_); }
+    CycloneEnd(const CycloneEnd&) = delete;
+    CycloneEnd& operator=(const CycloneEnd&) = delete;
+
+    void send(std::uint64_t sequence) {
+        fill(message_->words, sizeof(T), sequence);
+        good(dds_write(writer_, message_.get()), "write");
+    }
+    std::uint64_t receive() {
+        for (;;) {
+            void* sample = nullptr; // lent by the reader
+            dds_sample_info_t info{};
+            if (good(dds_take(reader_, &sample, &info, 1, 1), "take") > 0) {
+                const bool valid = info.valid_data;
+                const std::uint64_t sequence =
+                    valid ? sequence_of(static_cast<const T*>(sample)->words, sizeof(T)) : 0;
+                good(dds_return_loan(reader_, &sample, 1), "return loan");
+                if (valid) return sequence;
+            } else if constexpr (wake == Wake::blocking) {
+                good(dds_waitset_wait(wait_set_, nullptr, 0, DDS_SECS(1)), "wait");
+            }
+        }
+    }
+
+  private:
+    static std::string topic_name(const Session& session, const char* end) {
+        std::string name = session.name() + end;
+        for (char& c : name)
+            if (c == '-') c = '_';
+        return name;
+    }
+    void wait_for_match() const {
+        dds_publication_matched_status_t readers{};
+        dds_subscription_matched_status_t writers{};
+        while (readers.current_count == 0 || writers.current_count == 0) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            good(dds_get_publication_matched_status(writer_, &readers), "status");
+            good(dds_get_subscription_matched_status(reader_, &writers), "status");
+        }
+    }
+
+    std::unique_ptr<T> message_;
+    dds_entity_t participant_ = 0, writer_ = 0, reader_ = 0, wait_set_ = 0;
+};
+
+template <Wake wake>
+using Small = CycloneEnd<TandemBench_Small, wake>;
+
+} // namespace
+
+void add_cyclone_cases(Registry& registry) {
+    PeerCases cases(registry, "cyclone-dds");
+    cases.one_way<Small<Wake::spin>>(Wake::spin);
+    cases.one_way<Small<Wake::blocking>>(Wake::blocking);
+    cases.call<PairClientOf<Small<Wake::blocking>>, PairServerOf<Small<Wake::blocking>>>(Wake::blocking,
+                                                                                         "pair");
+    cases.rate<Small<Wake::blocking>>(Wake::blocking);
+    cases.large<CycloneEnd<TandemBench_Mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
+    cases.large<CycloneEnd<TandemBench_SixMebibytes, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
+}
+
+} // namespace tandem::bench

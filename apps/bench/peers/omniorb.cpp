@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// omniORB, what OpenRTM-aist's ports are made of: oneway and twoway operations over TCP on the loopback and
+// over unix sockets. Messages arrive in a thread of the ORB, which answers an echo itself. Oneways of one
+// connection keep their order only with one server thread per connection.
+#include "apps/bench/harness/cases.hpp"
+#include "apps/bench/peers/peer_cases.hpp"
+
+#include "omniorb.hh"
+
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <mutex>
+
+namespace tandem::bench {
+
+namespace {
+
+enum class Net { tcp, unix_socket };
+
+/// Numbers of the messages that have arrived, in order; full, it holds the ORB's thread back.
+class Inbox {
+  public:
+    void push(std::uint64_t sequence) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return waiting_.size() < 1024; });
+        waiting_.push_back(sequence);
+        changed_.notify_all();
+    }
+    std::uint64_t pop() {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return !waiting_.empty(); });
+        const std::uint64_t first = waiting_.front();
+        waiting_.pop_front();
+        changed_.notify_all();
+        return first;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::uint64_t> waiting_;
+};
+
+class PeerServant : public POA_TandemBench::Peer {
+  public:
+    PeerServant(Inbox& inbox, bool echoes) : inbox_(inbox), echoes_(echoes) {}
+    void put(const TandemBench::Bytes& message) override {
+        const std::uint64_t sequence = sequence_of(message.get_buffer(), message.length());
+        if (echoes_) other->put(message);
+        if (!echoes_ || sequence == stop_sequence) inbox_.push(sequence);
+    }
+    TandemBench::Bytes* call(const TandemBench::Bytes& message) override {
+        inbox_.push(sequence_of(message.get_buffer(), message.length()));
+        return new TandemBench::Bytes(message);
+    }
+    TandemBench::Peer_var other;
+
+  private:
+    Inbox& inbox_;
+    bool echoes_;
+};
+
+/// An ORB with one object, and a reference to the other side's.
+template <Net net>
+class OrbSide {
+  public:
+    explicit OrbSide(Session& session)
+        : orb_(start(session)), echoes_(!session.is_a() && session.measured().what == "one-way"),
+          servant_(new PeerServant(inbox_, echoes_)) {
+        const CORBA::Object_var root = orb_->resolve_initial_references("RootPOA");
+        const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
+        const PortableServer::ObjectId_var id = poa->activate_object(servant_.in());
+        const PortableServer::POAManager_var manager = poa->the_POAManager();
+        manager->activate();
+        const CORBA::Object_var mine = poa->id_to_reference(id);
+        const CORBA::String_var text = orb_->object_to_string(mine);
+        char* shared = reinterpret_cast<char*>(session.memory().data()); // instead of a naming service
+        std::strcpy(shared + (session.is_a() ? 0 : text_bytes), text);
+        session.meet();
+        const CORBA::Object_var theirs = orb_->string_to_object(shared + (session.is_a() ? text_bytes : 0));
+        peer_ = TandemBench::Peer::_narrow(theirs);
+        servant_->other = TandemBench::Peer::_duplicate(peer_);
+        session.meet();
+    }
+    ~OrbSide() {
+        peer_ = TandemBench::Peer::_nil();
+        servant_->other = TandemBench::Peer::_nil();
+        orb_->destroy();
+    }
+    OrbSide(const OrbSide&) = delete;
+    OrbSide& operator=(const OrbSide&) = delete;
+
+  protected:
+    static constexpr std::size_t text_bytes = 4096;
+    static CORBA::ORB_ptr start(const Session& session) {
+        const std::string path = "giop:unix:/tmp/" + session.name() + (session.is_a() ? "-a" : "-b");
+        const char* options[][2] = {{"endPoint", net == Net::tcp ? "giop:tcp:127.0.0.1:" : path.c_str()},
+                                    {"clientTransportRule", net == Net::tcp ? "* tcp" : "* unix"},
+                                    {"maxServerThreadPerConnection", "1"},
+                                    {"giopMaxMsgSize", "16777216"},
+                                    {nullptr, nullptr}};
+        int argc = 0;
+        return CORBA::ORB_init(argc, nullptr, "omniORB4", options);
+    }
+    Inbox inbox_;
+    CORBA::ORB_var orb_;
+    bool echoes_;
+    PortableServer::Servant_var<PeerServant> servant_;
+    TandemBench::Peer_var peer_;
+};
+
+template <std::size_t bytes, Net net>
+class OnewayEnd : OrbSide<net> {
+  public:
+    explicit OnewayEnd(Session& session) : OrbSide<net>(session) { message_.length(bytes); }
+    void send(std::uint64_t sequence) {
+        if (this->echoes_) return; // the ORB's thread has answered already
+        fill(message_.get_buffer(), bytes, sequence);
+        this->peer_->put(message_);
+    }
+    std::uint64_t receive() { return this->inbox_.pop(); }
+
+  private:
+    TandemBench::Bytes message_;
+};
+
+template <Net net>
+class TwowayClient : OrbSide<net> {
+  public:
+    explicit TwowayClient(Session& session) : OrbSide<net>(session) { message_.length(bytes); }
+    std::uint64_t call(std::uint64_t sequence) {
+        fill(message_.get_buffer(), bytes, sequence);
+        const TandemBench::Bytes_var reply = this->peer_->call(message_);
+        return sequence_of(reply->get_buffer(), bytes);
+    }
+
+  private:
+    static constexpr std::size_t bytes = 64;
+    TandemBench::Bytes message_;
+};
+
+template <Net net>
+class TwowayServer : OrbSide<net> {
+  public:
+    using OrbSide<net>::OrbSide;
+    TwowayServer(Session& session) : OrbSide<net>(session) {}
+    std::uint64_t serve() { return this->inbox_.pop(); }
+};
+
+template <Net net>
+void add_net(Registry& registry, const char* who) {
+    PeerCases cases(registry, who);
+    cases.one_way<OnewayEnd<64, net>>(Wake::blocking);
+    cases.call<TwowayClient<net>, TwowayServer<net>>(Wake::blocking);
+    cases.rate<OnewayEnd<64, net>>(Wake::blocking);
+    cases.large<OnewayEnd<mebibyte, net>>(mebibyte, Wake::blocking, "copy");
+    cases.large<OnewayEnd<6 * mebibyte, net>>(6 * mebibyte, Wake::blocking, "copy");
+}
+
+} // namespace
+
+void add_omniorb_cases(Registry& registry) {
+    add_net<Net::tcp>(registry, "omniorb-tcp");
+    add_net<Net::unix_socket>(registry, "omniorb-unix");
+}
+
+} // namespace tandem::bench

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/report/report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace tandem::bench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr int format_version = 1;
+
+Json curve_json(const std::vector<CurvePoint>& curve) {
+    Json out = Json::array();
+    for (const CurvePoint& point : curve) out.push_back({point.share, point.value});
+    return out;
+}
+
+Json row_json(const Row& row, const Machine& machine) {
+    Json out{{"case", row.id},
+             {"group", row.group},
+             {"who", row.who},
+             {"what", row.what},
+             {"bytes", row.bytes},
+             {"wake", row.wake},
+             {"regime", row.regime},
+             {"placement", row.placement},
+             {"detail", row.detail},
+             {"unit", row.unit},
+             {"cores", row.cores},
+             {"kernel", machine.kernel},
+             {"timed_from", row.timed_from()}};
+    if (!row.skipped.empty()) {
+        out["skipped"] = row.skipped;
+        return out;
+    }
+    const Summary& s = row.summary;
+    out.update({{"samples", s.samples},
+                {"p50", s.p50},
+                {"p90", s.p90},
+                {"p99", s.p99},
+                {"p99.9", s.p999},
+                {"max", s.max},
+                {"foreign", row.foreign},
+                {"runs", row.runs},
+                {"curve", curve_json(s.curve)}});
+    if (row.tick_counts) {
+        out["overruns"] = row.tick_counts->overruns;
+        out["periods_skipped"] = row.tick_counts->skipped;
+    }
+    return out;
+}
+
+Row row_from(const Json& in) {
+    Row row;
+    const auto text = [&](const char* key) { return in.at(key).get<std::string>(); };
+    row.id = text("case");
+    row.group = text("group");
+    row.who = text("who");
+    row.what = text("what");
+    row.bytes = in.at("bytes");
+    row.wake = text("wake");
+    row.regime = text("regime");
+    row.placement = text("placement");
+    row.detail = text("detail");
+    row.unit = text("unit");
+    row.cores = text("cores");
+    if (in.contains("skipped")) {
+        row.skipped = text("skipped");
+        return row;
+    }
+    Summary& s = row.summary;
+    s.samples = in.at("samples");
+    s.p50 = in.at("p50");
+    s.p90 = in.at("p90");
+    s.p99 = in.at("p99");
+    s.p999 = in.at("p99.9");
+    s.max = in.at("max");
+    row.foreign = in.at("foreign");
+    for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
+    for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
+    if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
+    return row;
+}
+
+} // namespace
+
+const Row* Report::find(const std::string& id) const {
+    for (const Row& row : rows)
+        if (row.id == id && row.skipped.empty()) return &row;
+    return nullptr;
+}
+
+std::string to_json(const Report& report) {
+    const Machine& m = report.machine;
+    Json out{{"tandem_bench", format_version},
+             {"machine",
+              {{"kernel", m.kernel},
+               {"processor", m.processor},
+               {"cores", m.cores},
+               {"clock", m.clock},
+               {"date", m.date}}},
+             {"rows", Json::array()}};
+    for (const Row& row : report.rows) out["rows"].push_back(row_json(row, m));
+    // One row a line: readable, and a difference between two files shows the row.
+    std::string text = "{\"tandem_bench\":" + std::to_string(format_version) +
+                       ",\n\"machine\":" + out["machine"].dump() + ",\n\"rows\":[";
+    for (std::size_t i = 0; i < out["rows"].size(); ++i)
+        text += (i == 0 ? "\n" : ",\n") + out["rows"][i].dump();
+    return text + "\n]}\n";
+}
+
+Report from_json(const std::string& text) {
+    try {
+        const Json in = Json::parse(text);
+        if (in.at("tandem_bench") != format_version)
+            throw std::runtime_error("is of another version of tandem-bench; expected " +
+                                     std::to_string(format_version) + "; measure it again");
+        Report report;
+        const Json& m = in.at("machine");
+        report.machine = {m.at("kernel"), m.at("processor"), m.at("clock"), m.at("date"), m.at("cores")};
+        for (const Json& row : in.at("rows")) report.rows.push_back(row_from(row));
+        return report;
+    } catch (const nlohmann::json::exception& failure) {
+        throw std::runtime_error(std::string("is no report of tandem-bench (") + failure.what() +
+                                 "); give a file written with --json");
+    }
+}
+
+} // namespace tandem::bench
