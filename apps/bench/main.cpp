@@ -36,22 +36,22 @@ Report old_report(const std::string& path) {
     }
 }
 
-std::vector<BarLine> lines_of_bar(const Registry& registry) {
+std::vector<AcceptanceLimit> limits_for(const Registry& registry) {
     std::vector<std::string> ids;
-    for (const Case& one : registry.cases) ids.push_back(one.id());
-    return bar_lines(ids);
+    for (const Case& entry : registry.cases) ids.push_back(entry.id());
+    return acceptance_limits(ids);
 }
 
-Plan plan_of(const Options& options, const Registry& registry, const std::vector<BarLine>& bar) {
+Plan plan_of(const Options& options, const Registry& registry, const std::vector<AcceptanceLimit>& bar) {
     Plan plan;
     plan.cases = selected(registry.cases, options.only);
     if (options.bar && options.only.empty())
-        std::erase_if(plan.cases, [&](const Case& one) { return !needed_for_bar(bar, one.id()); });
+        std::erase_if(plan.cases, [&](const Case& entry) { return !needed_for_acceptance(bar, entry.id()); });
     if (plan.cases.empty())
         throw std::runtime_error(
             fmt::format("--only {}: no case's name contains that; see --list", options.only));
     plan.skipped = registry.skipped;
-    plan.limits = limits_of(options);
+    plan.budget = budget_of(options);
     plan.cores = cores_of(options);
     plan.runs = options.runs > 0 ? options.runs : options.bar ? 5 : 1;
     plan.progress = !options.quiet && isatty(STDERR_FILENO) != 0;
@@ -59,30 +59,31 @@ Plan plan_of(const Options& options, const Registry& registry, const std::vector
 }
 
 int list(const Options& options, const Registry& registry) {
-    for (const Case& one : selected(registry.cases, options.only)) fmt::print("{}\n", one.id());
+    for (const Case& entry : selected(registry.cases, options.only)) fmt::print("{}\n", entry.id());
     for (const Skipped& skipped : registry.skipped)
-        fmt::print("skipped {}: {}\n", skipped.who, skipped.reason);
+        fmt::print("skipped {}: {}\n", skipped.subject, skipped.reason);
     return 0;
 }
 
 int run(const Options& options) {
     const Registry registry = all_cases();
     if (options.list) return list(options, registry);
-    const auto bar = lines_of_bar(registry);
+    const auto bar = limits_for(registry);
     const Plan plan = plan_of(options, registry, bar);
     const Report old = options.compare.empty() ? Report{} : old_report(options.compare);
     catch_interrupts();
     Clock::calibrate();
     const Report report = measure(plan);
-    const auto verdict = options.bar ? judge(bar, report) : std::vector<BarResult>{};
+    const auto verdict = options.bar ? check_acceptance(bar, report) : std::vector<AcceptanceResult>{};
     fmt::print("{}", table_text(report));
-    if (options.bar) fmt::print("\n{}", bar_text(verdict));
+    if (options.bar) fmt::print("\n{}", acceptance_text(verdict));
     if (!options.compare.empty()) fmt::print("\n{}", compare_text(old, report));
     if (!options.json.empty()) write_file(options.json, to_json(report));
     if (!options.html.empty()) write_file(options.html, html_page(report, verdict));
     if (interrupted()) return 130;
-    const bool failed = std::any_of(verdict.begin(), verdict.end(),
-                                    [](const BarResult& one) { return one.missing.empty() && !one.pass(); });
+    const bool failed = std::any_of(verdict.begin(), verdict.end(), [](const AcceptanceResult& entry) {
+        return entry.missing.empty() && !entry.pass();
+    });
     return failed ? 1 : 0;
 }
 

@@ -31,18 +31,18 @@ Options read_options(int argc, char** argv, int& exit_code) {
     return options;
 }
 
-Limits limits_of(const Options& options) {
-    Limits limits;
+Budget budget_of(const Options& options) {
+    Budget budget;
     if (options.quick) {
-        limits.warm_up = 2'000;
-        limits.samples = 5'000;
-        limits.warm_up_seconds = 0.05;
-        limits.seconds = 0.2;
-        limits.window_seconds = 0.03;
-        limits.bound_seconds = 10;
-        limits.attempts = 1;
+        budget.warm_up = 2'000;
+        budget.samples = 5'000;
+        budget.warm_up_seconds = 0.05;
+        budget.seconds = 0.2;
+        budget.window_seconds = 0.03;
+        budget.timeout_seconds = 10;
+        budget.attempts = 1;
     }
-    return limits;
+    return budget;
 }
 
 Cores cores_of(const Options& options) {

@@ -14,7 +14,7 @@ struct Options {
 /// Reads the command line; prints help or the error and sets `exit_code` if the program is to end.
 Options read_options(int argc, char** argv, int& exit_code);
 
-Limits limits_of(const Options& options);
+Budget budget_of(const Options& options);
 
 /// Two cores of those that this process may use: the ones asked for, or the first two, or one twice.
 Cores cores_of(const Options& options);

@@ -19,50 +19,52 @@ namespace tandem::bench {
 
 namespace {
 
-std::string cores_text(const Case& measured, const Cores& cores) {
-    if (measured.placement == Placement::alone) return std::to_string(cores.a);
-    return fmt::format("{},{}", cores.a, measured.regime == Regime::same_core ? cores.a : cores.b);
+std::string cores_text(const Case& bench_case, const Cores& cores) {
+    if (bench_case.placement == Placement::alone) return std::to_string(cores.a);
+    return fmt::format("{},{}", cores.a, bench_case.regime == Regime::same_core ? cores.a : cores.b);
 }
 
-Row empty_row(const Case& measured, const Cores& cores) {
+Row empty_row(const Case& bench_case, const Cores& cores) {
     Row row;
-    row.id = measured.id();
-    row.group = name_of(measured.group);
-    row.who = measured.who;
-    row.what = measured.what;
-    row.bytes = measured.bytes;
-    row.wake = name_of(measured.wake);
-    row.regime = name_of(measured.regime);
-    row.placement = name_of(measured.placement);
-    row.detail = measured.detail;
-    row.unit = name_of(measured.unit);
-    row.cores = cores_text(measured, cores);
+    row.id = bench_case.id();
+    row.group = name_of(bench_case.group);
+    row.subject = bench_case.subject;
+    row.operation = bench_case.operation;
+    row.bytes = bench_case.bytes;
+    row.wake = name_of(bench_case.wake);
+    row.regime = name_of(bench_case.regime);
+    row.placement = name_of(bench_case.placement);
+    row.detail = bench_case.detail;
+    row.unit = name_of(bench_case.unit);
+    row.cores = cores_text(bench_case, cores);
     return row;
 }
 
-constexpr double foreign_limit = 0.02; // of the machine: then the case was disturbed
+constexpr double max_foreign_cpu_share = 0.02; // of the machine: then the case was disturbed
 
 /// Repeated after a pause while others use the machine; the least disturbed attempt counts.
-Outcome measure_undisturbed(const Case& measured, const Plan& plan) {
-    Outcome best = run_pair(measured, plan.limits, plan.cores);
+Outcome measure_undisturbed(const Case& bench_case, const Plan& plan) {
+    Outcome best = run_case(bench_case, plan.budget, plan.cores);
     const int attempts =
-        measured.extra_seconds > 0 ? 1 : plan.limits.attempts; // such a case averages by itself
-    for (int i = 1; i < attempts && best.foreign > foreign_limit && !interrupted(); ++i) {
+        bench_case.extra_seconds > 0 ? 1 : plan.budget.attempts; // such a case averages by itself
+    for (int i = 1; i < attempts && best.foreign_cpu_share > max_foreign_cpu_share && !interrupted(); ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
-        Outcome again = run_pair(measured, plan.limits, plan.cores);
-        if (again.failure.empty() && (again.foreign < best.foreign || !best.failure.empty())) best = again;
+        Outcome again = run_case(bench_case, plan.budget, plan.cores);
+        if (again.failure.empty() &&
+            (again.foreign_cpu_share < best.foreign_cpu_share || !best.failure.empty()))
+            best = again;
     }
     return best;
 }
 
 /// One case of one run; what failed stands in the outcome.
-Outcome measure_once(const Case& measured, const Plan& plan) {
+Outcome measure_once(const Case& bench_case, const Plan& plan) {
     Outcome outcome;
-    outcome.failure = obstacle(measured, plan.cores);
+    outcome.failure = unmet_requirement(bench_case, plan.cores);
     if (!outcome.failure.empty()) return outcome;
     try {
-        const Service service(measured.service);
-        return measure_undisturbed(measured, plan);
+        const Daemon service(bench_case.service);
+        return measure_undisturbed(bench_case, plan);
     } catch (const std::exception& failure) {
         outcome.failure = failure.what();
     }
@@ -79,11 +81,11 @@ void finish_row(Row& row, const std::vector<Summary>& summaries, const std::stri
 std::vector<Case> selected(const std::vector<Case>& cases, const std::string& patterns) {
     if (patterns.empty()) return cases;
     std::vector<Case> out;
-    for (const Case& one : cases) {
+    for (const Case& entry : cases) {
         std::istringstream list(patterns);
         for (std::string pattern; std::getline(list, pattern, ',');)
-            if (!pattern.empty() && one.id().find(pattern) != std::string::npos) {
-                out.push_back(one);
+            if (!pattern.empty() && entry.id().find(pattern) != std::string::npos) {
+                out.push_back(entry);
                 break;
             }
     }
@@ -112,7 +114,7 @@ Report measure(const Plan& plan) {
     report.machine = this_machine();
     std::vector<std::vector<Summary>> summaries(plan.cases.size());
     std::vector<std::string> failures(plan.cases.size());
-    for (const Case& one : plan.cases) report.rows.push_back(empty_row(one, plan.cores));
+    for (const Case& entry : plan.cases) report.rows.push_back(empty_row(entry, plan.cores));
     for (int run = 0; run < plan.runs; ++run) {
         for (std::size_t i = 0; i < plan.cases.size() && !interrupted(); ++i) {
             if (plan.progress)
@@ -126,7 +128,8 @@ Report measure(const Plan& plan) {
                     if (!report.rows[i].tick_counts) report.rows[i].tick_counts.emplace();
                     report.rows[i].tick_counts->add(*outcome.tick_counts);
                 }
-                report.rows[i].foreign = std::max(report.rows[i].foreign, outcome.foreign);
+                report.rows[i].foreign_cpu_share =
+                    std::max(report.rows[i].foreign_cpu_share, outcome.foreign_cpu_share);
             } else {
                 failures[i] = outcome.failure;
                 report.rows[i].runs.push_back(NAN);
@@ -138,9 +141,9 @@ Report measure(const Plan& plan) {
         finish_row(report.rows[i], summaries[i], interrupted() ? "interrupted" : failures[i]);
     for (const Skipped& skipped : plan.skipped) {
         Row row;
-        row.id = "peer/" + skipped.who;
+        row.id = "peer/" + skipped.subject;
         row.group = "peer";
-        row.who = skipped.who;
+        row.subject = skipped.subject;
         row.skipped = skipped.reason;
         report.rows.push_back(row);
     }

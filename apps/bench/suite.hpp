@@ -9,7 +9,7 @@ namespace tandem::bench {
 struct Plan {
     std::vector<Case> cases;
     std::vector<Skipped> skipped;
-    Limits limits;
+    Budget budget;
     Cores cores;
     int runs = 1;
     bool progress = true; ///< each case as it is measured, on stderr

@@ -9,9 +9,9 @@ namespace {
 
 /// One word to and fro, no ring around it. From message to message another line: how far a line is from a
 /// core depends on its address, 130 to 180 ns on one machine, and a single one would be a matter of luck.
-class LineEnd {
+class LineEndpoint {
   public:
-    explicit LineEnd(Session& session)
+    explicit LineEndpoint(Session& session)
         : out_(words(session, session.is_a() ? 0 : 1)), in_(words(session, session.is_a() ? 1 : 0)) {}
     void send(std::uint64_t sequence) { word(out_, sent_++).store(sequence, std::memory_order_release); }
     std::uint64_t receive() {
@@ -37,33 +37,33 @@ class LineEnd {
 };
 
 void read_clock(Session& session) {
-    session.begin();
-    while (session.more()) {
+    session.begin_measuring();
+    while (session.needs_more()) {
         const std::uint64_t before = ticks();
         const std::uint64_t after = ticks();
-        session.sample(after - before, after);
+        session.add_sample(after - before, after);
     }
-    session.end();
+    session.end_measuring();
 }
 
 } // namespace
 
-void add_floor_line_cases(Registry& registry) {
+void add_cache_line_cases(Registry& registry) {
     Case line;
-    line.group = Group::floor;
-    line.who = "cache-line";
-    line.what = "one-way";
+    line.group = Group::baseline;
+    line.subject = "cache-line";
+    line.operation = "one-way";
     line.bytes = 8;
     line.divisor = 2;
-    line.run = echo<LineEnd>;
+    line.run = measure_round_trips<LineEndpoint>;
     registry.cases.push_back(line);
     line.placement = Placement::threads;
     registry.cases.push_back(line);
 
     Case clock;
-    clock.group = Group::floor;
-    clock.who = "clock";
-    clock.what = "read";
+    clock.group = Group::baseline;
+    clock.subject = "clock";
+    clock.operation = "read";
     clock.bytes = 0;
     clock.wake = Wake::none;
     clock.placement = Placement::alone;

@@ -34,13 +34,13 @@ class Queue {
 
 void push_double(Session& session) {
     Queue<double> queue(0);
-    time_each(session, [&](double value) { queue.push(value); });
+    time_each_call(session, [&](double value) { queue.push(value); });
 }
 
 void push_array(Session& session) {
     const std::vector<double> values(session.bytes() / sizeof(double), 1.5);
     Queue<std::vector<double>> queue(values);
-    time_each(session, [&](double) { queue.push(values); });
+    time_each_call(session, [&](double) { queue.push(values); });
 }
 
 class Doubler {
@@ -54,7 +54,7 @@ void call(Session& session) {
     Doubler* called = &doubler;
     asm volatile("" : "+r"(called)); // or the compiler would know whom it calls
     double sum = 0;
-    time_each(session, [&](double value) { sum += called->twice(value); });
+    time_each_call(session, [&](double value) { sum += called->twice(value); });
     asm volatile("" : : "r"(&sum) : "memory");
 }
 
@@ -92,12 +92,12 @@ class Listener {
 };
 
 void event(Session& session) {
-    unpin();
+    pin_to_all_cores();
     Listener listener;
     const std::uint64_t pause = to_ticks(2e5);
     double value = 0;
     const auto loop = [&] {
-        while (session.more()) {
+        while (session.needs_more()) {
             for (const std::uint64_t begin = ticks(); ticks() - begin < pause;) {
             }
             const std::uint64_t before = ticks();
@@ -105,19 +105,19 @@ void event(Session& session) {
             while (listener.heard() != value) {
             }
             const std::uint64_t now = ticks();
-            session.sample(now - before, now);
+            session.add_sample(now - before, now);
         }
     };
     session.begin_warm_up();
     loop();
-    session.begin();
+    session.begin_measuring();
     loop();
-    session.end();
+    session.end_measuring();
 }
 
 void tick(Session& session) {
     constexpr std::int64_t second_ns = 1'000'000'000, period_ns = 1'000'000;
-    const int count = session.limits().samples >= 50'000 ? 10'000 : 1'000;
+    const int count = session.budget().samples >= 50'000 ? 10'000 : 1'000;
     const auto now_ns = [] {
         timespec now{};
         clock_gettime(CLOCK_MONOTONIC, &now);
@@ -130,35 +130,35 @@ void tick(Session& session) {
         const timespec until{next / second_ns, next % second_ns};
         clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
         const std::int64_t late = now_ns() - next;
-        session.result(static_cast<double>(late));
+        session.add_result(static_cast<double>(late));
         counts.add(late, period_ns);
         next += late / period_ns * period_ns;
     }
-    session.counted(counts);
+    session.set_tick_counts(counts);
 }
 
 } // namespace
 
-void add_floor_loop_cases(Registry& registry) {
-    Case one;
-    one.group = Group::floor;
-    one.who = "hand-loop";
-    one.placement = Placement::alone;
-    one.wake = Wake::none;
-    const auto add = [&](const char* what, std::size_t bytes, void (*run)(Session&)) {
-        one.what = what;
-        one.bytes = bytes;
-        one.run = run;
-        registry.cases.push_back(one);
+void add_hand_written_cases(Registry& registry) {
+    Case entry;
+    entry.group = Group::baseline;
+    entry.subject = "hand-written";
+    entry.placement = Placement::alone;
+    entry.wake = Wake::none;
+    const auto add = [&](const char* operation, std::size_t bytes, void (*run)(Session&)) {
+        entry.operation = operation;
+        entry.bytes = bytes;
+        entry.run = run;
+        registry.cases.push_back(entry);
     };
     add("push", sizeof(double), push_double);
     add("push", 1000 * sizeof(double), push_array);
     add("local-call", sizeof(double), call);
-    one.wake = Wake::blocking;
+    entry.wake = Wake::blocking;
     add("event", sizeof(double), event);
-    one.regime = Regime::low_latency_idle;
+    entry.regime = Regime::low_latency_idle;
     add("event", sizeof(double), event);
-    one.regime = Regime::normal;
+    entry.regime = Regime::normal;
     add("tick", sizeof(double), tick);
 }
 

@@ -12,7 +12,7 @@
 namespace tandem::bench {
 
 /// At the front of the ring's memory. Two lines each, because the core fetches lines in pairs.
-struct IndexRingWords {
+struct IndexRingHeader {
     alignas(128) std::atomic<std::uint32_t> head; // written by the writer
     alignas(128) std::atomic<std::uint32_t> tail; // written by the reader
     alignas(128) std::atomic<std::uint32_t> asleep;
@@ -20,16 +20,16 @@ struct IndexRingWords {
 
 /// latency: each message as early as possible. rate: as many as possible, so that the reader stays off the
 /// head line for a moment when it has caught up, and gives slots back by the batch.
-enum class RingAim { latency, rate };
+enum class RingTuning { latency, throughput };
 
 /// Everything that can be known at compile time is: the floor has no knobs.
-template <std::size_t slot_bytes, std::uint32_t slots, Wake wake, RingAim aim = RingAim::latency>
+template <std::size_t slot_bytes, std::uint32_t slots, Wake wake, RingTuning tuning = RingTuning::latency>
 class IndexRing {
   public:
-    static constexpr std::size_t memory_bytes = sizeof(IndexRingWords) + slot_bytes * slots;
+    static constexpr std::size_t memory_bytes = sizeof(IndexRingHeader) + slot_bytes * slots;
 
     explicit IndexRing(std::byte* memory)
-        : words_(*reinterpret_cast<IndexRingWords*>(memory)), slots_(memory + sizeof(IndexRingWords)) {}
+        : words_(*reinterpret_cast<IndexRingHeader*>(memory)), slots_(memory + sizeof(IndexRingHeader)) {}
 
     /// The slot to be written next; waits for it if the ring is full.
     std::byte* claim() {
@@ -51,12 +51,12 @@ class IndexRing {
         return slot(mine_);
     }
     void release() {
-        if (++mine_ % (aim == RingAim::rate ? 64U : 1U) == 0)
+        if (++mine_ % (tuning == RingTuning::throughput ? 64U : 1U) == 0)
             words_.tail.store(mine_, std::memory_order_release);
     }
 
   private:
-    static_assert(slots % 64 == 0 || aim == RingAim::latency);
+    static_assert(slots % 64 == 0 || tuning == RingTuning::latency);
 
     std::byte* slot(std::uint32_t index) const { return slots_ + (index % slots) * slot_bytes; }
     /// Asking for the slot's line along with the head's lets the two transfers overlap: 160 ns instead of
@@ -64,7 +64,7 @@ class IndexRing {
     bool arrived() {
         other_ = words_.head.load(std::memory_order_acquire);
         if (other_ != mine_) return true;
-        if (aim == RingAim::rate)
+        if (tuning == RingTuning::throughput)
             _mm_pause();
         else
             __builtin_prefetch(slot(mine_));
@@ -99,7 +99,7 @@ class IndexRing {
         syscall(SYS_futex, &words_.head, operation, value, nullptr, nullptr, 0);
     }
 
-    IndexRingWords& words_;
+    IndexRingHeader& words_;
     std::byte* slots_;
     std::uint32_t mine_ = 0, other_ = 0; // other_: the other side's index as last seen
 };

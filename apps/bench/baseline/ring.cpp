@@ -11,17 +11,17 @@ namespace {
 
 /// Two rings, one for each direction.
 template <std::size_t bytes, Wake wake>
-class RingEnd {
+class RingEndpoint {
   public:
-    explicit RingEnd(Session& session, std::size_t place = 0)
+    explicit RingEndpoint(Session& session, std::size_t place = 0)
         : out_(memory(session, 2 * place + (session.is_a() ? 0 : 1))),
           in_(memory(session, 2 * place + (session.is_a() ? 1 : 0))) {}
     void send(std::uint64_t sequence) {
-        fill(out_.claim(), bytes, sequence);
+        fill_message(out_.claim(), bytes, sequence);
         out_.publish();
     }
     std::uint64_t receive() {
-        const std::uint64_t sequence = sequence_of(in_.next(), bytes);
+        const std::uint64_t sequence = checked_sequence(in_.next(), bytes);
         in_.release();
         return sequence;
     }
@@ -40,39 +40,39 @@ class RingEnd {
 };
 
 /// One ring, for as many messages as it can carry.
-class RateEnd {
+class RateEndpoint {
   public:
-    explicit RateEnd(Session& session) : ring_(session.memory().data()) {}
+    explicit RateEndpoint(Session& session) : ring_(session.memory().data()) {}
     void send(std::uint64_t sequence) {
-        fill(ring_.claim(), bytes, sequence);
+        fill_message(ring_.claim(), bytes, sequence);
         ring_.publish();
     }
     std::uint64_t receive() {
-        const std::uint64_t sequence = sequence_of(ring_.next(), bytes);
+        const std::uint64_t sequence = checked_sequence(ring_.next(), bytes);
         ring_.release();
         return sequence;
     }
 
   private:
     static constexpr std::size_t bytes = 64;
-    IndexRing<bytes, 8192, Wake::spin, RingAim::rate> ring_;
+    IndexRing<bytes, 8192, Wake::spin, RingTuning::throughput> ring_;
 };
 
 /// One copy in and one copy out, as when the slots are not the user's to keep.
 template <std::size_t bytes>
-class CopyingEnd {
+class CopyingEndpoint {
   public:
-    explicit CopyingEnd(Session& session)
+    explicit CopyingEndpoint(Session& session)
         : buffer_(bytes / sizeof(std::uint64_t)), ring_(session.memory().data()) {}
     void send(std::uint64_t sequence) {
-        fill(buffer_.data(), bytes, sequence);
+        fill_message(buffer_.data(), bytes, sequence);
         std::memcpy(ring_.claim(), buffer_.data(), bytes);
         ring_.publish();
     }
     std::uint64_t receive() {
         std::memcpy(buffer_.data(), ring_.next(), bytes);
         ring_.release();
-        return sequence_of(buffer_.data(), bytes);
+        return checked_sequence(buffer_.data(), bytes);
     }
 
   private:
@@ -80,73 +80,73 @@ class CopyingEnd {
     IndexRing<bytes, 4, Wake::spin> ring_;
 };
 
-Case base(const char* who, const char* what, std::size_t bytes, Wake wake) {
-    Case one;
-    one.group = Group::floor;
-    one.who = who;
-    one.what = what;
-    one.bytes = bytes;
-    one.wake = wake;
-    return one;
+Case base(const char* subject, const char* operation, std::size_t bytes, Wake wake) {
+    Case entry;
+    entry.group = Group::baseline;
+    entry.subject = subject;
+    entry.operation = operation;
+    entry.bytes = bytes;
+    entry.wake = wake;
+    return entry;
 }
 
 template <Wake wake>
-void echo_at_8_places(Session& session) {
-    echo_at_places<RingEnd<64, wake>>(session, 8);
+void round_trips_in_8_regions(Session& session) {
+    measure_round_trips_in_regions<RingEndpoint<64, wake>>(session, 8);
 }
 
 template <Wake wake>
 void add_wake(Registry& registry) {
-    Case one = base("index-ring", "one-way", 64, wake);
-    one.divisor = 2;
-    one.run = echo_at_8_places<wake>;
-    registry.add_regimes(one);
+    Case entry = base("index-ring", "one-way", 64, wake);
+    entry.divisor = 2;
+    entry.run = round_trips_in_8_regions<wake>;
+    registry.add_regimes(entry);
     if (wake != Wake::blocking) {
-        one.placement = Placement::threads;
-        registry.cases.push_back(one);
-        one.placement = Placement::processes;
+        entry.placement = Placement::threads;
+        registry.cases.push_back(entry);
+        entry.placement = Placement::processes;
     }
-    one.regime = Regime::loaded;
-    registry.cases.push_back(one);
+    entry.regime = Regime::loaded;
+    registry.cases.push_back(entry);
 
     Case call = base("ring-pair", "call", 64, wake);
-    call.run = echo_at_8_places<wake>; // a message there and one back is all that a call needs
+    call.run = round_trips_in_8_regions<wake>; // a message there and one back is all that a call needs
     registry.add_regimes(call);
 
     Case due = base("index-ring", "paced", 64, wake);
-    due.run = paced<RingEnd<64, wake>>;
+    due.run = measure_paced<RingEndpoint<64, wake>>;
     registry.cases.push_back(due);
 
     Case cost = base("index-ring", "publish", 64, wake);
-    cost.run = publish<RingEnd<64, wake>>;
+    cost.run = measure_publish<RingEndpoint<64, wake>>;
     registry.cases.push_back(cost);
 }
 
 template <std::size_t bytes>
 void add_size(Registry& registry) {
-    Case one = base("index-ring", "one-way", bytes, Wake::spin);
-    one.divisor = 2;
-    one.run = echo<RingEnd<bytes, Wake::spin>>;
-    registry.cases.push_back(one);
+    Case entry = base("index-ring", "one-way", bytes, Wake::spin);
+    entry.divisor = 2;
+    entry.run = measure_round_trips<RingEndpoint<bytes, Wake::spin>>;
+    registry.cases.push_back(entry);
 }
 
 template <std::size_t bytes>
 void add_stream(Registry& registry) {
-    Case one = base("index-ring", "stream", bytes, Wake::spin);
-    one.unit = Unit::gigabytes;
-    one.detail = "zero-copy";
-    one.run = stream<RingEnd<bytes, Wake::spin>>;
-    registry.cases.push_back(one);
-    one.detail = "copy";
-    one.run = stream<CopyingEnd<bytes>>;
-    registry.cases.push_back(one);
+    Case entry = base("index-ring", "stream", bytes, Wake::spin);
+    entry.unit = Unit::gigabytes;
+    entry.detail = "zero-copy";
+    entry.run = measure_stream<RingEndpoint<bytes, Wake::spin>>;
+    registry.cases.push_back(entry);
+    entry.detail = "copy";
+    entry.run = measure_stream<CopyingEndpoint<bytes>>;
+    registry.cases.push_back(entry);
 }
 
 constexpr std::size_t mebibyte = std::size_t{1} << 20U;
 
 } // namespace
 
-void add_floor_ring_cases(Registry& registry) {
+void add_index_ring_cases(Registry& registry) {
     add_wake<Wake::spin>(registry);
     add_wake<Wake::spin_then_futex>(registry);
     add_wake<Wake::blocking>(registry);
@@ -159,7 +159,7 @@ void add_floor_ring_cases(Registry& registry) {
 
     Case rate = base("index-ring", "stream", 64, Wake::spin);
     rate.unit = Unit::megamessages;
-    rate.run = stream<RateEnd>;
+    rate.run = measure_stream<RateEndpoint>;
     registry.cases.push_back(rate);
     add_stream<65536>(registry);
     add_stream<mebibyte>(registry);

@@ -10,7 +10,7 @@ std::atomic<std::uint64_t> count{0};
 }
 
 namespace tandem::bench {
-std::uint64_t allocations() { return count.load(std::memory_order_relaxed); }
+std::uint64_t allocation_count() { return count.load(std::memory_order_relaxed); }
 } // namespace tandem::bench
 
 void* operator new(std::size_t bytes) {

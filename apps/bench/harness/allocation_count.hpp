@@ -5,6 +5,6 @@
 namespace tandem::bench {
 
 /// Calls of operator new in this process so far. The program's operator new is replaced by one that counts.
-std::uint64_t allocations();
+std::uint64_t allocation_count();
 
 } // namespace tandem::bench

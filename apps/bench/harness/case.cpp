@@ -9,7 +9,7 @@
 namespace tandem::bench {
 
 const char* name_of(Group group) {
-    static constexpr const char* names[] = {"floor", "ours", "peer"};
+    static constexpr const char* names[] = {"baseline", "tandem", "peer"};
     return names[static_cast<int>(group)];
 }
 const char* name_of(Wake wake) {
@@ -36,7 +36,7 @@ std::string size_text(std::size_t bytes) {
 }
 
 std::string Case::id() const {
-    std::string id = std::string(name_of(group)) + "/" + who + "/" + what + "/" + size_text(bytes);
+    std::string id = std::string(name_of(group)) + "/" + subject + "/" + operation + "/" + size_text(bytes);
     if (wake != Wake::none) id += std::string("/") + name_of(wake);
     if (!detail.empty()) id += "/" + detail;
     if (placement == Placement::threads) id += "/threads";
@@ -47,36 +47,37 @@ std::string Case::id() const {
 std::string Case::topic() const {
     // The cache line and the short record belong to the 64-byte crossing.
     const std::size_t size = bytes < 64 ? 64 : bytes;
-    return what + "/" + size_text(size) + "/" + name_of(regime);
+    return operation + "/" + size_text(size) + "/" + name_of(regime);
 }
 
-void Registry::add_regimes(const Case& one) {
-    cases.push_back(one);
-    if (one.wake == Wake::spin) return; // never sleeps: the idle state does not matter, one core cannot do it
+void Registry::add_regimes(const Case& entry) {
+    cases.push_back(entry);
+    if (entry.wake == Wake::spin)
+        return; // never sleeps: the idle state does not matter, one core cannot do it
     for (Regime regime : {Regime::low_latency_idle, Regime::same_core}) {
-        cases.push_back(one);
+        cases.push_back(entry);
         cases.back().regime = regime;
     }
 }
 
 Registry all_cases() {
     Registry registry;
-    add_floor_line_cases(registry);
-    add_floor_ring_cases(registry);
-    add_floor_loop_cases(registry);
-    add_floor_memory_cases(registry);
-    add_our_ring_cases(registry);
-    add_our_bridge_cases(registry);
-    add_our_stream_cases(registry);
-    add_our_call_cases(registry);
-    add_our_port_cases(registry);
-    add_our_opros_cases(registry);
-    add_our_publish_count_cases(registry);
-    add_our_rtm_cases(registry);
-    add_our_wheelchair_cases(registry);
+    add_cache_line_cases(registry);
+    add_index_ring_cases(registry);
+    add_hand_written_cases(registry);
+    add_memory_cases(registry);
+    add_tandem_ring_cases(registry);
+    add_tandem_bridge_cases(registry);
+    add_tandem_stream_cases(registry);
+    add_tandem_call_cases(registry);
+    add_tandem_port_cases(registry);
+    add_tandem_opros_cases(registry);
+    add_tandem_publish_count_cases(registry);
+    add_tandem_rtm_cases(registry);
+    add_tandem_wheelchair_cases(registry);
     add_peer_cases(registry);
     std::map<std::string, std::size_t> order;
-    for (const Case& one : registry.cases) order.emplace(one.topic(), order.size());
+    for (const Case& entry : registry.cases) order.emplace(entry.topic(), order.size());
     std::stable_sort(registry.cases.begin(), registry.cases.end(),
                      [&](const Case& a, const Case& b) { return order.at(a.topic()) < order.at(b.topic()); });
     return registry;

@@ -10,7 +10,7 @@ namespace tandem::bench {
 
 class Session;
 
-enum class Group { floor, ours, peer };
+enum class Group { baseline, tandem, peer };
 
 /// How the waiting side waits.
 enum class Wake { none, spin, spin_then_futex, blocking };
@@ -25,9 +25,9 @@ enum class Placement { processes, threads, alone };
 enum class Unit { ns, gigabytes, megamessages, count };
 
 struct Case {
-    Group group = Group::ours;
-    std::string who;  ///< "index-ring", "ring", "iceoryx"
-    std::string what; ///< "one-way", "call", "stream", ...
+    Group group = Group::tandem;
+    std::string subject;   ///< "index-ring", "ring", "iceoryx"
+    std::string operation; ///< "one-way", "call", "stream", ...
     std::size_t bytes = 64;
     Wake wake = Wake::spin;
     Regime regime = Regime::normal;
@@ -45,7 +45,7 @@ struct Case {
 };
 
 struct Skipped {
-    std::string who, reason;
+    std::string subject, reason;
 };
 
 struct Registry {
@@ -53,7 +53,7 @@ struct Registry {
     std::vector<Skipped> skipped; ///< peers that this build does not have
 
     /// The case in each regime that its wake mode makes sense in.
-    void add_regimes(const Case& one);
+    void add_regimes(const Case& entry);
 };
 
 /// All cases, by topic.

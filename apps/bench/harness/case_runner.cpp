@@ -46,16 +46,16 @@ class SharedMemory {
 };
 
 /// Everything that the sides of one case share.
-struct Stage {
-    const Case& measured;
-    const Limits& limits;
+struct CaseRun {
+    const Case& bench_case;
+    const Budget& budget;
     Cores cores;
     std::string name;
     SharedMemory control_memory, memory;
 
-    Stage(const Case& c, const Limits& l, const Cores& where)
-        : measured(c), limits(l), cores(where), name(fresh_name()),
-          control_memory(sizeof(Control) + (l.samples + 64) * sizeof(double)), memory(memory_bytes) {}
+    CaseRun(const Case& c, const Budget& b, const Cores& where)
+        : bench_case(c), budget(b), cores(where), name(fresh_name()),
+          control_memory(sizeof(Control) + (b.samples + 64) * sizeof(double)), memory(memory_bytes) {}
 
     Control& control() const { return *reinterpret_cast<Control*>(control_memory.bytes().data()); }
 
@@ -65,12 +65,12 @@ struct Stage {
     }
 
     /// [in the child] One side from beginning to end. True if it went well.
-    bool play(Session::Role role) const {
+    bool run_side(Session::Role role) const {
         const bool b = role == Session::Role::b;
         try {
-            pin_to(b && measured.regime != Regime::same_core ? cores.b : cores.a);
-            Session session(measured, limits, role, name, control(), memory.bytes());
-            measured.run(session);
+            pin_to(b && bench_case.regime != Regime::same_core ? cores.b : cores.a);
+            Session session(bench_case, budget, role, name, control(), memory.bytes());
+            bench_case.run(session);
             return true;
         } catch (const std::exception& failure) {
             std::strncpy(control().failure[b ? 1 : 0], failure.what(), Control::text_bytes - 1);
@@ -79,13 +79,13 @@ struct Stage {
     }
 
     // Not _exit(): some middlewares say good-bye in the destructors of their static objects.
-    [[noreturn]] void play_and_exit(Session::Role role) const { std::exit(play(role) ? 0 : 1); }
+    [[noreturn]] void run_side_and_exit(Session::Role role) const { std::exit(run_side(role) ? 0 : 1); }
 
-    [[noreturn]] void play_both_and_exit() const {
+    [[noreturn]] void run_both_sides_and_exit() const {
         std::thread second([&] {
-            if (!play(Session::Role::b)) _exit(1);
+            if (!run_side(Session::Role::b)) _exit(1);
         });
-        if (!play(Session::Role::a)) _exit(1);
+        if (!run_side(Session::Role::a)) _exit(1);
         second.join();
         _exit(0);
     }
@@ -142,22 +142,22 @@ void catch_interrupts() {
 
 bool interrupted() { return interrupt_seen != 0; }
 
-Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores) {
+Outcome run_case(const Case& bench_case, const Budget& budget, const Cores& cores) {
     Outcome outcome;
-    const Stage stage(measured, limits, cores);
+    const CaseRun stage(bench_case, budget, cores);
     {
-        const RegimeHold hold(measured.regime, cores);
+        const RegimeHold hold(bench_case.regime, cores);
         const MachineLoad load;
-        std::vector<process::ChildProcess> children; // kills those that are left at the end of the scope
-        if (measured.placement == Placement::threads) {
-            start(children, [&] { stage.play_both_and_exit(); });
+        Children children;
+        if (bench_case.placement == Placement::threads) {
+            start(children, [&] { stage.run_both_sides_and_exit(); });
         } else {
-            start(children, [&] { stage.play_and_exit(Session::Role::a); });
-            if (measured.placement == Placement::processes)
-                start(children, [&] { stage.play_and_exit(Session::Role::b); });
+            start(children, [&] { stage.run_side_and_exit(Session::Role::a); });
+            if (bench_case.placement == Placement::processes)
+                start(children, [&] { stage.run_side_and_exit(Session::Role::b); });
         }
-        outcome.failure = wait_for(children, limits.bound_seconds + measured.extra_seconds);
-        if (measured.regime != Regime::loaded) outcome.foreign = load.foreign_share();
+        outcome.failure = children.wait(budget.timeout_seconds + bench_case.extra_seconds);
+        if (bench_case.regime != Regime::loaded) outcome.foreign_cpu_share = load.foreign_cpu_share();
     }
     remove_left_overs(stage.name);
     Control& control = stage.control();

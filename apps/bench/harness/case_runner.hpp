@@ -13,10 +13,10 @@ struct Outcome {
     std::vector<double> samples;
     std::string failure; ///< one line; empty if it went well
     std::optional<TickCounts> tick_counts;
-    double foreign = 0; ///< share of the machine that other processes got meanwhile, 0 to 1
+    double foreign_cpu_share = 0; ///< share of the machine that other processes got meanwhile, 0 to 1
 };
 
-Outcome run_pair(const Case& measured, const Limits& limits, const Cores& cores);
+Outcome run_case(const Case& bench_case, const Budget& budget, const Cores& cores);
 
 /// Ctrl-C and SIGTERM end the case that runs; interrupted() tells.
 void catch_interrupts();

@@ -6,19 +6,19 @@ namespace tandem::bench {
 
 struct Registry;
 
-void add_floor_line_cases(Registry& registry);
-void add_floor_ring_cases(Registry& registry);
-void add_floor_loop_cases(Registry& registry);
-void add_floor_memory_cases(Registry& registry);
-void add_our_bridge_cases(Registry& registry);
-void add_our_ring_cases(Registry& registry);
-void add_our_stream_cases(Registry& registry);
-void add_our_call_cases(Registry& registry);
-void add_our_port_cases(Registry& registry);
-void add_our_opros_cases(Registry& registry);
-void add_our_publish_count_cases(Registry& registry);
-void add_our_rtm_cases(Registry& registry);
-void add_our_wheelchair_cases(Registry& registry);
+void add_cache_line_cases(Registry& registry);
+void add_index_ring_cases(Registry& registry);
+void add_hand_written_cases(Registry& registry);
+void add_memory_cases(Registry& registry);
+void add_tandem_bridge_cases(Registry& registry);
+void add_tandem_ring_cases(Registry& registry);
+void add_tandem_stream_cases(Registry& registry);
+void add_tandem_call_cases(Registry& registry);
+void add_tandem_port_cases(Registry& registry);
+void add_tandem_opros_cases(Registry& registry);
+void add_tandem_publish_count_cases(Registry& registry);
+void add_tandem_rtm_cases(Registry& registry);
+void add_tandem_wheelchair_cases(Registry& registry);
 
 void add_peer_cases(Registry& registry); ///< those that this build has, and the names of the others
 void add_boost_cases(Registry& registry);

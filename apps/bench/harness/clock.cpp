@@ -23,13 +23,13 @@ bool invariant_tsc() {
     return false;
 }
 
-struct Moment {
+struct ClockReadings {
     std::uint64_t ns, ticks;
 };
 
 /// The tightest of several pairs of readings, so that an interruption between the two does not count.
-Moment moment() {
-    Moment best{};
+ClockReadings read_both_clocks() {
+    ClockReadings best{};
     std::uint64_t tightest = ~std::uint64_t{0};
     for (int i = 0; i < 50; ++i) {
         const std::uint64_t before = ticks(), ns = raw_ns(), after = ticks();
@@ -47,9 +47,9 @@ void Clock::calibrate() {
     tsc = invariant_tsc();
     ns_per_tick = 1.0;
     if (!tsc) return;
-    const Moment from = moment();
+    const ClockReadings from = read_both_clocks();
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    const Moment to = moment();
+    const ClockReadings to = read_both_clocks();
     ns_per_tick = static_cast<double>(to.ns - from.ns) / static_cast<double>(to.ticks - from.ticks);
 }
 

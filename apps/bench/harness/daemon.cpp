@@ -24,7 +24,7 @@ constexpr const char* roudi_pools = "[general]\nversion = 1\n[[segment]]\n"
 
 } // namespace
 
-struct Service::Running {
+struct Daemon::Running {
     Running(fs::path where, const std::vector<std::string>& command, int log)
         : folder(std::move(where)), process(command, {-1, log, log, ""}) {}
     ~Running() {
@@ -36,7 +36,7 @@ struct Service::Running {
     process::ChildProcess process;
 };
 
-Service::Service(const std::string& program) {
+Daemon::Daemon(const std::string& program) {
     if (program.empty()) return;
     std::string name = (fs::temp_directory_path() / "tandem-bench-XXXXXX").string();
     const fs::path folder = mkdtemp(name.data());
@@ -59,6 +59,6 @@ Service::Service(const std::string& program) {
     if (!says_ready()) throw std::runtime_error(program + " was not ready after 10 s");
 }
 
-Service::~Service() = default;
+Daemon::~Daemon() = default;
 
 } // namespace tandem::bench

@@ -6,10 +6,10 @@
 
 namespace tandem::bench {
 
-class Service {
+class Daemon {
   public:
-    explicit Service(const std::string& program); ///< Empty: none. Throws if it does not start in 10 s.
-    ~Service();
+    explicit Daemon(const std::string& program); ///< Empty: none. Throws if it does not start in 10 s.
+    ~Daemon();
 
   private:
     struct Running;

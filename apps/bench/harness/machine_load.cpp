@@ -22,9 +22,9 @@ MachineLoad::Reading MachineLoad::read() {
         now.total += ticks * tick;
         if (column != 3 && column != 4) now.busy += ticks * tick;
     }
-    for (int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    for (int subject : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
         rusage usage{};
-        getrusage(who, &usage);
+        getrusage(subject, &usage);
         for (const timeval& time : {usage.ru_utime, usage.ru_stime})
             now.own += static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
     }
@@ -33,7 +33,7 @@ MachineLoad::Reading MachineLoad::read() {
 
 MachineLoad::MachineLoad() : start_(read()) {}
 
-double MachineLoad::foreign_share() const {
+double MachineLoad::foreign_cpu_share() const {
     const Reading now = read();
     const double total = now.total - start_.total;
     if (total <= 0) return 0;

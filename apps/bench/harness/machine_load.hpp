@@ -9,7 +9,7 @@ namespace tandem::bench {
 class MachineLoad {
   public:
     MachineLoad();
-    double foreign_share() const; ///< 0 to 1 of the machine's cores
+    double foreign_cpu_share() const; ///< 0 to 1 of the machine's cores
 
   private:
     struct Reading {

@@ -11,67 +11,67 @@
 
 namespace tandem::bench {
 
-inline void expect_sequence(std::uint64_t got, std::uint64_t wanted) {
-    if (got != wanted) detail::out_of_order(got, wanted);
+inline void require_sequence(std::uint64_t got, std::uint64_t wanted) {
+    if (got != wanted) detail::throw_out_of_order(got, wanted);
 }
 
 /// Answers until the stop message.
-template <class End>
-void answer(End& end) {
+template <class Endpoint>
+void echo_until_stop(Endpoint& endpoint) {
     for (;;) {
-        const std::uint64_t sequence = end.receive();
-        end.send(sequence);
+        const std::uint64_t sequence = endpoint.receive();
+        endpoint.send(sequence);
         if (sequence == stop_sequence) return;
     }
 }
 
 template <class Exchange>
-void time_exchanges(Session& session, Exchange&& exchange, std::size_t parts = 1) {
+void time_round_trips(Session& session, Exchange&& exchange, std::size_t parts = 1) {
     std::uint64_t sequence = 1;
     const auto loop = [&] {
-        for (; session.more(); ++sequence) {
+        for (; session.needs_more(); ++sequence) {
             const std::uint64_t sent = ticks();
             const std::uint64_t answered = exchange(sequence);
             const std::uint64_t now = ticks();
-            expect_sequence(answered, sequence);
-            session.sample(now - sent, now);
+            require_sequence(answered, sequence);
+            session.add_sample(now - sent, now);
         }
     };
     session.begin_warm_up(parts);
     loop();
-    session.begin(parts);
+    session.begin_measuring(parts);
     loop();
-    session.end();
+    session.end_measuring();
     exchange(stop_sequence);
 }
 
 /// Round trips, one after the other; the case's divisor makes them one-way times.
-template <class End>
-void echo(Session& session) {
-    End end(session);
-    session.meet();
-    if (!session.is_a()) return answer(end);
-    time_exchanges(session, [&](std::uint64_t sequence) {
-        end.send(sequence);
-        return end.receive();
+template <class Endpoint>
+void measure_round_trips(Session& session) {
+    Endpoint endpoint(session);
+    session.arrive_and_wait();
+    if (!session.is_a()) return echo_until_stop(endpoint);
+    time_round_trips(session, [&](std::uint64_t sequence) {
+        endpoint.send(sequence);
+        return endpoint.receive();
     });
 }
 
 /// The same at several places of the session's memory, one after the other, as End(session, place): how far a
 /// line that stays where it is lies from a core depends on its address.
-template <class End>
-void echo_at_places(Session& session, std::size_t places) {
+template <class Endpoint>
+void measure_round_trips_in_regions(Session& session, std::size_t places) {
     for (std::size_t place = 0; place < places; ++place) {
-        End end(session, place);
-        session.meet();
+        Endpoint endpoint(session, place);
+        session.arrive_and_wait();
         if (!session.is_a())
-            answer(end);
+            echo_until_stop(endpoint);
         else
-            time_exchanges(
+            time_round_trips(
                 session,
                 [&](std::uint64_t sequence) {
-                    end.send(sequence);
-                    return end.receive();
+                    endpoint.send(sequence);
+                    return endpoint.receive();
                 },
                 places);
     }
@@ -79,107 +79,108 @@ void echo_at_places(Session& session, std::size_t places) {
 
 /// Calls: A is the client, B the server.
 template <class Client, class Server>
-void calls(Session& session) {
+void measure_calls(Session& session) {
     if (session.is_a()) {
         Client client(session);
-        session.meet();
-        time_exchanges(session, [&](std::uint64_t sequence) { return client.call(sequence); });
-        session.meet();
+        session.arrive_and_wait();
+        time_round_trips(session, [&](std::uint64_t sequence) { return client.call(sequence); });
+        session.arrive_and_wait();
     } else {
         Server server(session);
-        session.meet();
+        session.arrive_and_wait();
         while (server.serve() != stop_sequence) {
         }
-        session.meet(); // so that the client has its last reply before the server goes
+        session.arrive_and_wait(); // so that the client has its last reply before the server goes
     }
 }
 
 /// Round trips that are due every millisecond, measured from when they were due and not from when they were
 /// sent: a stall delays the following ones too, and shows in each of them.
-template <class End>
-void paced(Session& session) {
-    End end(session);
-    session.meet();
-    if (!session.is_a()) return answer(end);
+template <class Endpoint>
+void measure_paced(Session& session) {
+    Endpoint endpoint(session);
+    session.arrive_and_wait();
+    if (!session.is_a()) return echo_until_stop(endpoint);
     const std::uint64_t interval = to_ticks(1e6);
-    session.begin();
+    session.begin_measuring();
     std::uint64_t due = ticks() + interval;
-    for (std::uint64_t sequence = 1; session.more(); ++sequence, due += interval) {
+    for (std::uint64_t sequence = 1; session.needs_more(); ++sequence, due += interval) {
         while (ticks() < due) {
         }
-        end.send(sequence);
-        expect_sequence(end.receive(), sequence);
+        endpoint.send(sequence);
+        require_sequence(endpoint.receive(), sequence);
         const std::uint64_t now = ticks();
-        session.sample(now - due, now);
+        session.add_sample(now - due, now);
     }
-    session.end();
-    end.send(stop_sequence);
-    end.receive();
+    session.end_measuring();
+    endpoint.send(stop_sequence);
+    endpoint.receive();
 }
 
 /// What publishing costs the writer: one message every 5 us while B reads.
-template <class End>
-void publish(Session& session) {
-    End end(session);
-    session.meet();
+template <class Endpoint>
+void measure_publish(Session& session) {
+    Endpoint endpoint(session);
+    session.arrive_and_wait();
     if (!session.is_a()) {
-        while (end.receive() != stop_sequence) {
+        while (endpoint.receive() != stop_sequence) {
         }
         return;
     }
     const std::uint64_t gap = to_ticks(5e3);
     std::uint64_t sequence = 1;
     const auto loop = [&] {
-        for (; session.more(); ++sequence) {
+        for (; session.needs_more(); ++sequence) {
             const std::uint64_t before = ticks();
-            end.send(sequence);
+            endpoint.send(sequence);
             const std::uint64_t after = ticks();
-            session.sample(after - before, after);
+            session.add_sample(after - before, after);
             while (ticks() - after < gap) {
             }
         }
     };
     session.begin_warm_up();
     loop();
-    session.begin();
+    session.begin_measuring();
     loop();
-    session.end();
-    end.send(stop_sequence);
+    session.end_measuring();
+    endpoint.send(stop_sequence);
 }
 
 /// As fast as it goes: A fills and sends, B receives and sums and measures windows, each at least so long,
 /// until it has enough. Results: GB/s, or million messages per second.
-template <class End>
-void stream(Session& session) {
-    End end(session);
-    session.meet();
+template <class Endpoint>
+void measure_stream(Session& session) {
+    Endpoint endpoint(session);
+    session.arrive_and_wait();
     const std::uint64_t batch = session.bytes() <= 4096 ? 64 : 1;
     if (session.is_a()) {
-        for (std::uint64_t sequence = 1; !session.finished();)
-            for (std::uint64_t i = 0; i < batch; ++i) end.send(sequence++);
-        end.send(stop_sequence);
-        session.meet();
+        for (std::uint64_t sequence = 1; !session.stop_requested();)
+            for (std::uint64_t i = 0; i < batch; ++i) endpoint.send(sequence++);
+        endpoint.send(stop_sequence);
+        session.arrive_and_wait();
         return;
     }
     const double unit =
-        session.measured().unit == Unit::gigabytes ? static_cast<double>(session.bytes()) : 1e3;
-    const std::uint64_t window = to_ticks(session.limits().window_seconds * 1e9);
+        session.bench_case().unit == Unit::gigabytes ? static_cast<double>(session.bytes()) : 1e3;
+    const std::uint64_t window = to_ticks(session.budget().window_seconds * 1e9);
     std::uint64_t expected = 1;
-    for (int i = -1; i < session.limits().windows; ++i) { // the first is warm-up
+    for (int i = -1; i < session.budget().windows; ++i) { // the first is warm-up
         const std::uint64_t first = expected, begin = ticks();
         std::uint64_t now = begin;
         while (now - begin < window) {
-            for (std::uint64_t k = 0; k < batch; ++k, ++expected) expect_sequence(end.receive(), expected);
+            for (std::uint64_t k = 0; k < batch; ++k, ++expected)
+                require_sequence(endpoint.receive(), expected);
             now = ticks();
         }
-        if (i >= 0) session.result(static_cast<double>(expected - first) * unit / to_ns(now - begin));
+        if (i >= 0) session.add_result(static_cast<double>(expected - first) * unit / to_ns(now - begin));
     }
-    session.finish();
+    session.request_stop();
     for (std::uint64_t got = 0; got != stop_sequence;) {
-        got = end.receive();
-        if (got != stop_sequence) expect_sequence(got, expected++);
+        got = endpoint.receive();
+        if (got != stop_sequence) require_sequence(got, expected++);
     }
-    session.meet();
+    session.arrive_and_wait();
 }
 
 } // namespace tandem::bench

@@ -20,11 +20,11 @@ TANDEM_BENCH_WIDE std::uint64_t sum_large(const std::uint64_t* words, std::size_
     return sum_words(words, count);
 }
 
-void out_of_order(std::uint64_t got, std::uint64_t wanted) {
+void throw_out_of_order(std::uint64_t got, std::uint64_t wanted) {
     throw std::runtime_error(fmt::format("message {} came where {} was due", got, wanted));
 }
 
-void damaged(std::uint64_t first, std::uint64_t sum, std::size_t count) {
+void throw_corrupt(std::uint64_t first, std::uint64_t sum, std::size_t count) {
     throw std::runtime_error(
         fmt::format("a message of {} words is damaged: first word {}, sum {} instead of {}", count, first,
                     sum, first * count));

@@ -16,8 +16,8 @@ constexpr std::uint64_t stop_sequence = ~std::uint64_t{0};
 namespace detail {
 void fill_large(std::uint64_t* words, std::size_t count, std::uint64_t value);
 std::uint64_t sum_large(const std::uint64_t* words, std::size_t count);
-[[noreturn]] void out_of_order(std::uint64_t got, std::uint64_t wanted);
-[[noreturn]] void damaged(std::uint64_t first, std::uint64_t sum, std::size_t count);
+[[noreturn]] void throw_out_of_order(std::uint64_t got, std::uint64_t wanted);
+[[noreturn]] void throw_corrupt(std::uint64_t first, std::uint64_t sum, std::size_t count);
 constexpr std::size_t large_words = 64;
 
 inline void fill_words(std::uint64_t* words, std::size_t count, std::uint64_t value) {
@@ -31,7 +31,7 @@ inline std::uint64_t sum_words(const std::uint64_t* words, std::size_t count) {
 
 } // namespace detail
 
-inline void fill(void* memory, std::size_t bytes, std::uint64_t sequence) {
+inline void fill_message(void* memory, std::size_t bytes, std::uint64_t sequence) {
     auto* words = static_cast<std::uint64_t*>(memory);
     const std::size_t count = bytes / sizeof(std::uint64_t);
     if (count > detail::large_words) return detail::fill_large(words, count, sequence);
@@ -39,7 +39,7 @@ inline void fill(void* memory, std::size_t bytes, std::uint64_t sequence) {
 }
 
 /// The message's sequence number. Throws if the words do not agree.
-inline std::uint64_t sequence_of(const void* memory, std::size_t bytes) {
+inline std::uint64_t checked_sequence(const void* memory, std::size_t bytes) {
     const auto* words = static_cast<const std::uint64_t*>(memory);
     const std::size_t count = bytes / sizeof(std::uint64_t);
     std::uint64_t sum = 0;
@@ -47,7 +47,7 @@ inline std::uint64_t sequence_of(const void* memory, std::size_t bytes) {
         sum = detail::sum_large(words, count);
     else
         sum = detail::sum_words(words, count);
-    if (sum != words[0] * count) detail::damaged(words[0], sum, count);
+    if (sum != words[0] * count) detail::throw_corrupt(words[0], sum, count);
     return words[0];
 }
 

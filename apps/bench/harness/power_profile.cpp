@@ -36,7 +36,7 @@ void pin_to(int core) {
         throw std::system_error(errno, std::generic_category(), fmt::format("cannot pin to core {}", core));
 }
 
-void unpin() {
+void pin_to_all_cores() {
     cpu_set_t set;
     std::memset(&set, 0xff, sizeof set); // the kernel takes those that the process may use
     if (sched_setaffinity(0, sizeof set, &set) != 0)
@@ -86,10 +86,10 @@ RegimeHold::~RegimeHold() {
     if (latency_fd_ >= 0) close(latency_fd_); // the kernel's limit ends with the file
 }
 
-std::string obstacle(const Case& measured, const Cores& cores) {
-    if (measured.regime == Regime::low_latency_idle && access(latency_file, W_OK) != 0)
+std::string unmet_requirement(const Case& bench_case, const Cores& cores) {
+    if (bench_case.regime == Regime::low_latency_idle && access(latency_file, W_OK) != 0)
         return fmt::format("no permission to write {}; run as root", latency_file);
-    const bool needs_two = measured.placement != Placement::alone && measured.regime != Regime::same_core;
+    const bool needs_two = bench_case.placement != Placement::alone && bench_case.regime != Regime::same_core;
     if (needs_two && cores.a == cores.b)
         return "needs two cores, this process may use one only; widen its affinity";
     return {};

@@ -25,10 +25,10 @@ class RegimeHold {
 };
 
 /// Why a case cannot be measured on this machine by this user; empty if it can.
-std::string obstacle(const Case& measured, const Cores& cores);
+std::string unmet_requirement(const Case& bench_case, const Cores& cores);
 
-void pin_to(int core); ///< [calling thread]
-void unpin();          ///< [calling thread] Any core.
+void pin_to(int core);   ///< [calling thread]
+void pin_to_all_cores(); ///< [calling thread] Any core.
 std::vector<int> allowed_cores();
 
 /// Forks a process that dies with this one. 0 in the child.

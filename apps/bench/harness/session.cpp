@@ -6,8 +6,8 @@
 
 namespace tandem::bench {
 
-void Session::meet() {
-    if (measured_.placement == Placement::alone) return;
+void Session::arrive_and_wait() {
+    if (case_.placement == Placement::alone) return;
     const std::uint32_t all = 2 * ++met_;
     control_.arrived.fetch_add(1, std::memory_order_acq_rel);
     // The driver bounds it: it kills both if one of them does not come.
@@ -23,7 +23,7 @@ void Session::begin(std::size_t count, double seconds, bool keep) {
     end_ = last_ + to_ticks(seconds * 1e9);
 }
 
-void Session::result(double value) {
+void Session::add_result(double value) {
     const std::size_t at = control_.sample_count.load(std::memory_order_relaxed);
     control_.samples()[at] = value;
     control_.sample_count.store(at + 1, std::memory_order_release);

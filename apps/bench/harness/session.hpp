@@ -12,13 +12,13 @@
 namespace tandem::bench {
 
 /// How long a case may take and how many samples it may bring.
-struct Limits {
+struct Budget {
     std::size_t warm_up = 10'000, samples = 50'000;
     double warm_up_seconds = 0.3, seconds = 1.5; ///< whichever of count and time is reached first
     double window_seconds = 0.15;                ///< streams
     int windows = 5;
-    double bound_seconds = 20; ///< then both sides are killed
-    int attempts = 4;          ///< a case is repeated if other processes disturbed it
+    double timeout_seconds = 20; ///< then both sides are killed
+    int attempts = 4;            ///< a case is repeated if other processes disturbed it
 };
 
 /// Shared by the driver and both sides; zero at first.
@@ -36,53 +36,53 @@ class Session {
   public:
     enum class Role { a, b };
 
-    Session(const Case& measured, const Limits& limits, Role role, std::string name, Control& control,
+    Session(const Case& bench_case, const Budget& budget, Role role, std::string name, Control& control,
             std::span<std::byte> memory)
-        : measured_(measured), limits_(limits), role_(role), name_(std::move(name)), control_(control),
+        : case_(bench_case), budget_(budget), role_(role), name_(std::move(name)), control_(control),
           memory_(memory) {}
 
-    const Case& measured() const { return measured_; }
-    const Limits& limits() const { return limits_; }
+    const Case& bench_case() const { return case_; }
+    const Budget& budget() const { return budget_; }
     bool is_a() const { return role_ == Role::a; }
-    std::size_t bytes() const { return measured_.bytes; }
+    std::size_t bytes() const { return case_.bytes; }
     const std::string& name() const { return name_; }       ///< no other process uses it
     std::span<std::byte> memory() const { return memory_; } ///< zero at first, 64 MiB, one for both sides
 
     /// Waits until both sides have called it the same number of times.
-    void meet();
+    void arrive_and_wait();
 
     /// The warm-up loop and the measured loop: while (more()) { ...; sample(ticks it took, now); }
     /// Of several such loops, `parts`, each gets its share; the samples add up.
     void begin_warm_up(std::size_t parts = 1) {
-        begin(limits_.warm_up / parts, limits_.warm_up_seconds / static_cast<double>(parts), false);
+        begin(budget_.warm_up / parts, budget_.warm_up_seconds / static_cast<double>(parts), false);
     }
-    void begin(std::size_t parts = 1) {
-        begin(limits_.samples / parts, limits_.seconds / static_cast<double>(parts), true);
+    void begin_measuring(std::size_t parts = 1) {
+        begin(budget_.samples / parts, budget_.seconds / static_cast<double>(parts), true);
     }
-    bool more() const { return taken_ < wanted_ && last_ < end_; }
-    void sample(std::uint64_t took, std::uint64_t now) {
-        if (keep_) control_.samples()[kept_++] = to_ns(took) / measured_.divisor;
+    bool needs_more() const { return taken_ < wanted_ && last_ < end_; }
+    void add_sample(std::uint64_t took, std::uint64_t now) {
+        if (keep_) control_.samples()[kept_++] = to_ns(took) / case_.divisor;
         ++taken_;
         last_ = now;
     }
-    void end() { control_.sample_count.store(kept_, std::memory_order_release); }
-    void result(double value); ///< One figure of a stream or a count.
+    void end_measuring() { control_.sample_count.store(kept_, std::memory_order_release); }
+    void add_result(double value); ///< One figure of a stream or a count.
 
     /// How many of a case's ticks came a period late or more.
-    void counted(const TickCounts& counts) {
+    void set_tick_counts(const TickCounts& counts) {
         control_.tick_counts = counts;
         control_.has_tick_counts = true;
     }
 
     /// One side tells the other that it has enough.
-    void finish() { control_.finished.store(1, std::memory_order_release); }
-    bool finished() const { return control_.finished.load(std::memory_order_relaxed) != 0; }
+    void request_stop() { control_.finished.store(1, std::memory_order_release); }
+    bool stop_requested() const { return control_.finished.load(std::memory_order_relaxed) != 0; }
 
   private:
     void begin(std::size_t count, double seconds, bool keep);
 
-    const Case& measured_;
-    const Limits& limits_;
+    const Case& case_;
+    const Budget& budget_;
     Role role_;
     std::string name_;
     Control& control_;

@@ -6,20 +6,20 @@ namespace tandem::bench {
 
 /// Times work(1), work(2), ... one after the other, in the one process of a case that needs no second.
 template <class Work>
-void time_each(Session& session, Work&& work) {
+void time_each_call(Session& session, Work&& work) {
     const auto loop = [&] {
-        for (double value = 1; session.more(); ++value) {
+        for (double value = 1; session.needs_more(); ++value) {
             const std::uint64_t before = ticks();
             work(value);
             const std::uint64_t now = ticks();
-            session.sample(now - before, now);
+            session.add_sample(now - before, now);
         }
     };
     session.begin_warm_up();
     loop();
-    session.begin();
+    session.begin_measuring();
     loop();
-    session.end();
+    session.end_measuring();
 }
 
 } // namespace tandem::bench

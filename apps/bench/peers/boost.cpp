@@ -12,9 +12,9 @@ namespace {
 namespace bip = boost::interprocess;
 
 template <std::size_t bytes, Wake wake>
-class BoostEnd {
+class BoostEndpoint {
   public:
-    explicit BoostEnd(Session& session)
+    explicit BoostEndpoint(Session& session)
         : out_(bip::open_or_create, (session.name() + (session.is_a() ? "-0" : "-1")).c_str(), depth, bytes),
           in_(bip::open_or_create, (session.name() + (session.is_a() ? "-1" : "-0")).c_str(), depth, bytes) {}
     void send(std::uint64_t sequence) {
@@ -42,13 +42,13 @@ class BoostEnd {
 
 void add_boost_cases(Registry& registry) {
     PeerCases cases(registry, "boost-message-queue");
-    cases.one_way<BoostEnd<64, Wake::spin>>(Wake::spin);
-    cases.one_way<BoostEnd<64, Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<BoostEnd<64, Wake::spin>>, PairServerOf<BoostEnd<64, Wake::spin>>>(Wake::spin,
-                                                                                               "pair");
-    cases.rate<BoostEnd<64, Wake::blocking>>(Wake::blocking);
-    cases.large<BoostEnd<mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
-    cases.large<BoostEnd<6 * mebibyte, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.one_way<BoostEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.one_way<BoostEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.call<PairClientOf<BoostEndpoint<64, Wake::spin>>, PairServerOf<BoostEndpoint<64, Wake::spin>>>(
+        Wake::spin, "pair");
+    cases.rate<BoostEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.large<BoostEndpoint<mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
+    cases.large<BoostEndpoint<6 * mebibyte, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
 }
 
 } // namespace tandem::bench

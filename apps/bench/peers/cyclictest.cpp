@@ -19,7 +19,7 @@ constexpr int widest_us = 100'000;
 constexpr std::int64_t period_ns = 1'000'000;
 
 void tick(Session& session) {
-    const int count = session.limits().samples >= 50'000 ? 10'000 : 1'000;
+    const int count = session.budget().samples >= 50'000 ? 10'000 : 1'000;
     const std::string command = fmt::format(
         "{} --quiet --threads=1 --interval=1000 --loops={} --histogram={} 2>&1", program, count, widest_us);
     const std::unique_ptr<FILE, int (*)(FILE*)> out(popen(command.c_str(), "re"), pclose);
@@ -28,7 +28,7 @@ void tick(Session& session) {
     int late_us = 0, times = 0, seen = 0, latest_us = 0, beyond = 0;
     TickCounts counts;
     const auto sample = [&](int us) {
-        session.result(us * 1e3);
+        session.add_result(us * 1e3);
         counts.add(us * std::int64_t{1000}, period_ns);
         ++seen;
     };
@@ -40,7 +40,7 @@ void tick(Session& session) {
     }
     for (int i = 0; i < beyond && seen < count; ++i) sample(latest_us); // wider than the histogram
     if (seen == 0) throw std::runtime_error("cyclictest printed no histogram");
-    session.counted(counts);
+    session.set_tick_counts(counts);
 }
 
 } // namespace
@@ -50,15 +50,15 @@ void add_cyclictest_cases(Registry& registry) {
         registry.skipped.push_back({"cyclictest", "not installed: Debian package rt-tests"});
         return;
     }
-    Case one;
-    one.group = Group::peer;
-    one.who = "cyclictest";
-    one.what = "tick";
-    one.placement = Placement::alone;
-    one.wake = Wake::blocking;
-    one.bytes = sizeof(double);
-    one.run = tick;
-    registry.cases.push_back(one);
+    Case entry;
+    entry.group = Group::peer;
+    entry.subject = "cyclictest";
+    entry.operation = "tick";
+    entry.placement = Placement::alone;
+    entry.wake = Wake::blocking;
+    entry.bytes = sizeof(double);
+    entry.run = tick;
+    registry.cases.push_back(entry);
 }
 
 } // namespace tandem::bench

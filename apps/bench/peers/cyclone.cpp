@@ -40,16 +40,16 @@ const dds_topic_descriptor_t& descriptor<TandemBench_SixMebibytes>() {
     return TandemBench_SixMebibytes_desc;
 }
 
-dds_entity_t good(dds_return_t result, const char* what) {
+dds_entity_t good(dds_return_t result, const char* operation) {
     if (result < 0)
-        throw std::runtime_error(fmt::format("Cyclone DDS: {}: {}", what, dds_strretcode(result)));
+        throw std::runtime_error(fmt::format("Cyclone DDS: {}: {}", operation, dds_strretcode(result)));
     return result;
 }
 
 template <class T, Wake wake>
-class CycloneEnd {
+class CycloneEndpoint {
   public:
-    explicit CycloneEnd(Session& session) : message_(std::make_unique<T>()) {
+    explicit CycloneEndpoint(Session& session) : message_(std::make_unique<T>()) {
         setenv("CYCLONEDDS_URI", configuration, 1);
         participant_ = good(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr), "participant");
         dds_qos_t* qos = dds_create_qos();
@@ -74,12 +74,12 @@ class CycloneEnd {
         }
         wait_for_match();
     }
-    ~CycloneEnd() { dds_delete(participant_); }
-    CycloneEnd(const CycloneEnd&) = delete;
-    CycloneEnd& operator=(const CycloneEnd&) = delete;
+    ~CycloneEndpoint() { dds_delete(participant_); }
+    CycloneEndpoint(const CycloneEndpoint&) = delete;
+    CycloneEndpoint& operator=(const CycloneEndpoint&) = delete;
 
     void send(std::uint64_t sequence) {
-        fill(message_->words, sizeof(T), sequence);
+        fill_message(message_->words, sizeof(T), sequence);
         good(dds_write(writer_, message_.get()), "write");
     }
     std::uint64_t receive() {
@@ -89,7 +89,7 @@ class CycloneEnd {
             if (good(dds_take(reader_, &sample, &info, 1, 1), "take") > 0) {
                 const bool valid = info.valid_data;
                 const std::uint64_t sequence =
-                    valid ? sequence_of(static_cast<const T*>(sample)->words, sizeof(T)) : 0;
+                    valid ? checked_sequence(static_cast<const T*>(sample)->words, sizeof(T)) : 0;
                 good(dds_return_loan(reader_, &sample, 1), "return loan");
                 if (valid) return sequence;
             } else if constexpr (wake == Wake::blocking) {
@@ -120,7 +120,7 @@ class CycloneEnd {
 };
 
 template <Wake wake>
-using Small = CycloneEnd<TandemBench_Small, wake>;
+using Small = CycloneEndpoint<TandemBench_Small, wake>;
 
 } // namespace
 
@@ -131,8 +131,9 @@ void add_cyclone_cases(Registry& registry) {
     cases.call<PairClientOf<Small<Wake::blocking>>, PairServerOf<Small<Wake::blocking>>>(Wake::blocking,
                                                                                          "pair");
     cases.rate<Small<Wake::blocking>>(Wake::blocking);
-    cases.large<CycloneEnd<TandemBench_Mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
-    cases.large<CycloneEnd<TandemBench_SixMebibytes, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.large<CycloneEndpoint<TandemBench_Mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
+    cases.large<CycloneEndpoint<TandemBench_SixMebibytes, Wake::blocking>>(6 * mebibyte, Wake::blocking,
+                                                                           "copy");
 }
 
 } // namespace tandem::bench

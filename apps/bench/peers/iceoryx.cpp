@@ -40,19 +40,21 @@ void wait_for(Ready&& ready) {
     while (!ready()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-[[noreturn]] void fail(const char* what) { throw std::runtime_error(std::string("iceoryx: ") + what); }
+[[noreturn]] void fail(const char* operation) {
+    throw std::runtime_error(std::string("iceoryx: ") + operation);
+}
 
 template <std::size_t bytes, Wake wake>
-class IceoryxEnd {
+class IceoryxEndpoint {
   public:
-    explicit IceoryxEnd(Session& session)
-        : IceoryxEnd((start_runtime(session), session), session.is_a() ? "0" : "1",
-                     session.is_a() ? "1" : "0") {}
+    explicit IceoryxEndpoint(Session& session)
+        : IceoryxEndpoint((start_runtime(session), session), session.is_a() ? "0" : "1",
+                          session.is_a() ? "1" : "0") {}
 
     void send(std::uint64_t sequence) {
         publisher_.loan(bytes, alignment)
             .and_then([&](void*& chunk) {
-                fill(chunk, bytes, sequence);
+                fill_message(chunk, bytes, sequence);
                 publisher_.publish(chunk);
             })
             .or_else([](auto&) { fail("no chunk to loan"); });
@@ -61,7 +63,7 @@ class IceoryxEnd {
         for (;;) {
             auto taken = subscriber_.take();
             if (!taken.has_error()) {
-                const std::uint64_t sequence = sequence_of(taken.value(), bytes);
+                const std::uint64_t sequence = checked_sequence(taken.value(), bytes);
                 subscriber_.release(taken.value());
                 return sequence;
             }
@@ -73,7 +75,7 @@ class IceoryxEnd {
   private:
     static constexpr std::uint64_t depth = bytes <= 4096 ? 256 : 4;
 
-    IceoryxEnd(Session& session, const char* out, const char* in)
+    IceoryxEndpoint(Session& session, const char* out, const char* in)
         : publisher_(service(session, out), publisher_options()),
           subscriber_(service(session, in), subscriber_options()) {
         wait_for([&] { return publisher_.hasSubscribers(); });
@@ -117,12 +119,12 @@ class IceoryxClient {
     std::uint64_t call(std::uint64_t sequence) {
         auto request = client_.loan(bytes, alignment);
         if (request.has_error()) fail("no chunk for a request");
-        fill(request.value(), bytes, sequence);
+        fill_message(request.value(), bytes, sequence);
         client_.send(request.value()).or_else([](auto&) { fail("cannot send a request"); });
         for (;;) {
             auto response = client_.take();
             if (!response.has_error()) {
-                const std::uint64_t answered = sequence_of(response.value(), bytes);
+                const std::uint64_t answered = checked_sequence(response.value(), bytes);
                 client_.releaseResponse(response.value());
                 return answered;
             }
@@ -155,11 +157,11 @@ class IceoryxServer {
                 if constexpr (wake == Wake::blocking) wait_set_->wait();
                 continue;
             }
-            const std::uint64_t sequence = sequence_of(request.value(), bytes);
+            const std::uint64_t sequence = checked_sequence(request.value(), bytes);
             auto response =
                 server_.loan(iox::popo::RequestHeader::fromPayload(request.value()), bytes, alignment);
             if (response.has_error()) fail("no chunk for a response");
-            fill(response.value(), bytes, sequence);
+            fill_message(response.value(), bytes, sequence);
             server_.send(response.value()).or_else([](auto&) { fail("cannot send a response"); });
             server_.releaseRequest(request.value());
             return sequence;
@@ -176,15 +178,15 @@ class IceoryxServer {
 
 void add_iceoryx_cases(Registry& registry) {
     PeerCases cases(registry, "iceoryx", "iox-roudi");
-    cases.one_way<IceoryxEnd<64, Wake::spin>>(Wake::spin);
-    cases.one_way<IceoryxEnd<64, Wake::blocking>>(Wake::blocking);
-    cases.due<IceoryxEnd<64, Wake::spin>>(Wake::spin);
-    cases.due<IceoryxEnd<64, Wake::blocking>>(Wake::blocking);
+    cases.one_way<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.one_way<IceoryxEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.due<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.due<IceoryxEndpoint<64, Wake::blocking>>(Wake::blocking);
     cases.call<IceoryxClient<Wake::spin>, IceoryxServer<Wake::spin>>(Wake::spin);
     cases.call<IceoryxClient<Wake::blocking>, IceoryxServer<Wake::blocking>>(Wake::blocking);
-    cases.rate<IceoryxEnd<64, Wake::spin>>(Wake::spin);
-    cases.large<IceoryxEnd<mebibyte, Wake::spin>>(mebibyte, Wake::spin, "loan");
-    cases.large<IceoryxEnd<6 * mebibyte, Wake::spin>>(6 * mebibyte, Wake::spin, "loan");
+    cases.rate<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.large<IceoryxEndpoint<mebibyte, Wake::spin>>(mebibyte, Wake::spin, "loan");
+    cases.large<IceoryxEndpoint<6 * mebibyte, Wake::spin>>(6 * mebibyte, Wake::spin, "loan");
 }
 
 } // namespace tandem::bench

@@ -13,18 +13,18 @@ namespace tandem::bench {
 namespace {
 
 template <std::size_t bytes, Wake wake>
-class MqueueEnd {
+class MqueueEndpoint {
   public:
-    explicit MqueueEnd(Session& session)
+    explicit MqueueEndpoint(Session& session)
         : out_(open(session, session.is_a() ? "-0" : "-1", O_WRONLY)),
           in_(open(session, session.is_a() ? "-1" : "-0",
                    wake == Wake::spin ? O_RDONLY | O_NONBLOCK : O_RDONLY)) {}
-    ~MqueueEnd() {
+    ~MqueueEndpoint() {
         mq_close(out_);
         mq_close(in_);
     }
-    MqueueEnd(const MqueueEnd&) = delete;
-    MqueueEnd& operator=(const MqueueEnd&) = delete;
+    MqueueEndpoint(const MqueueEndpoint&) = delete;
+    MqueueEndpoint& operator=(const MqueueEndpoint&) = delete;
     void send(std::uint64_t sequence) {
         message_.write(sequence);
         if (mq_send(out_, static_cast<const char*>(message_.data()), bytes, 0) != 0) fail("mq_send");
@@ -36,8 +36,8 @@ class MqueueEnd {
     }
 
   private:
-    [[noreturn]] static void fail(const char* what) {
-        throw std::system_error(errno, std::generic_category(), what);
+    [[noreturn]] static void fail(const char* operation) {
+        throw std::system_error(errno, std::generic_category(), operation);
     }
     static mqd_t open(Session& session, const char* end, int flags) {
         mq_attr sizes{};
@@ -55,11 +55,11 @@ class MqueueEnd {
 
 void add_mqueue_cases(Registry& registry) {
     PeerCases cases(registry, "posix-mqueue");
-    cases.one_way<MqueueEnd<64, Wake::spin>>(Wake::spin);
-    cases.one_way<MqueueEnd<64, Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<MqueueEnd<64, Wake::spin>>, PairServerOf<MqueueEnd<64, Wake::spin>>>(Wake::spin,
-                                                                                                 "pair");
-    cases.rate<MqueueEnd<64, Wake::blocking>>(Wake::blocking);
+    cases.one_way<MqueueEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.one_way<MqueueEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.call<PairClientOf<MqueueEndpoint<64, Wake::spin>>, PairServerOf<MqueueEndpoint<64, Wake::spin>>>(
+        Wake::spin, "pair");
+    cases.rate<MqueueEndpoint<64, Wake::blocking>>(Wake::blocking);
 }
 
 } // namespace tandem::bench

@@ -46,12 +46,12 @@ class PeerServant : public POA_TandemBench::Peer {
   public:
     PeerServant(Inbox& inbox, bool echoes) : inbox_(inbox), echoes_(echoes) {}
     void put(const TandemBench::Bytes& message) override {
-        const std::uint64_t sequence = sequence_of(message.get_buffer(), message.length());
+        const std::uint64_t sequence = checked_sequence(message.get_buffer(), message.length());
         if (echoes_) other->put(message);
         if (!echoes_ || sequence == stop_sequence) inbox_.push(sequence);
     }
     TandemBench::Bytes* call(const TandemBench::Bytes& message) override {
-        inbox_.push(sequence_of(message.get_buffer(), message.length()));
+        inbox_.push(checked_sequence(message.get_buffer(), message.length()));
         return new TandemBench::Bytes(message);
     }
     TandemBench::Peer_var other;
@@ -66,7 +66,7 @@ template <Net net>
 class OrbSide {
   public:
     explicit OrbSide(Session& session)
-        : orb_(start(session)), echoes_(!session.is_a() && session.measured().what == "one-way"),
+        : orb_(start(session)), echoes_(!session.is_a() && session.bench_case().operation == "one-way"),
           servant_(new PeerServant(inbox_, echoes_)) {
         const CORBA::Object_var root = orb_->resolve_initial_references("RootPOA");
         const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
@@ -77,11 +77,11 @@ class OrbSide {
         const CORBA::String_var text = orb_->object_to_string(mine);
         char* shared = reinterpret_cast<char*>(session.memory().data()); // instead of a naming service
         std::strcpy(shared + (session.is_a() ? 0 : text_bytes), text);
-        session.meet();
+        session.arrive_and_wait();
         const CORBA::Object_var theirs = orb_->string_to_object(shared + (session.is_a() ? text_bytes : 0));
         peer_ = TandemBench::Peer::_narrow(theirs);
         servant_->other = TandemBench::Peer::_duplicate(peer_);
-        session.meet();
+        session.arrive_and_wait();
     }
     ~OrbSide() {
         peer_ = TandemBench::Peer::_nil();
@@ -111,12 +111,12 @@ class OrbSide {
 };
 
 template <std::size_t bytes, Net net>
-class OnewayEnd : OrbSide<net> {
+class OnewayEndpoint : OrbSide<net> {
   public:
-    explicit OnewayEnd(Session& session) : OrbSide<net>(session) { message_.length(bytes); }
+    explicit OnewayEndpoint(Session& session) : OrbSide<net>(session) { message_.length(bytes); }
     void send(std::uint64_t sequence) {
         if (this->echoes_) return; // the ORB's thread has answered already
-        fill(message_.get_buffer(), bytes, sequence);
+        fill_message(message_.get_buffer(), bytes, sequence);
         this->peer_->put(message_);
     }
     std::uint64_t receive() { return this->inbox_.pop(); }
@@ -130,9 +130,9 @@ class TwowayClient : OrbSide<net> {
   public:
     explicit TwowayClient(Session& session) : OrbSide<net>(session) { message_.length(bytes); }
     std::uint64_t call(std::uint64_t sequence) {
-        fill(message_.get_buffer(), bytes, sequence);
+        fill_message(message_.get_buffer(), bytes, sequence);
         const TandemBench::Bytes_var reply = this->peer_->call(message_);
-        return sequence_of(reply->get_buffer(), bytes);
+        return checked_sequence(reply->get_buffer(), bytes);
     }
 
   private:
@@ -149,13 +149,13 @@ class TwowayServer : OrbSide<net> {
 };
 
 template <Net net>
-void add_net(Registry& registry, const char* who) {
-    PeerCases cases(registry, who);
-    cases.one_way<OnewayEnd<64, net>>(Wake::blocking);
+void add_net(Registry& registry, const char* subject) {
+    PeerCases cases(registry, subject);
+    cases.one_way<OnewayEndpoint<64, net>>(Wake::blocking);
     cases.call<TwowayClient<net>, TwowayServer<net>>(Wake::blocking);
-    cases.rate<OnewayEnd<64, net>>(Wake::blocking);
-    cases.large<OnewayEnd<mebibyte, net>>(mebibyte, Wake::blocking, "copy");
-    cases.large<OnewayEnd<6 * mebibyte, net>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.rate<OnewayEndpoint<64, net>>(Wake::blocking);
+    cases.large<OnewayEndpoint<mebibyte, net>>(mebibyte, Wake::blocking, "copy");
+    cases.large<OnewayEndpoint<6 * mebibyte, net>>(6 * mebibyte, Wake::blocking, "copy");
 }
 
 } // namespace

@@ -8,10 +8,10 @@ namespace tandem::bench {
 
 namespace {
 
-[[maybe_unused]] void skip(Registry& registry, const char* who, const char* package) {
-    registry.skipped.push_back({who, std::string("this build has no ") + who +
-                                         ": install the Debian package " + package +
-                                         " and build again (apps/bench/run.sh does both)"});
+[[maybe_unused]] void skip(Registry& registry, const char* subject, const char* package) {
+    registry.skipped.push_back({subject, std::string("this build has no ") + subject +
+                                             ": install the Debian package " + package +
+                                             " and build again (apps/bench/run.sh does both)"});
 }
 
 } // namespace

@@ -16,7 +16,9 @@ namespace tandem::bench {
 
 namespace {
 
-[[noreturn]] void fail(const char* what) { throw std::system_error(errno, std::generic_category(), what); }
+[[noreturn]] void fail(const char* operation) {
+    throw std::system_error(errno, std::generic_category(), operation);
+}
 
 /// Abstract name: no file that could be left behind.
 socklen_t address_of(const std::string& name, sockaddr_un& address) {
@@ -45,12 +47,12 @@ int connected(const Session& session, int type) {
 }
 
 template <std::size_t bytes, Wake wake, int type>
-class SocketEnd {
+class SocketEndpoint {
   public:
-    explicit SocketEnd(Session& session) : fd_(connected(session, type)) {}
-    ~SocketEnd() { close(fd_); }
-    SocketEnd(const SocketEnd&) = delete;
-    SocketEnd& operator=(const SocketEnd&) = delete;
+    explicit SocketEndpoint(Session& session) : fd_(connected(session, type)) {}
+    ~SocketEndpoint() { close(fd_); }
+    SocketEndpoint(const SocketEndpoint&) = delete;
+    SocketEndpoint& operator=(const SocketEndpoint&) = delete;
     void send(std::uint64_t sequence) {
         message_.write(sequence);
         const auto* data = static_cast<const std::byte*>(message_.data());
@@ -76,20 +78,21 @@ class SocketEnd {
 };
 
 template <Wake wake>
-using PacketEnd = SocketEnd<64, wake, SOCK_SEQPACKET>;
+using PacketEndpoint = SocketEndpoint<64, wake, SOCK_SEQPACKET>;
 template <std::size_t bytes>
-using StreamEnd = SocketEnd<bytes, Wake::blocking, SOCK_STREAM>;
+using StreamEndpoint = SocketEndpoint<bytes, Wake::blocking, SOCK_STREAM>;
 
 } // namespace
 
 void add_socket_cases(Registry& registry) {
     PeerCases cases(registry, "unix-socket");
-    cases.one_way<PacketEnd<Wake::spin>>(Wake::spin);
-    cases.one_way<PacketEnd<Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<PacketEnd<Wake::spin>>, PairServerOf<PacketEnd<Wake::spin>>>(Wake::spin, "pair");
-    cases.rate<PacketEnd<Wake::blocking>>(Wake::blocking);
-    cases.large<StreamEnd<mebibyte>>(mebibyte, Wake::blocking, "copy");
-    cases.large<StreamEnd<6 * mebibyte>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.one_way<PacketEndpoint<Wake::spin>>(Wake::spin);
+    cases.one_way<PacketEndpoint<Wake::blocking>>(Wake::blocking);
+    cases.call<PairClientOf<PacketEndpoint<Wake::spin>>, PairServerOf<PacketEndpoint<Wake::spin>>>(Wake::spin,
+                                                                                                   "pair");
+    cases.rate<PacketEndpoint<Wake::blocking>>(Wake::blocking);
+    cases.large<StreamEndpoint<mebibyte>>(mebibyte, Wake::blocking, "copy");
+    cases.large<StreamEndpoint<6 * mebibyte>>(6 * mebibyte, Wake::blocking, "copy");
 }
 
 } // namespace tandem::bench

@@ -12,8 +12,8 @@ namespace tandem::bench {
 
 namespace {
 
-[[noreturn]] void fail(const char* what) {
-    throw std::runtime_error(fmt::format("{}: {}", what, zmq_strerror(zmq_errno())));
+[[noreturn]] void fail(const char* operation) {
+    throw std::runtime_error(fmt::format("{}: {}", operation, zmq_strerror(zmq_errno())));
 }
 
 class Socket {
@@ -40,13 +40,13 @@ class Socket {
 };
 
 template <std::size_t bytes, Wake wake, int type_a = ZMQ_PAIR, int type_b = ZMQ_PAIR>
-class ZmqEnd {
+class ZmqEndpoint {
   public:
-    explicit ZmqEnd(Session& session) : socket_(session, session.is_a() ? type_a : type_b) {}
+    explicit ZmqEndpoint(Session& session) : socket_(session, session.is_a() ? type_a : type_b) {}
     void send(std::uint64_t sequence) {
         zmq_msg_t message;
         zmq_msg_init_size(&message, bytes);
-        fill(zmq_msg_data(&message), bytes, sequence);
+        fill_message(zmq_msg_data(&message), bytes, sequence);
         if (zmq_msg_send(&message, socket_.get(), 0) < 0) fail("zmq_msg_send");
     }
     std::uint64_t receive() {
@@ -54,7 +54,7 @@ class ZmqEnd {
         zmq_msg_init(&message);
         while (zmq_msg_recv(&message, socket_.get(), wake == Wake::spin ? ZMQ_DONTWAIT : 0) < 0)
             if (zmq_errno() != EAGAIN) fail("zmq_msg_recv");
-        const std::uint64_t sequence = sequence_of(zmq_msg_data(&message), bytes);
+        const std::uint64_t sequence = checked_sequence(zmq_msg_data(&message), bytes);
         zmq_msg_close(&message);
         return sequence;
     }
@@ -64,18 +64,19 @@ class ZmqEnd {
 };
 
 template <Wake wake>
-using CallEnd = ZmqEnd<64, wake, ZMQ_REQ, ZMQ_REP>;
+using CallEndpoint = ZmqEndpoint<64, wake, ZMQ_REQ, ZMQ_REP>;
 
 } // namespace
 
 void add_zeromq_cases(Registry& registry) {
     PeerCases cases(registry, "zeromq");
-    cases.one_way<ZmqEnd<64, Wake::spin>>(Wake::spin);
-    cases.one_way<ZmqEnd<64, Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<CallEnd<Wake::blocking>>, PairServerOf<CallEnd<Wake::blocking>>>(Wake::blocking);
-    cases.rate<ZmqEnd<64, Wake::blocking>>(Wake::blocking);
-    cases.large<ZmqEnd<mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
-    cases.large<ZmqEnd<6 * mebibyte, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.one_way<ZmqEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.one_way<ZmqEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.call<PairClientOf<CallEndpoint<Wake::blocking>>, PairServerOf<CallEndpoint<Wake::blocking>>>(
+        Wake::blocking);
+    cases.rate<ZmqEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.large<ZmqEndpoint<mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
+    cases.large<ZmqEndpoint<6 * mebibyte, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
 }
 
 } // namespace tandem::bench

@@ -5,9 +5,9 @@
 
 namespace tandem::bench {
 
-struct BarLine {
-    std::string what;
-    enum class Sense { at_most, at_least } sense;
+struct AcceptanceLimit {
+    std::string operation;
+    enum class Comparison { at_most, at_least } comparison;
     double bound;
     std::string over, under; ///< the ratio's cases; no `under`: the figure of `over` itself
 
@@ -15,18 +15,19 @@ struct BarLine {
     bool holds(double value) const; ///< compares as printed: to three digits
 };
 
-struct BarResult {
-    BarLine line;
+struct AcceptanceResult {
+    AcceptanceLimit line;
     double value = 0, least = 0, most = 0; ///< median, smallest and largest over the runs
     std::string missing;                   ///< why there is no value; empty if there is one
     bool pass() const { return missing.empty() && line.holds(value); }
 };
 
 /// Of the cases with these ids: a peer has a line only if it is among them.
-std::vector<BarLine> bar_lines(const std::vector<std::string>& ids);
-bool needed_for_bar(const std::vector<BarLine>& lines, const std::string& id);
+std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& ids);
+bool needed_for_acceptance(const std::vector<AcceptanceLimit>& lines, const std::string& id);
 
-std::vector<BarResult> judge(const std::vector<BarLine>& lines, const Report& report);
-std::string bar_text(const std::vector<BarResult>& results);
+std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& lines,
+                                               const Report& report);
+std::string acceptance_text(const std::vector<AcceptanceResult>& results);
 
 } // namespace tandem::bench

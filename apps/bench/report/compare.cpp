@@ -12,7 +12,7 @@ namespace tandem::bench {
 
 namespace {
 
-constexpr double least_noise = 0.05, noise_of_one_run = 0.15;
+constexpr double min_noise = 0.05, noise_of_one_run = 0.15;
 
 std::vector<double> measured_runs(const Row& row) {
     std::vector<double> runs;
@@ -34,13 +34,13 @@ bool overlap(const std::vector<double>& a, const std::vector<double>& b) {
 
 } // namespace
 
-std::vector<Change> changes(const Report& before, const Report& after) {
+std::vector<Change> significant_changes(const Report& before, const Report& after) {
     std::vector<Change> out;
     for (const Row& row : after.rows) {
         const Row* old = before.find(row.id);
         if (old == nullptr || !row.skipped.empty() || old->summary.p50 <= 0 || row.summary.p50 <= 0) continue;
         const auto runs = measured_runs(row), old_runs = measured_runs(*old);
-        const double noise = std::max({least_noise, noise_of(runs), noise_of(old_runs)});
+        const double noise = std::max({min_noise, noise_of(runs), noise_of(old_runs)});
         const double ratio = row.summary.p50 / old->summary.p50;
         if (std::max(ratio, 1 / ratio) <= 1 + noise || overlap(runs, old_runs)) continue;
         out.push_back({row.id, row.unit, old->summary.p50, row.summary.p50, noise,
@@ -57,7 +57,7 @@ std::string compare_text(const Report& before, const Report& after) {
     if (before.machine.processor != after.machine.processor || before.machine.cores != after.machine.cores)
         out += fmt::format("another machine: {}, {} cores; only ratios within one report mean anything\n",
                            before.machine.processor, before.machine.cores);
-    const auto found = changes(before, after);
+    const auto found = significant_changes(before, after);
     std::size_t common = 0;
     for (const Row& row : after.rows) common += row.skipped.empty() && before.find(row.id) != nullptr ? 1 : 0;
     for (const Change& change : found)

@@ -15,7 +15,7 @@ struct Change {
 /// What changed beyond noise, largest first: by more than the spread of either report's runs (15 % where
 /// there is one run only: two runs half an hour apart agree to that; never less than 5 %), and no run of one
 /// report lies among those of the other.
-std::vector<Change> changes(const Report& before, const Report& after);
+std::vector<Change> significant_changes(const Report& before, const Report& after);
 
 std::string compare_text(const Report& before, const Report& after);
 

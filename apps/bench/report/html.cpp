@@ -41,16 +41,17 @@ std::string cells(std::initializer_list<std::string> texts, const char* tag = "t
     return out;
 }
 
-std::string bar_section(const std::vector<BarResult>& bar) {
+std::string acceptance_section(const std::vector<AcceptanceResult>& bar) {
     if (bar.empty()) return {};
     std::string out =
         "<h2>The bar</h2>\n<table><thead><tr>" +
         cells({"ratio within one run, median of the runs", "measured", "least", "most", "bound", ""}, "th") +
         "</tr></thead><tbody>\n";
-    for (const BarResult& result : bar) {
-        const std::string bound =
-            fmt::format("{} {:g}", result.line.sense == BarLine::Sense::at_most ? "at most" : "at least",
-                        result.line.bound);
+    for (const AcceptanceResult& result : bar) {
+        const std::string bound = fmt::format(
+            "{} {:g}",
+            result.line.comparison == AcceptanceLimit::Comparison::at_most ? "at most" : "at least",
+            result.line.bound);
         if (!result.missing.empty())
             out += "<tr>" + cells({result.line.text(), "-", "-", "-", bound, "skipped: " + result.missing}) +
                    "</tr>\n";
@@ -66,7 +67,8 @@ std::string bar_section(const std::vector<BarResult>& bar) {
 std::string row_html(const Row& row) {
     const Summary& s = row.summary;
     const auto tail = [&](double value) { return row.latency() ? figure_text(value) : std::string("-"); };
-    const std::string note = row.disturbed() ? fmt::format("disturbed, {:.0f} %", row.foreign * 100) : "";
+    const std::string note =
+        row.disturbed() ? fmt::format("disturbed, {:.0f} %", row.foreign_cpu_share * 100) : "";
     return fmt::format("<tr class=\"{}\">", row.group) +
            cells({row.id, row.unit, row.wake, row.regime, row.cores, std::to_string(s.samples),
                   figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
@@ -96,7 +98,7 @@ std::string rows_section(const Report& report) {
 
 } // namespace
 
-std::string html_page(const Report& report, const std::vector<BarResult>& bar) {
+std::string html_page(const Report& report, const std::vector<AcceptanceResult>& bar) {
     const Machine& m = report.machine;
     std::size_t runs = 0;
     for (const Row& row : report.rows) runs = std::max(runs, row.runs.size());
@@ -110,7 +112,7 @@ std::string html_page(const Report& report, const std::vector<BarResult>& bar) {
         "by round trip, halved where the row says one-way; every message's number and content are checked. "
         "Absolute figures belong to this machine and hour: compare ratios.</p>\n",
         escaped(m.processor), m.cores, escaped(m.kernel), escaped(m.clock), runs);
-    out += bar_section(bar);
+    out += acceptance_section(bar);
     for (const Plot& plot : draw_plots(report))
         out += "<h2>" + escaped(plot.title) + "</h2>\n" + plot.svg + "\n";
     return out + rows_section(report) + "</body>\n</html>\n";

@@ -26,8 +26,8 @@ constexpr const char* peer_colours[] = {"#d55e00", "#009e73", "#cc79a7", "#e69f0
 std::string style_of(const Line& line, int& floors, int& ours, int& peers) {
     constexpr const char* floor_greys[] = {"#999999", "#555555", "#bbbbbb"};
     constexpr const char* our_blues[] = {"#0072b2", "#3fa0e0", "#003f66"};
-    if (line.group == "floor") return fmt::format("lc rgb '{}' lw 2 dt (8,4)", floor_greys[floors++ % 3]);
-    if (line.group == "ours") return fmt::format("lc rgb '{}' lw 3.5", our_blues[ours++ % 3]);
+    if (line.group == "baseline") return fmt::format("lc rgb '{}' lw 2 dt (8,4)", floor_greys[floors++ % 3]);
+    if (line.group == "tandem") return fmt::format("lc rgb '{}' lw 3.5", our_blues[ours++ % 3]);
     return fmt::format("lc rgb '{}' lw 1.8", peer_colours[peers++ % std::size(peer_colours)]);
 }
 
@@ -59,12 +59,12 @@ Plot draw(const std::string& title, const std::string& axes, const char* with,
 }
 
 std::string label_of(const Row& row) {
-    std::string label = row.who + " " + row.wake;
+    std::string label = row.subject + " " + row.wake;
     if (!row.detail.empty()) label += " " + row.detail;
     return label;
 }
 
-using Choice = std::function<bool(const Row&)>;
+using RowFilter = std::function<bool(const Row&)>;
 
 constexpr const char* time_axis = "set logscale xy\nset ylabel 'time'\nset ytics ('10 ns' 10, '100 ns' 100, "
                                   "'1 us' 1e3, '10 us' 1e4, '100 us' 1e5, "
@@ -72,10 +72,10 @@ constexpr const char* time_axis = "set logscale xy\nset ylabel 'time'\nset ytics
 
 /// Percentile plot: each step to the right is ten times rarer.
 void add_distribution(std::vector<Plot>& plots, const Report& report, const std::string& title,
-                      const Choice& chosen) {
+                      const RowFilter& filter) {
     std::vector<Line> lines;
     for (const Row& row : report.rows) {
-        if (!row.skipped.empty() || !row.latency() || row.placement != "processes" || !chosen(row)) continue;
+        if (!row.skipped.empty() || !row.latency() || row.placement != "processes" || !filter(row)) continue;
         Line line{label_of(row), row.group, {}};
         for (const CurvePoint& point : row.summary.curve)
             line.points.emplace_back(1 / (1 - point.share), point.value);
@@ -95,14 +95,14 @@ constexpr const char* size_axis =
 
 /// One line per who and how, one point per size.
 void add_by_size(std::vector<Plot>& plots, const Report& report, const std::string& title,
-                 const std::string& axis, const Choice& chosen,
+                 const std::string& axis, const RowFilter& filter,
                  const std::function<double(const Row&)>& value) {
     std::map<std::string, Line> by_label;
     for (const Row& row : report.rows) {
-        if (!row.skipped.empty() || row.regime != "normal" || row.placement != "processes" || !chosen(row))
+        if (!row.skipped.empty() || row.regime != "normal" || row.placement != "processes" || !filter(row))
             continue;
-        Line& line = by_label[row.group + " " + row.who + " " + row.detail];
-        line.title = row.who + (row.detail.empty() ? "" : " " + row.detail);
+        Line& line = by_label[row.group + " " + row.subject + " " + row.detail];
+        line.title = row.subject + (row.detail.empty() ? "" : " " + row.detail);
         line.group = row.group;
         line.points.emplace_back(static_cast<double>(row.bytes), value(row));
     }
@@ -123,10 +123,10 @@ void add_by_size(std::vector<Plot>& plots, const Report& report, const std::stri
     plots.push_back(draw(title, size_axis + axis, "linespoints pt 7 ps 0.6", lines));
 }
 
-Choice one_way(const std::string& regime, bool asleep) {
+RowFilter one_way(const std::string& regime, bool asleep) {
     return [=](const Row& row) {
-        return row.what == "one-way" && row.regime == regime &&
-               (row.bytes == 64 || row.who == "cache-line") && (row.wake == "blocking") == asleep;
+        return row.operation == "one-way" && row.regime == regime &&
+               (row.bytes == 64 || row.subject == "cache-line") && (row.wake == "blocking") == asleep;
     };
 }
 
@@ -139,19 +139,21 @@ std::vector<Plot> draw_plots(const Report& report) {
         add_distribution(plots, report, std::string("One way, 64 B, reader asleep, ") + regime,
                          one_way(regime, true));
     add_distribution(plots, report, "One way, 64 B, loaded machine", [](const Row& row) {
-        return row.what == "one-way" && row.bytes == 64 && row.regime == "loaded";
+        return row.operation == "one-way" && row.bytes == 64 && row.regime == "loaded";
     });
     add_distribution(plots, report, "Call, 64 B there and back",
-                     [](const Row& row) { return row.what == "call" && row.regime == "normal"; });
+                     [](const Row& row) { return row.operation == "call" && row.regime == "normal"; });
     add_distribution(plots, report, "Round trip due every millisecond, from when it was due",
-                     [](const Row& row) { return row.what == "paced"; });
+                     [](const Row& row) { return row.operation == "paced"; });
     add_by_size(
         plots, report, "One way by size, polling, p50", time_axis,
-        [](const Row& row) { return row.what == "one-way" && row.wake == "spin" && row.group != "peer"; },
+        [](const Row& row) {
+            return row.operation == "one-way" && row.wake == "spin" && row.group != "peer";
+        },
         [](const Row& row) { return row.summary.p50; });
     add_by_size(
         plots, report, "Throughput by size", "set ylabel 'GB/s'\n",
-        [](const Row& row) { return row.what == "stream" && row.bytes > 0; },
+        [](const Row& row) { return row.operation == "stream" && row.bytes > 0; },
         [](const Row& row) {
             return row.unit == "GB/s" ? row.summary.p50
                                       : row.summary.p50 * static_cast<double>(row.bytes) / 1e3;

@@ -22,8 +22,8 @@ Json curve_json(const std::vector<CurvePoint>& curve) {
 Json row_json(const Row& row, const Machine& machine) {
     Json out{{"case", row.id},
              {"group", row.group},
-             {"who", row.who},
-             {"what", row.what},
+             {"who", row.subject},
+             {"what", row.operation},
              {"bytes", row.bytes},
              {"wake", row.wake},
              {"regime", row.regime},
@@ -44,7 +44,7 @@ Json row_json(const Row& row, const Machine& machine) {
                 {"p99", s.p99},
                 {"p99.9", s.p999},
                 {"max", s.max},
-                {"foreign", row.foreign},
+                {"foreign", row.foreign_cpu_share},
                 {"runs", row.runs},
                 {"curve", curve_json(s.curve)}});
     if (row.tick_counts) {
@@ -59,8 +59,8 @@ Row row_from(const Json& in) {
     const auto text = [&](const char* key) { return in.at(key).get<std::string>(); };
     row.id = text("case");
     row.group = text("group");
-    row.who = text("who");
-    row.what = text("what");
+    row.subject = text("who");
+    row.operation = text("what");
     row.bytes = in.at("bytes");
     row.wake = text("wake");
     row.regime = text("regime");
@@ -79,7 +79,7 @@ Row row_from(const Json& in) {
     s.p99 = in.at("p99");
     s.p999 = in.at("p99.9");
     s.max = in.at("max");
-    row.foreign = in.at("foreign");
+    row.foreign_cpu_share = in.at("foreign");
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
     if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};

@@ -11,17 +11,17 @@
 namespace tandem::bench {
 
 struct Row {
-    std::string id, group, who, what, wake, regime, placement, detail, unit, cores;
+    std::string id, group, subject, operation, wake, regime, placement, detail, unit, cores;
     std::size_t bytes = 0;
     Summary summary;                       ///< median over the runs
     std::vector<double> runs;              ///< p50 of each run, in order; NaN where that run failed
     std::optional<TickCounts> tick_counts; ///< of cases that tick, over all runs
-    double foreign = 0;                    ///< largest share of the machine that others got during a run
+    double foreign_cpu_share = 0;          ///< largest share of the machine that others got during a run
     std::string skipped;                   ///< why there are no figures; empty if there are
     bool higher_is_better() const { return unit != "ns" && unit != "count"; }
     /// A paced message counts from when it was due, so that a stall is not hidden.
-    const char* timed_from() const { return what == "paced" ? "intended start" : "start"; }
-    bool disturbed() const { return foreign > 0.02; }
+    const char* timed_from() const { return operation == "paced" ? "intended start" : "start"; }
+    bool disturbed() const { return foreign_cpu_share > 0.02; }
     bool latency() const { return unit == "ns"; }
 };
 

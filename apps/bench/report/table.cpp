@@ -26,7 +26,8 @@ std::string line_of(const Row& row, std::size_t width) {
             (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped", row.tick_counts->overruns,
                                            row.tick_counts->skipped)
                              : "") +
-            (row.disturbed() ? fmt::format(" DISTURBED by others ({:.0f} %)", row.foreign * 100) : ""));
+            (row.disturbed() ? fmt::format(" DISTURBED by others ({:.0f} %)", row.foreign_cpu_share * 100)
+                             : ""));
 }
 
 } // namespace

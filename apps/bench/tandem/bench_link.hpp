@@ -21,11 +21,11 @@ inline shm::WaitOptions wait_options(Wake wake, Regime regime,
     return how;
 }
 
-class OurLink {
+class BenchLink {
   public:
     static constexpr std::size_t small_capacity = std::size_t{64} * 1024;
 
-    OurLink(Session& session, std::size_t arena_bytes)
+    BenchLink(Session& session, std::size_t arena_bytes)
         : mine_(session.is_a() ? shm::Side::first : shm::Side::second) {
         shm::JoinOptions options;
         options.arena_bytes = arena_bytes;

@@ -15,7 +15,7 @@ constexpr std::size_t bytes = 64;
 constexpr const char* queue_name = "calls";
 constexpr std::chrono::seconds call_bound{10};
 
-shm::CallQueueHandle open_queue(OurLink& link, bool callers) {
+shm::CallQueueHandle open_queue(BenchLink& link, bool callers) {
     if (callers) {
         shm::CallQueueOptions options;
         options.callers = link.mine();
@@ -30,42 +30,42 @@ shm::CallQueueHandle open_queue(OurLink& link, bool callers) {
     return *found;
 }
 
-class OurClient {
+class BenchCallClient {
   public:
-    explicit OurClient(Session& session)
+    explicit BenchCallClient(Session& session)
         : link_(session, arena_bytes),
-          client_(open_queue(link_, true), wait_options(session.measured().wake, session.measured().regime)) {
-    }
+          client_(open_queue(link_, true),
+                  wait_options(session.bench_case().wake, session.bench_case().regime)) {}
 
     std::uint64_t call(std::uint64_t sequence) {
-        fill(message_, bytes, sequence);
+        fill_message(message_, bytes, sequence);
         const auto status = client_.call_into(1, std::as_bytes(std::span(message_)), call_bound, reply_);
         if (status != shm::CallStatus::ok || reply_.size() != bytes)
             throw std::runtime_error(fmt::format("call {}: {}", sequence, shm::name_of(status)));
-        return sequence_of(reply_.data(), bytes);
+        return checked_sequence(reply_.data(), bytes);
     }
     static constexpr std::size_t arena_bytes = std::size_t{1} << 20U;
 
   private:
     std::uint64_t message_[bytes / sizeof(std::uint64_t)] = {};
     std::vector<std::byte> reply_;
-    OurLink link_;
+    BenchLink link_;
     shm::CallClient client_;
 };
 
-class OurServer {
+class BenchCallServer {
   public:
-    explicit OurServer(Session& session)
-        : link_(session, OurClient::arena_bytes),
+    explicit BenchCallServer(Session& session)
+        : link_(session, BenchCallClient::arena_bytes),
           server_(open_queue(link_, false),
-                  wait_options(session.measured().wake, session.measured().regime)) {}
+                  wait_options(session.bench_case().wake, session.bench_case().regime)) {}
 
     std::uint64_t serve() {
         for (;;) {
             auto call = server_.take(std::chrono::seconds(1));
             if (!call) continue;
-            const std::uint64_t sequence = sequence_of(call->arguments().data(), bytes);
-            fill(message_, bytes, sequence);
+            const std::uint64_t sequence = checked_sequence(call->arguments().data(), bytes);
+            fill_message(message_, bytes, sequence);
             call->reply(shm::CallStatus::ok, std::as_bytes(std::span(message_)));
             return sequence;
         }
@@ -73,23 +73,23 @@ class OurServer {
 
   private:
     std::uint64_t message_[bytes / sizeof(std::uint64_t)] = {};
-    OurLink link_;
+    BenchLink link_;
     shm::CallServer server_;
 };
 
 } // namespace
 
-void add_our_call_cases(Registry& registry) {
+void add_tandem_call_cases(Registry& registry) {
     for (Wake wake : {Wake::spin, Wake::spin_then_futex, Wake::blocking}) {
-        Case one;
-        one.who = "call-queue";
-        one.what = "call";
-        one.wake = wake;
-        one.run = calls<OurClient, OurServer>;
-        registry.add_regimes(one);
+        Case entry;
+        entry.subject = "call-queue";
+        entry.operation = "call";
+        entry.wake = wake;
+        entry.run = measure_calls<BenchCallClient, BenchCallServer>;
+        registry.add_regimes(entry);
         if (wake != Wake::spin) continue;
-        one.placement = Placement::threads;
-        registry.cases.push_back(one);
+        entry.placement = Placement::threads;
+        registry.cases.push_back(entry);
     }
 }
 

@@ -11,13 +11,13 @@ namespace {
 constexpr std::size_t bytes = 64;
 constexpr unsigned doorbell_bits = shm::Doorbell::user_bits;
 
-std::size_t ports_of(const Session& session) { return std::stoul(session.measured().detail); }
-bool one_is_used(const Session& session) { return session.measured().detail.ends_with(" (1 used)"); }
+std::size_t ports_of(const Session& session) { return std::stoul(session.bench_case().detail); }
+bool one_is_used(const Session& session) { return session.bench_case().detail.ends_with(" (1 used)"); }
 
-class PortsEnd {
+class PortsEndpoint {
   public:
-    explicit PortsEnd(Session& session)
-        : how_(wait_options(session.measured().wake, session.measured().regime)),
+    explicit PortsEndpoint(Session& session)
+        : how_(wait_options(session.bench_case().wake, session.bench_case().regime)),
           link_(session, ports_of(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)),
           step_(one_is_used(session) ? 0 : 1), next_(one_is_used(session) ? ports_of(session) / 2 : 0) {
         const std::size_t ports = ports_of(session);
@@ -30,7 +30,7 @@ class PortsEnd {
         const std::size_t port = next_;
         next_ = (next_ + step_) % out_.size();
         alignas(8) std::byte message[bytes];
-        fill(message, bytes, sequence);
+        fill_message(message, bytes, sequence);
         out_[port].write(message, sequence, 0);
         link_.segment().ring_peer(static_cast<unsigned>(port % doorbell_bits));
     }
@@ -42,7 +42,7 @@ class PortsEnd {
             link_.segment().doorbell().wait(std::chrono::seconds(1), how_).for_each([&](unsigned bit) {
                 for (std::size_t port = bit; port < in_.size(); port += doorbell_bits)
                     if (const auto record = in_[port].read())
-                        sequence = sequence_of(record->bytes.data(), bytes);
+                        sequence = checked_sequence(record->bytes.data(), bytes);
             });
             if (sequence != 0) return sequence;
         }
@@ -50,7 +50,7 @@ class PortsEnd {
 
   private:
     shm::WaitOptions how_;
-    OurLink link_;
+    BenchLink link_;
     std::vector<shm::RingWriter> out_;
     std::vector<shm::RingReader> in_;
     std::size_t step_, next_;
@@ -58,17 +58,17 @@ class PortsEnd {
 
 } // namespace
 
-void add_our_port_cases(Registry& registry) {
+void add_tandem_port_cases(Registry& registry) {
     for (const char* ports :
          {"1 port", "4 ports", "16 ports", "64 ports", "256 ports", "256 ports (1 used)"}) {
-        Case one;
-        one.who = "ring";
-        one.what = "ports";
-        one.wake = Wake::spin_then_futex;
-        one.detail = ports;
-        one.divisor = 2;
-        one.run = echo<PortsEnd>;
-        registry.cases.push_back(one);
+        Case entry;
+        entry.subject = "ring";
+        entry.operation = "ports";
+        entry.wake = Wake::spin_then_futex;
+        entry.detail = ports;
+        entry.divisor = 2;
+        entry.run = measure_round_trips<PortsEndpoint>;
+        registry.cases.push_back(entry);
     }
 }
 

@@ -39,41 +39,41 @@ void catch_system_calls() {
 
 template <Wake wake>
 void count_publishes(Session& session) {
-    using End = OurRingEnd<64, wake>;
-    End end(session, std::chrono::seconds(10)); // the reader spins throughout
-    session.meet();
+    using Endpoint = RingEndpoint<64, wake>;
+    Endpoint endpoint(session, std::chrono::seconds(10)); // the reader spins throughout
+    session.arrive_and_wait();
     if (!session.is_a()) {
-        while (end.receive() != stop_sequence) {
+        while (endpoint.receive() != stop_sequence) {
         }
         return;
     }
-    end.send(1);
-    const bool calls = session.measured().what == "publish-system-calls";
-    const std::uint64_t allocated = allocations();
+    endpoint.send(1);
+    const bool calls = session.bench_case().operation == "publish-system-calls";
+    const std::uint64_t allocated = allocation_count();
     if (calls) catch_system_calls();
-    for (std::uint64_t i = 0; i < publishes; ++i) end.send(2);
+    for (std::uint64_t i = 0; i < publishes; ++i) endpoint.send(2);
     const auto counted = static_cast<double>(system_calls);
-    session.result(calls ? counted : static_cast<double>(allocations() - allocated));
-    end.send(stop_sequence);
+    session.add_result(calls ? counted : static_cast<double>(allocation_count() - allocated));
+    endpoint.send(stop_sequence);
     if (calls) _exit(0);
 }
 
 template <Wake wake>
 void add_counts(Registry& registry) {
-    for (const char* what : {"publish-system-calls", "publish-allocations"}) {
-        Case one;
-        one.who = "ring";
-        one.what = what;
-        one.wake = wake;
-        one.unit = Unit::count;
-        one.run = count_publishes<wake>;
-        registry.cases.push_back(one);
+    for (const char* operation : {"publish-system-calls", "publish-allocations"}) {
+        Case entry;
+        entry.subject = "ring";
+        entry.operation = operation;
+        entry.wake = wake;
+        entry.unit = Unit::count;
+        entry.run = count_publishes<wake>;
+        registry.cases.push_back(entry);
     }
 }
 
 } // namespace
 
-void add_our_publish_count_cases(Registry& registry) {
+void add_tandem_publish_count_cases(Registry& registry) {
     add_counts<Wake::spin>(registry);
     add_counts<Wake::spin_then_futex>(registry);
 }

@@ -8,48 +8,48 @@ namespace tandem::bench {
 
 namespace {
 
-Case base(const char* what, std::size_t bytes, Wake wake) {
-    Case one;
-    one.who = "ring";
-    one.what = what;
-    one.bytes = bytes;
-    one.wake = wake;
-    return one;
+Case base(const char* operation, std::size_t bytes, Wake wake) {
+    Case entry;
+    entry.subject = "ring";
+    entry.operation = operation;
+    entry.bytes = bytes;
+    entry.wake = wake;
+    return entry;
 }
 
 template <Wake wake>
 void add_wake(Registry& registry) {
-    Case one = base("one-way", 64, wake);
-    one.divisor = 2;
-    one.run = echo<OurRingEnd<64, wake>>;
-    registry.add_regimes(one);
+    Case entry = base("one-way", 64, wake);
+    entry.divisor = 2;
+    entry.run = measure_round_trips<RingEndpoint<64, wake>>;
+    registry.add_regimes(entry);
     if (wake != Wake::blocking) {
-        one.placement = Placement::threads;
-        registry.cases.push_back(one);
-        one.placement = Placement::processes;
+        entry.placement = Placement::threads;
+        registry.cases.push_back(entry);
+        entry.placement = Placement::processes;
     }
-    one.regime = Regime::loaded;
-    registry.cases.push_back(one);
+    entry.regime = Regime::loaded;
+    registry.cases.push_back(entry);
 
     Case due = base("paced", 64, wake);
-    due.run = paced<OurRingEnd<64, wake>>;
+    due.run = measure_paced<RingEndpoint<64, wake>>;
     registry.cases.push_back(due);
     Case cost = base("publish", 64, wake);
-    cost.run = publish<OurRingEnd<64, wake>>;
+    cost.run = measure_publish<RingEndpoint<64, wake>>;
     registry.cases.push_back(cost);
 }
 
 template <std::size_t bytes>
 void add_size(Registry& registry) {
-    Case one = base("one-way", bytes, Wake::spin);
-    one.divisor = 2;
-    one.run = echo<OurRingEnd<bytes, Wake::spin>>;
-    registry.cases.push_back(one);
+    Case entry = base("one-way", bytes, Wake::spin);
+    entry.divisor = 2;
+    entry.run = measure_round_trips<RingEndpoint<bytes, Wake::spin>>;
+    registry.cases.push_back(entry);
 }
 
 } // namespace
 
-void add_our_ring_cases(Registry& registry) {
+void add_tandem_ring_cases(Registry& registry) {
     add_size<8>(registry);
     add_size<48>(registry);
     add_wake<Wake::spin>(registry);

@@ -12,15 +12,15 @@ namespace tandem::bench {
 namespace {
 
 /// Small records, taken by the batch.
-class OurRateEnd {
+class StreamEndpoint {
   public:
-    explicit OurRateEnd(Session& session)
-        : link_(session, OurLink::ring_bytes(bytes, capacity)), out_(link_.add_ring("out", bytes, capacity)),
-          in_((link_.open(), link_.peer_ring("out"))) {}
+    explicit StreamEndpoint(Session& session)
+        : link_(session, BenchLink::ring_bytes(bytes, capacity)),
+          out_(link_.add_ring("out", bytes, capacity)), in_((link_.open(), link_.peer_ring("out"))) {}
 
     void send(std::uint64_t sequence) {
         alignas(8) std::byte message[bytes];
-        fill(message, bytes, sequence);
+        fill_message(message, bytes, sequence);
         while (!out_.write(message, sequence, 0)) {
         }
     }
@@ -28,7 +28,7 @@ class OurRateEnd {
         while (next_ == taken_) {
             next_ = taken_ = 0;
             const auto keep = [this](const shm::Record& record) {
-                batch_[taken_++] = sequence_of(record.bytes.data(), bytes);
+                batch_[taken_++] = checked_sequence(record.bytes.data(), bytes);
             };
             if (in_.consume(keep, std::size(batch_)) == 0) _mm_pause(); // as the floor's reader
         }
@@ -37,22 +37,22 @@ class OurRateEnd {
 
   private:
     static constexpr std::size_t bytes = 64, capacity = std::size_t{1024} * 1024;
-    OurLink link_;
+    BenchLink link_;
     shm::RingWriter out_;
     shm::RingReader in_;
     std::uint64_t batch_[64] = {};
     std::size_t next_ = 0, taken_ = 0;
 };
 
-class OurCopyingEnd {
+class CopyingStreamEndpoint {
   public:
-    explicit OurCopyingEnd(Session& session)
+    explicit CopyingStreamEndpoint(Session& session)
         : bytes_(session.bytes()), buffer_(bytes_ / sizeof(std::uint64_t)),
-          link_(session, OurLink::ring_bytes(bytes_)), out_(link_.add_ring("out", bytes_)),
+          link_(session, BenchLink::ring_bytes(bytes_)), out_(link_.add_ring("out", bytes_)),
           in_((link_.open(), link_.peer_ring("out"))) {}
 
     void send(std::uint64_t sequence) {
-        fill(buffer_.data(), bytes_, sequence);
+        fill_message(buffer_.data(), bytes_, sequence);
         while (!out_.write({reinterpret_cast<const std::byte*>(buffer_.data()), bytes_}, sequence, 0)) {
         }
     }
@@ -62,42 +62,42 @@ class OurCopyingEnd {
             if (!record) continue;
             std::memcpy(buffer_.data(), record->bytes.data(), bytes_);
             in_.release();
-            return sequence_of(buffer_.data(), bytes_);
+            return checked_sequence(buffer_.data(), bytes_);
         }
     }
 
   private:
     std::size_t bytes_;
     std::vector<std::uint64_t> buffer_;
-    OurLink link_;
+    BenchLink link_;
     shm::RingWriter out_;
     shm::RingReader in_;
 };
 
 template <std::size_t bytes>
 void add_large(Registry& registry) {
-    Case one;
-    one.who = "ring";
-    one.what = "stream";
-    one.bytes = bytes;
-    one.unit = Unit::gigabytes;
-    one.detail = "loan";
-    one.run = stream<OurRingEnd<bytes, Wake::spin>>;
-    registry.cases.push_back(one);
-    one.detail = "copy";
-    one.run = stream<OurCopyingEnd>;
-    registry.cases.push_back(one);
+    Case entry;
+    entry.subject = "ring";
+    entry.operation = "stream";
+    entry.bytes = bytes;
+    entry.unit = Unit::gigabytes;
+    entry.detail = "loan";
+    entry.run = measure_stream<RingEndpoint<bytes, Wake::spin>>;
+    registry.cases.push_back(entry);
+    entry.detail = "copy";
+    entry.run = measure_stream<CopyingStreamEndpoint>;
+    registry.cases.push_back(entry);
 }
 
 } // namespace
 
-void add_our_stream_cases(Registry& registry) {
-    Case one;
-    one.who = "ring";
-    one.what = "stream";
-    one.unit = Unit::megamessages;
-    one.run = stream<OurRateEnd>;
-    registry.cases.push_back(one);
+void add_tandem_stream_cases(Registry& registry) {
+    Case entry;
+    entry.subject = "ring";
+    entry.operation = "stream";
+    entry.unit = Unit::megamessages;
+    entry.run = measure_stream<StreamEndpoint>;
+    registry.cases.push_back(entry);
     add_large<1 << 16>(registry);
     add_large<1 << 20>(registry);
     add_large<6 << 20>(registry);

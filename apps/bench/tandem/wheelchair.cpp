@@ -20,7 +20,7 @@ constexpr double settling = 1.0; // s before the table's first sample
 std::pair<int, int> cores_of_both(Session& session) {
     auto* cores = reinterpret_cast<int*>(session.memory().data());
     cores[session.is_a() ? 0 : 1] = sched_getcpu();
-    session.meet();
+    session.arrive_and_wait();
     return {cores[0], cores[1]};
 }
 
@@ -37,33 +37,33 @@ void drive(Session& session) {
         CPU_SET(b, &both);
         sched_setaffinity(0, sizeof both, &both);
         wheelchair::Options options;
-        options.duration = settling + std::max(1.5, session.limits().seconds * 2);
+        options.duration = settling + std::max(1.5, session.budget().seconds * 2);
         options.opros_cpu = a;
         options.rtm_cpu = b;
         const auto result = wheelchair::run(options, configuration);
         if (!result.failures.empty()) throw std::runtime_error(result.failures.front());
         const std::size_t first = std::min<std::size_t>(100, result.latencies.size());
         for (std::size_t i = first; i < result.latencies.size(); ++i)
-            session.result(result.latencies[i] * 1e3);
+            session.add_result(result.latencies[i] * 1e3);
     }
-    session.meet();
+    session.arrive_and_wait();
 }
 
 } // namespace
 
-void add_our_wheelchair_cases(Registry& registry) {
-    Case one;
-    one.who = "wheelchair";
-    one.what = "table-1";
-    one.detail = "opros";
-    one.run = drive<wheelchair::Configuration::opros>;
-    registry.cases.push_back(one);
-    one.detail = "rtm";
-    one.run = drive<wheelchair::Configuration::rtm>;
-    registry.cases.push_back(one);
-    one.detail = "mixed";
-    one.run = drive<wheelchair::Configuration::mixed>;
-    registry.cases.push_back(one);
+void add_tandem_wheelchair_cases(Registry& registry) {
+    Case entry;
+    entry.subject = "wheelchair";
+    entry.operation = "joystick-to-control";
+    entry.detail = "opros";
+    entry.run = drive<wheelchair::Configuration::opros>;
+    registry.cases.push_back(entry);
+    entry.detail = "rtm";
+    entry.run = drive<wheelchair::Configuration::rtm>;
+    registry.cases.push_back(entry);
+    entry.detail = "mixed";
+    entry.run = drive<wheelchair::Configuration::mixed>;
+    registry.cases.push_back(entry);
 }
 
 } // namespace tandem::bench

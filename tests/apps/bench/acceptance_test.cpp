@@ -7,13 +7,13 @@
 using namespace tandem::bench;
 using test::report;
 using test::row;
-using Sense = BarLine::Sense;
+using Comparison = AcceptanceLimit::Comparison;
 
 TEST_CASE("A line is judged by the median of the ratios of each run") {
-    const std::vector<BarLine> lines{{"x", Sense::at_most, 1.2, "ours/a", "floor/b"}};
+    const std::vector<AcceptanceLimit> lines{{"x", Comparison::at_most, 1.2, "tandem/a", "baseline/b"}};
     // Run by run 1.0, 3.0, 1.1; the ratio of the medians would be 1.65.
-    const auto results =
-        judge(lines, report({row("ours/a", {100, 300, 220}), row("floor/b", {100, 100, 200})}));
+    const auto results = check_acceptance(
+        lines, report({row("tandem/a", {100, 300, 220}), row("baseline/b", {100, 100, 200})}));
     REQUIRE(results.size() == 1);
     CHECK(results[0].value == Approx(1.1));
     CHECK(results[0].least == Approx(1.0));
@@ -22,27 +22,29 @@ TEST_CASE("A line is judged by the median of the ratios of each run") {
 }
 
 TEST_CASE("Bounds hold in both senses and for figures without a second side") {
-    const Report of = report({row("ours/a", {41}, "M/s"), row("floor/b", {10}, "M/s")});
-    CHECK(judge({{"x", Sense::at_least, 40, "ours/a", ""}}, of)[0].pass());
-    CHECK_FALSE(judge({{"x", Sense::at_least, 42, "ours/a", ""}}, of)[0].pass());
-    CHECK(judge({{"x", Sense::at_least, 4, "ours/a", "floor/b"}}, of)[0].pass());
-    CHECK_FALSE(judge({{"x", Sense::at_most, 4, "ours/a", "floor/b"}}, of)[0].pass());
+    const Report of = report({row("tandem/a", {41}, "M/s"), row("baseline/b", {10}, "M/s")});
+    CHECK(check_acceptance({{"x", Comparison::at_least, 40, "tandem/a", ""}}, of)[0].pass());
+    CHECK_FALSE(check_acceptance({{"x", Comparison::at_least, 42, "tandem/a", ""}}, of)[0].pass());
+    CHECK(check_acceptance({{"x", Comparison::at_least, 4, "tandem/a", "baseline/b"}}, of)[0].pass());
+    CHECK_FALSE(check_acceptance({{"x", Comparison::at_most, 4, "tandem/a", "baseline/b"}}, of)[0].pass());
 }
 
 TEST_CASE("A line without its rows is skipped by name and reason and does not pass") {
-    const std::vector<BarLine> lines{{"peer line", Sense::at_least, 6, "peer/iceoryx/one-way", "ours/a"}};
-    const auto results =
-        judge(lines, report({row("ours/a", {1}), test::skipped("peer/iceoryx", "not installed")}));
+    const std::vector<AcceptanceLimit> lines{
+        {"peer line", Comparison::at_least, 6, "peer/iceoryx/one-way", "tandem/a"}};
+    const auto results = check_acceptance(
+        lines, report({row("tandem/a", {1}), test::skipped("peer/iceoryx", "not installed")}));
     CHECK_FALSE(results[0].pass());
-    CHECK_THAT(bar_text(results), Catch::Contains("peer line") && Catch::Contains("skipped: not installed") &&
-                                      Catch::Contains("0 pass, 0 FAIL, 1 skipped"));
+    CHECK_THAT(acceptance_text(results), Catch::Contains("peer line") &&
+                                             Catch::Contains("skipped: not installed") &&
+                                             Catch::Contains("0 pass, 0 FAIL, 1 skipped"));
 }
 
 TEST_CASE("A peer that can sleep has its lines in both regimes in which the software shows") {
     const std::string id = "peer/quick/one-way/64/blocking/";
     const auto lines =
-        bar_lines({id + "same-core", id + "low-latency-idle", "peer/quick/one-way/64/blocking"});
-    CHECK(needed_for_bar(lines, id + "same-core"));
-    CHECK(needed_for_bar(lines, id + "low-latency-idle"));
-    CHECK_FALSE(needed_for_bar(lines, "peer/quick/one-way/64/blocking"));
+        acceptance_limits({id + "same-core", id + "low-latency-idle", "peer/quick/one-way/64/blocking"});
+    CHECK(needed_for_acceptance(lines, id + "same-core"));
+    CHECK(needed_for_acceptance(lines, id + "low-latency-idle"));
+    CHECK_FALSE(needed_for_acceptance(lines, "peer/quick/one-way/64/blocking"));
 }

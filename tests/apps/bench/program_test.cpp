@@ -38,7 +38,7 @@ TEST_CASE("A quick run of floors and rings yields rows and files and names skipp
     const Folder folder;
     const auto json = folder.file("a.json"), html = folder.file("a.html");
     const auto result =
-        bench({"--only", "floor/cache-line,floor/clock,ring/one-way/64/spin,call-queue/call/64/spin",
+        bench({"--only", "baseline/cache-line,baseline/clock,ring/one-way/64/spin,call-queue/call/64/spin",
                "--quick", "--json", json, "--html", html});
     INFO(result.errors);
     REQUIRE(result.exit_code() == 0);
@@ -49,13 +49,13 @@ TEST_CASE("A quick run of floors and rings yields rows and files and names skipp
         INFO(row.id << ": " << row.skipped);
         if (row.skipped.empty())
             CHECK((row.summary.samples > 0 && row.summary.p50 > 0 && !row.cores.empty()));
-        if (row.group == "floor" && two_cores && row.regime == "normal") CHECK(row.skipped.empty());
+        if (row.group == "baseline" && two_cores && row.regime == "normal") CHECK(row.skipped.empty());
     }
     for (const Skipped& skipped : all_cases().skipped)
-        CHECK_THAT(result.output, Catch::Contains("skipped peer/" + skipped.who));
+        CHECK_THAT(result.output, Catch::Contains("skipped peer/" + skipped.subject));
 
-    const auto again = bench({"--only", "floor/clock", "--quick", "--compare", json});
-    CHECK(again.exit_code() == 0);
+    const auto again = bench({"--only", "baseline/clock", "--quick", "--compare", json});
+    CHECK(again.exit_code == 0);
     CHECK_THAT(again.output, Catch::Contains("common rows changed beyond noise"));
 }
 
@@ -72,8 +72,8 @@ TEST_CASE("Wrong options end in one line and a code") {
 }
 
 TEST_CASE("The list names every case and no measurement is made") {
-    const auto result = bench({"--list", "--only", "floor"});
-    CHECK(result.exit_code() == 0);
-    CHECK_THAT(result.output, Catch::Contains("floor/cache-line/one-way/8/spin\n"));
-    CHECK_THAT(result.output, !Catch::Contains("ours/"));
+    const auto result = bench({"--list", "--only", "baseline"});
+    CHECK(result.exit_code == 0);
+    CHECK_THAT(result.output, Catch::Contains("baseline/cache-line/one-way/8/spin\n"));
+    CHECK_THAT(result.output, !Catch::Contains("tandem/"));
 }

@@ -11,8 +11,8 @@ inline Row row(const std::string& id, std::vector<double> runs, const std::strin
     Row out;
     out.id = id;
     out.group = id.substr(0, id.find('/'));
-    out.who = "ring";
-    out.what = "one-way";
+    out.subject = "ring";
+    out.operation = "one-way";
     out.wake = "spin";
     out.regime = "normal";
     out.placement = "processes";

@@ -13,7 +13,7 @@ using test::row;
 
 TEST_CASE("A report survives JSON in both directions") {
     const Report before =
-        report({row("ours/ring/one-way/64/spin", {200, NAN, 210}), test::skipped("peer/x", "not here")});
+        report({row("tandem/ring/one-way/64/spin", {200, NAN, 210}), test::skipped("peer/x", "not here")});
     const std::string text = to_json(before);
     const Report after = from_json(text);
     CHECK(to_json(after) == text);
@@ -28,9 +28,9 @@ TEST_CASE("A report survives JSON in both directions") {
 }
 
 TEST_CASE("A row of ticks says how many came late by a period or more and how many periods that cost") {
-    Row ticks = row("ours/opros/tick/8/blocking", {900});
+    Row ticks = row("tandem/opros/tick/8/blocking", {900});
     ticks.tick_counts = TickCounts{2, 5};
-    const Report before = report({ticks, row("ours/a", {200})});
+    const Report before = report({ticks, row("tandem/a", {200})});
     const Report after = from_json(to_json(before));
     REQUIRE(after.rows.at(0).tick_counts);
     CHECK(after.rows[0].tick_counts->overruns == 2);
@@ -47,16 +47,17 @@ TEST_CASE("What is no report is refused in one line") {
 }
 
 TEST_CASE("The table names conditions and percentiles and what was skipped") {
-    const std::string text = table_text(report({row("ours/a", {200}), test::skipped("peer/x", "not here")}));
-    for (const char* part : {"Linux 6.1", "rdtsc", "p99.9", "ours/a", "skipped peer/x: not here"})
+    const std::string text =
+        table_text(report({row("tandem/a", {200}), test::skipped("peer/x", "not here")}));
+    for (const char* part : {"Linux 6.1", "rdtsc", "p99.9", "tandem/a", "skipped peer/x: not here"})
         CHECK_THAT(text, Catch::Contains(part));
 }
 
 TEST_CASE("The HTML page is well-formed and has its plots and rows inside") {
-    Row asleep = row("ours/ring/one-way/64/blocking", {900});
+    Row asleep = row("tandem/ring/one-way/64/blocking", {900});
     asleep.wake = "blocking";
     const std::string page = html_page(
-        report({row("ours/ring/one-way/64/spin", {200}), asleep, test::skipped("peer/x", "a < b")}), {});
+        report({row("tandem/ring/one-way/64/spin", {200}), asleep, test::skipped("peer/x", "a < b")}), {});
     pugi::xml_document document;
     const auto parsed = document.load_string(page.c_str());
     INFO(parsed.description());

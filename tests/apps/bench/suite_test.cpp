@@ -12,20 +12,20 @@ using namespace tandem::bench;
 
 namespace {
 
-Case alone(const char* what, std::function<void(Session&)> run) {
-    Case one;
-    one.who = "test";
-    one.what = what;
-    one.placement = Placement::alone;
-    one.run = std::move(run);
-    return one;
+Case alone(const char* operation, std::function<void(Session&)> run) {
+    Case entry;
+    entry.subject = "test";
+    entry.operation = operation;
+    entry.placement = Placement::alone;
+    entry.run = std::move(run);
+    return entry;
 }
 
 Report measured(std::vector<Case> cases, double bound = 10) {
     Plan plan;
     plan.cases = std::move(cases);
-    plan.limits.bound_seconds = bound;
-    plan.limits.attempts = 1;
+    plan.budget.timeout_seconds = bound;
+    plan.budget.attempts = 1;
     plan.cores.a = plan.cores.b = allowed_cores().front();
     plan.progress = false;
     return measure(plan);
@@ -37,11 +37,11 @@ TEST_CASE("Every case has a name of its own and the two sides of a ratio are nei
     const Registry registry = all_cases();
     std::set<std::string> ids, closed;
     std::string topic;
-    for (const Case& one : registry.cases) {
-        CHECK(ids.insert(one.id()).second);
-        if (one.topic() != topic) {
-            INFO(one.topic());
-            CHECK(closed.insert(topic = one.topic()).second);
+    for (const Case& entry : registry.cases) {
+        CHECK(ids.insert(entry.id()).second);
+        if (entry.topic() != topic) {
+            INFO(entry.topic());
+            CHECK(closed.insert(topic = entry.topic()).second);
         }
     }
 }
@@ -52,9 +52,9 @@ TEST_CASE("Cases are selected by any of several parts of their names") {
     CHECK(selected(all, "no such case").empty());
     const auto some = selected(all, "cache-line,call-queue");
     CHECK(!some.empty());
-    for (const Case& one : some)
-        CHECK((one.id().find("cache-line") != std::string::npos ||
-               one.id().find("call-queue") != std::string::npos));
+    for (const Case& entry : some)
+        CHECK((entry.id().find("cache-line") != std::string::npos ||
+               entry.id().find("call-queue") != std::string::npos));
 }
 
 TEST_CASE("What a side throws stands in its row") {
@@ -99,11 +99,11 @@ TEST_CASE("Paced samples count from when they were due") {
         std::uint64_t last = 0;
     };
     Clock::calibrate();
-    Case one = alone("paced", paced<Slow>);
+    Case entry = alone("paced", measure_paced<Slow>);
     Plan plan;
-    plan.cases = {one};
-    plan.limits.samples = 20;
-    plan.limits.attempts = 1;
+    plan.cases = {entry};
+    plan.budget.samples = 20;
+    plan.budget.attempts = 1;
     plan.cores.a = plan.cores.b = allowed_cores().front();
     plan.progress = false;
     const Report report = measure(plan);

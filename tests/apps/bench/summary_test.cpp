@@ -58,10 +58,10 @@ TEST_CASE("The median of runs is taken percentile by percentile and the maximum 
 TEST_CASE("A message gives its number back and a changed word is noticed") {
     for (std::size_t bytes : {8U, 64U, 4096U, 65536U}) {
         std::vector<std::uint64_t> words(bytes / 8);
-        fill(words.data(), bytes, 77);
-        CHECK(sequence_of(words.data(), bytes) == 77);
+        fill_message(words.data(), bytes, 77);
+        CHECK(checked_sequence(words.data(), bytes) == 77);
         if (words.size() == 1) continue;
         words.back() += 1;
-        CHECK_THROWS_WITH(sequence_of(words.data(), bytes), Catch::Contains("is damaged"));
+        CHECK_THROWS_WITH(checked_sequence(words.data(), bytes), Catch::Contains("is damaged"));
     }
 }

@@ -33,9 +33,10 @@ void write_opros(const Session& session, const fs::path& folder) {
     std::ofstream(folder / "app.xml")
         << "<?xml version=\"1.0\"?>\n<package_profile><name>bench</name>\n<subcomponents>\n"
         << "<subcomponent><name>Ping</name><reference>BenchPing.xml</reference><properties>"
-        << property("file", (folder / "samples").string()) << property("direction", session.measured().detail)
-        << property("samples", std::to_string(session.limits().samples))
-        << property("seconds", fmt::format("{:g}", session.limits().seconds))
+        << property("file", (folder / "samples").string())
+        << property("direction", session.bench_case().detail)
+        << property("samples", std::to_string(session.budget().samples))
+        << property("seconds", fmt::format("{:g}", session.budget().seconds))
         << "</properties></subcomponent>\n<subcomponent><name>Adaptor</name><reference>AdaptorComp.xml</"
            "reference>"
         << "<properties>" << property("link", session.name()) << property("wait", "30")
@@ -63,7 +64,7 @@ std::vector<std::string> command(const Session& session, const fs::path& folder)
 void record(Session& session, const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     double value = 0;
-    while (in.read(reinterpret_cast<char*>(&value), sizeof value)) session.result(value);
+    while (in.read(reinterpret_cast<char*>(&value), sizeof value)) session.add_result(value);
 }
 
 void bridge(Session& session) {
@@ -73,11 +74,11 @@ void bridge(Session& session) {
         write_opros(session, folder);
         write_rtm(session, folder);
     }
-    session.meet();
+    session.arrive_and_wait();
     const fs::path log = folder / (session.is_a() ? "opros.log" : "rtm.log");
-    const process::FileDescriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
-    process::ChildProcess host(command(session, folder), {-1, out.get(), out.get(), ""});
-    while (!session.finished()) {
+    const wheelchair::Fd out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    wheelchair::ChildProcess host(command(session, folder), {-1, out.get(), out.get(), ""});
+    while (!session.stop_requested()) {
         if (host.poll()) {
             std::string line;
             std::getline(std::ifstream(log), line);
@@ -86,7 +87,7 @@ void bridge(Session& session) {
         }
         if (session.is_a() && fs::exists(folder / "samples")) {
             record(session, folder / "samples");
-            session.finish();
+            session.request_stop();
         }
         std::this_thread::sleep_for(20ms);
     }
@@ -95,14 +96,14 @@ void bridge(Session& session) {
 
 } // namespace
 
-void add_our_bridge_cases(Registry& registry) {
+void add_tandem_bridge_cases(Registry& registry) {
     for (const char* direction : {"opros-to-rtm", "rtm-to-opros"}) {
-        Case one;
-        one.who = "bridge";
-        one.what = "one-way";
-        one.detail = direction;
-        one.run = bridge;
-        registry.cases.push_back(one);
+        Case entry;
+        entry.subject = "bridge";
+        entry.operation = "one-way";
+        entry.detail = direction;
+        entry.run = bridge;
+        registry.cases.push_back(entry);
     }
 }
 

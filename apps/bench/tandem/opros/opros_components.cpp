@@ -62,7 +62,7 @@ class Components {
                 "<subcomponent><name>{}</name><reference>{}</reference><properties>"
                 "<property name=\"period_ns\">{}</property><property name=\"samples\">{}</property>"
                 "<property name=\"origin_ns\">{}</property></properties></subcomponent>\n",
-                name, profile, period_ns, session.limits().samples, rt::grid_origin.count());
+                name, profile, period_ns, session.budget().samples, rt::grid_origin.count());
         };
         std::ofstream(folder_ / "app.xml")
             << "<package_profile><name>app</name><subcomponents>\n"
@@ -84,7 +84,7 @@ class Components {
 void push_double(Session& session) {
     Components components(session, "BenchParts.xml");
     BenchParts& from = components.part("From");
-    time_each(session, [&](double value) { from.push(value); });
+    time_each_call(session, [&](double value) { from.push(value); });
     double last = -1;
     for (double value = 0; value >= 0; value = components.part("To").pop()) last = value;
     if (last <= 0) throw std::runtime_error("the pushed values have not come");
@@ -94,7 +94,7 @@ void push_and_pop(Session& session) {
     Components components(session, "BenchParts.xml");
     BenchParts& from = components.part("From");
     BenchParts& to = components.part("To");
-    time_each(session, [&](double value) {
+    time_each_call(session, [&](double value) {
         from.push(value);
         if (to.pop() != value) throw std::runtime_error("another value came than was pushed");
     });
@@ -104,26 +104,26 @@ void push_array(Session& session) {
     Components components(session, "BenchParts.xml");
     BenchParts& from = components.part("From");
     const std::vector<double> values(session.bytes() / sizeof(double), 1.5);
-    time_each(session, [&](double) { from.push(values); });
+    time_each_call(session, [&](double) { from.push(values); });
 }
 
 void call(Session& session) {
     Components components(session, "BenchParts.xml");
     BenchParts& from = components.part("From");
-    time_each(session, [&](double value) {
+    time_each_call(session, [&](double value) {
         if (from.call(value) != 2 * value) throw std::runtime_error("wrong result of a call");
     });
 }
 
 /// From the push to the call-back in the worker, which sleeps in between.
 void event(Session& session) {
-    unpin();
+    pin_to_all_cores();
     Components components(session, "BenchParts.xml");
     BenchParts& from = components.part("From");
     const BenchParts& to = components.part("To");
     const std::uint64_t pause = to_ticks(2e5);
     const auto loop = [&] {
-        for (double value = 1; session.more(); ++value) {
+        for (double value = 1; session.needs_more(); ++value) {
             for (const std::uint64_t begin = ticks(); ticks() - begin < pause;) {
             }
             const std::uint64_t before = ticks();
@@ -131,7 +131,7 @@ void event(Session& session) {
             while (to.heard() != value) {
             }
             const std::uint64_t now = ticks();
-            session.sample(now - before, now);
+            session.add_sample(now - before, now);
         }
     };
     session.begin_warm_up();
@@ -139,9 +139,9 @@ void event(Session& session) {
     from.send_event(0);
     while (to.heard() != 0) {
     }
-    session.begin();
+    session.begin_measuring();
     loop();
-    session.end();
+    session.end_measuring();
 }
 
 void run_for(BenchParts& parts, engine::Application& application, std::uint64_t periods) {
@@ -152,57 +152,57 @@ void run_for(BenchParts& parts, engine::Application& application, std::uint64_t 
 
 /// How much later than its time onExecute is called.
 void lateness(Session& session) {
-    const bool spin = session.measured().wake == Wake::spin;
+    const bool spin = session.bench_case().wake == Wake::spin;
     Components components(session, "BenchTick.xml", std::chrono::microseconds(spin ? 200 : 0));
     BenchParts& parts = components.part("From");
     run_for(parts, components.application(),
-            std::min<std::uint64_t>(session.limits().samples,
-                                    session.limits().samples >= 50'000 ? 10'000 : 1'000));
-    for (const std::int64_t late : parts.ticks().lateness_ns()) session.result(static_cast<double>(late));
-    session.counted(parts.ticks().counts());
+            std::min<std::uint64_t>(session.budget().samples,
+                                    session.budget().samples >= 50'000 ? 10'000 : 1'000));
+    for (const std::int64_t late : parts.ticks().lateness_ns()) session.add_result(static_cast<double>(late));
+    session.set_tick_counts(parts.ticks().counts());
 }
 
 /// By how much the mean period differs from 1 ms; each tick is accounted for.
 void drift(Session& session) {
     Components components(session, "BenchTick.xml");
     BenchParts& parts = components.part("From");
-    run_for(parts, components.application(), session.limits().samples >= 50'000 ? 100'100 : 1'000);
+    run_for(parts, components.application(), session.budget().samples >= 50'000 ? 100'100 : 1'000);
     const auto stats = components.application().executor_stats().at(0);
     std::fprintf(stderr, "%s\n", stats.c_str());
-    session.result(std::abs(parts.ticks().mean_drift_ns()));
-    session.counted(parts.ticks().counts());
+    session.add_result(std::abs(parts.ticks().mean_drift_ns()));
+    session.set_tick_counts(parts.ticks().counts());
 }
 
 } // namespace
 
-void add_our_opros_cases(Registry& registry) {
-    Case one;
-    one.who = "opros";
-    one.placement = Placement::alone;
-    one.wake = Wake::none;
-    const auto add = [&](const char* what, std::size_t bytes, void (*run)(Session&)) {
-        one.what = what;
-        one.bytes = bytes;
-        one.run = run;
-        registry.cases.push_back(one);
+void add_tandem_opros_cases(Registry& registry) {
+    Case entry;
+    entry.subject = "opros";
+    entry.placement = Placement::alone;
+    entry.wake = Wake::none;
+    const auto add = [&](const char* operation, std::size_t bytes, void (*run)(Session&)) {
+        entry.operation = operation;
+        entry.bytes = bytes;
+        entry.run = run;
+        registry.cases.push_back(entry);
     };
     add("push", sizeof(double), push_double);
     add("push-and-pop", sizeof(double), push_and_pop);
     add("push", 1000 * sizeof(double), push_array);
     add("local-call", sizeof(double), call);
-    one.wake = Wake::blocking;
-    one.bytes = sizeof(double);
-    one.what = "event";
-    one.run = event;
-    registry.cases.push_back(one);
-    one.regime = Regime::low_latency_idle;
-    registry.cases.push_back(one);
-    one.regime = Regime::normal;
+    entry.wake = Wake::blocking;
+    entry.bytes = sizeof(double);
+    entry.operation = "event";
+    entry.run = event;
+    registry.cases.push_back(entry);
+    entry.regime = Regime::low_latency_idle;
+    registry.cases.push_back(entry);
+    entry.regime = Regime::normal;
     add("tick", sizeof(double), lateness);
-    one.wake = Wake::spin;
+    entry.wake = Wake::spin;
     add("tick", sizeof(double), lateness);
-    one.wake = Wake::blocking;
-    one.extra_seconds = 110;
+    entry.wake = Wake::blocking;
+    entry.extra_seconds = 110;
     add("tick-drift", sizeof(double), drift);
 }
 

@@ -101,10 +101,10 @@ class Components {
 };
 
 void write_long(Session& session) {
-    Components components(session.measured().detail);
+    Components components(session.bench_case().detail);
     Parts& from = components.part("From");
     Parts& to = components.part("To");
-    time_each(session, [&](double) {
+    time_each_call(session, [&](double) {
         ++from.out_long.data;
         from.long_out.write();
     });
@@ -113,10 +113,10 @@ void write_long(Session& session) {
 }
 
 void write_seq(Session& session) {
-    Components components(session.measured().detail);
+    Components components(session.bench_case().detail);
     Parts& from = components.part("From");
     Parts& to = components.part("To");
-    time_each(session, [&](double) {
+    time_each_call(session, [&](double) {
         from.out_seq.data[0] += 1;
         from.seq_out.write();
     });
@@ -128,7 +128,7 @@ void call(Session& session) {
     Components components("direct");
     Parts& from = components.part("From");
     double value = 0;
-    time_each(session, [&](double) {
+    time_each_call(session, [&](double) {
         value += 1;
         if (from.echo->twice(value) != 2 * value) throw std::runtime_error("wrong result of a call");
     });
@@ -136,7 +136,7 @@ void call(Session& session) {
 
 /// Of 100,000 writes that are read, after 1000 of them.
 void count_allocations(Session& session) {
-    Components components(session.measured().detail);
+    Components components(session.bench_case().detail);
     Parts& from = components.part("From");
     Parts& to = components.part("To");
     const auto times = [&](int n) {
@@ -146,9 +146,9 @@ void count_allocations(Session& session) {
         }
     };
     times(1000);
-    const std::uint64_t before = allocations();
+    const std::uint64_t before = allocation_count();
     times(100'000);
-    session.result(static_cast<double>(allocations() - before));
+    session.add_result(static_cast<double>(allocation_count() - before));
 }
 
 /// Runs From for so many periods, and stops.
@@ -162,57 +162,58 @@ void tick_for(Components& components, std::uint64_t periods) {
 
 /// How much later than its time onExecute is called.
 void lateness(Session& session) {
-    const bool spin = session.measured().wake == Wake::spin;
+    const bool spin = session.bench_case().wake == Wake::spin;
     Components components("", std::chrono::microseconds(spin ? 200 : 0));
-    tick_for(components, std::min<std::uint64_t>(session.limits().samples,
-                                                 session.limits().samples >= 50'000 ? 10'000 : 1'000));
+    tick_for(components, std::min<std::uint64_t>(session.budget().samples,
+                                                 session.budget().samples >= 50'000 ? 10'000 : 1'000));
     const TickRecord& record = components.part("From").record;
-    for (const std::int64_t late : record.lateness_ns()) session.result(static_cast<double>(late));
-    session.counted(record.counts());
+    for (const std::int64_t late : record.lateness_ns()) session.add_result(static_cast<double>(late));
+    session.set_tick_counts(record.counts());
 }
 
 /// By how much the mean period differs from 1 ms; each tick is accounted for.
 void drift(Session& session) {
     Components components("");
-    tick_for(components, session.limits().samples >= 50'000 ? 100'100 : 1'000);
+    tick_for(components, session.budget().samples >= 50'000 ? 100'100 : 1'000);
     Parts& parts = components.part("From");
     const auto ticks =
         dynamic_cast<RTC_exp::PeriodicExecutionContext&>(*parts.getOwnContexts().at(0)).tickStatistics();
     fmt::print(stderr, "rtm: {} cycles, {} overruns, {} periods skipped\n", ticks.cycles, ticks.overruns,
                ticks.skipped);
-    session.result(std::abs(parts.record.mean_drift_ns()));
-    session.counted(parts.record.counts());
+    session.add_result(std::abs(parts.record.mean_drift_ns()));
+    session.set_tick_counts(parts.record.counts());
 }
 
 } // namespace
 
-void add_our_rtm_cases(Registry& registry) {
-    Case one;
-    one.who = "rtm";
-    one.placement = Placement::alone;
-    const auto add = [&](const char* what, std::size_t bytes, const char* detail, void (*run)(Session&)) {
-        one.what = what;
-        one.bytes = bytes;
-        one.detail = detail;
-        one.run = run;
-        registry.cases.push_back(one);
+void add_tandem_rtm_cases(Registry& registry) {
+    Case entry;
+    entry.subject = "rtm";
+    entry.placement = Placement::alone;
+    const auto add = [&](const char* operation, std::size_t bytes, const char* detail,
+                         void (*run)(Session&)) {
+        entry.operation = operation;
+        entry.bytes = bytes;
+        entry.detail = detail;
+        entry.run = run;
+        registry.cases.push_back(entry);
     };
-    one.wake = Wake::none;
+    entry.wake = Wake::none;
     for (const char* interface : {"direct", "corba_cdr"}) {
         add("write", 12, interface, write_long);
         add("write", 36, interface, write_seq);
     }
     add("local-call", sizeof(double), "", call);
-    one.unit = Unit::count;
+    entry.unit = Unit::count;
     for (const char* interface : {"direct", "corba_cdr"})
         add("write-allocations", 48, interface, count_allocations);
-    one.unit = Unit::ns;
-    one.wake = Wake::blocking;
+    entry.unit = Unit::ns;
+    entry.wake = Wake::blocking;
     add("tick", sizeof(double), "", lateness);
-    one.wake = Wake::spin;
+    entry.wake = Wake::spin;
     add("tick", sizeof(double), "", lateness);
-    one.wake = Wake::blocking;
-    one.extra_seconds = 110;
+    entry.wake = Wake::blocking;
+    entry.extra_seconds = 110;
     add("tick-drift", sizeof(double), "", drift);
 }
 
