@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all simulated devices have in common.
+// What all simulated devices have in common, and the entry points of their libraries.
 #pragma once
 
 #include <device/OprosApi.h>
@@ -9,21 +9,22 @@
 #include <cstdlib>
 #include <mutex>
 #include <string>
+#include <type_traits>
 
 namespace tandem::devices {
 
-/// A device of one class of the device API, without hardware. It works from Initialize() to Finalize(). Its
-/// time runs with the clock, or by the parameter `TimeStep` (seconds) per call, which makes every run the
-/// same. [any-thread]: components read a device in their executor and in the threads that call their
-/// services.
+/// A device of the OPRoS device class `Class`, without hardware. It works from Initialize() to Finalize();
+/// outside of these its functions return API_ERROR. Its time runs with the clock, or by the parameter `TimeStep`
+/// (seconds) per call, which makes every run the same. [any-thread]: components read a device in their executor
+/// and in the threads that call their services.
 template <typename Class>
 class SimulatedDevice : public Class {
   public:
     int Initialize(Property parameters) override {
         const std::lock_guard<std::mutex> lock(mutex_);
         parameters_ = parameters;
-        step_ = number("TimeStep", 0);
-        seconds_ = 0;
+        time_step_ = number_parameter("TimeStep", 0);
+        time_ = 0;
         last_call_ = std::chrono::steady_clock::now();
         initialized_ = true;
         configure();
@@ -34,9 +35,10 @@ class SimulatedDevice : public Class {
         initialized_ = false;
         return API_SUCCESS;
     }
-    int Enable() override { return working(); }
-    int Disable() override { return working(); }
-    int OnExecute() override { return working(); }
+    int Enable() override { return status(); }
+    int Disable() override { return status(); }
+    int OnExecute() override { return status(); }
+    /// Kept for GetParameter() only: they take effect at the next Initialize(), which gets its own.
     int SetParameter(Property parameters) override {
         const std::lock_guard<std::mutex> lock(mutex_);
         parameters_ = parameters;
@@ -49,48 +51,61 @@ class SimulatedDevice : public Class {
     }
 
   protected:
-    /// Takes what the device needs from its parameters; the lock is held.
+    /// Called by Initialize(), with the lock held: resets the device and reads its parameters.
     virtual void configure() {}
 
-    /// Calls `act(seconds since Initialize(), seconds since the last call)` with the lock held.
-    template <typename Act>
-    int serve(Act act) {
+    /// Every function of a device class is one call of this: with the lock held and the device initialized, time
+    /// goes on and `action` runs, as action() or as action(time, elapsed): seconds since Initialize(), and since
+    /// the last call. Returns API_SUCCESS, or API_ERROR if the device is not initialized.
+    template <typename Action>
+    int perform(Action action) {
         const std::lock_guard<std::mutex> lock(mutex_);
         if (!initialized_) return API_ERROR;
-        const auto now = std::chrono::steady_clock::now();
-        const double elapsed = step_ > 0 ? step_ : std::chrono::duration<double>(now - last_call_).count();
-        last_call_ = now;
-        seconds_ += elapsed;
-        act(seconds_, elapsed);
+        const double elapsed = advance_time();
+        if constexpr (std::is_invocable_v<Action>)
+            action();
+        else
+            action(time_, elapsed);
         return API_SUCCESS;
     }
 
-    double number(const char* name, double otherwise) {
-        return parameters_.FindName(name) ? std::strtod(parameters_.GetValue(name).c_str(), nullptr)
-                                          : otherwise;
+    /// [in configure()] A parameter as a number, 0 if it is none; the default if there is no such parameter.
+    double number_parameter(const std::string& name, double default_value) {
+        if (!parameters_.FindName(name)) return default_value;
+        return std::strtod(parameters_.GetValue(name).c_str(), nullptr);
     }
-    /// A number of things: from 1 to 100,000.
-    int count(const char* name, int otherwise) {
-        const double given = number(name, otherwise);
-        return given >= 1 && given <= 1e5 ? static_cast<int>(given) : otherwise;
+    /// [in configure()] A number of things, from 1 to 100,000, since memory is allocated for them; of any other
+    /// number the default.
+    int count_parameter(const std::string& name, int default_value) {
+        const double given = number_parameter(name, default_value);
+        return given >= 1 && given <= 1e5 ? static_cast<int>(given) : default_value;
     }
 
   private:
-    int working() {
+    int status() {
         const std::lock_guard<std::mutex> lock(mutex_);
         return initialized_ ? API_SUCCESS : API_ERROR;
     }
+    double advance_time() {
+        const auto now = std::chrono::steady_clock::now();
+        const double elapsed =
+            time_step_ > 0 ? time_step_ : std::chrono::duration<double>(now - last_call_).count();
+        last_call_ = now;
+        time_ += elapsed;
+        return elapsed;
+    }
 
-    std::mutex mutex_;
+    std::mutex mutex_; // guards all members, and those of derived classes
     Property parameters_;
     bool initialized_ = false;
-    double step_ = 0, seconds_ = 0;
+    double time_step_ = 0, time_ = 0; // s
     std::chrono::steady_clock::time_point last_call_;
 };
 
 } // namespace tandem::devices
 
-/// The two functions by which a component gets the device from its library, and may give it back.
-#define TANDEM_DEVICE(type)                                                                                  \
-    extern "C" OprosApi* GetAPI() { return new type; }                                                       \
+/// The two functions by which a component gets the device from its library and may give it back. The argument
+/// is the device's class; it may contain commas.
+#define TANDEM_DEVICE(...)                                                                                   \
+    extern "C" OprosApi* GetAPI() { return new __VA_ARGS__; }                                                \
     extern "C" void ReleaseAPI(OprosApi* device) { delete device; }

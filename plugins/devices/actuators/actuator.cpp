@@ -3,8 +3,4 @@
 
 #include <device/Actuator.h>
 
-namespace {
-class SimulatedActuator : public tandem::devices::SimulatedDrive<Actuator> {};
-} // namespace
-
-TANDEM_DEVICE(SimulatedActuator)
+TANDEM_DEVICE(tandem::devices::SimulatedDrive<Actuator>)

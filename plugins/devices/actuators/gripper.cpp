@@ -5,18 +5,19 @@
 
 namespace {
 
-/// A hand that has hold of something from StartGripping() to StopGripping().
+/// A gripper that holds something from StartGripping() to StopGripping().
 class SimulatedGripper : public tandem::devices::SimulatedArm<Gripper> {
   public:
     int StartGripping() override {
-        return serve([&](double, double) { gripped_ = true; });
+        return perform([&] { gripped_ = true; });
     }
     int StopGripping() override {
-        return serve([&](double, double) { gripped_ = false; });
+        return perform([&] { gripped_ = false; });
     }
     int IsGripped(bool& gripped) override {
-        return serve([&](double, double) { gripped = gripped_; });
+        return perform([&] { gripped = gripped_; });
     }
+    /// The form of OPRoS v1: 1, 0 or API_ERROR.
     int IsGripped() override {
         bool gripped = false;
         return IsGripped(gripped) == API_SUCCESS ? gripped : API_ERROR;

@@ -3,8 +3,4 @@
 
 #include <device/Manipulator.h>
 
-namespace {
-class SimulatedManipulator : public tandem::devices::SimulatedArm<Manipulator> {};
-} // namespace
-
-TANDEM_DEVICE(SimulatedManipulator)
+TANDEM_DEVICE(tandem::devices::SimulatedArm<Manipulator>)

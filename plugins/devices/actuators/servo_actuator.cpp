@@ -7,19 +7,22 @@ namespace {
 
 using tandem::devices::SimulatedJoint;
 
+/// A drive with velocity and position control.
 class SimulatedServoActuator : public tandem::devices::SimulatedDrive<ServoActuator> {
   public:
+    /// Reached at once: the time is ignored.
     int SetVelocity(double velocity, unsigned long) override {
-        return with([&](SimulatedJoint& joint) { joint.set_velocity(velocity); });
+        return with_joint([&](SimulatedJoint& joint) { joint.set_velocity(velocity); });
     }
     int GetVelocity(double& velocity) override {
-        return with([&](SimulatedJoint& joint) { velocity = joint.velocity(); });
+        return with_joint([&](SimulatedJoint& joint) { velocity = joint.velocity(); });
     }
+    /// `time`: milliseconds.
     int SetPosition(double position, unsigned long time) override {
-        return with([&](SimulatedJoint& joint) { joint.set_position(position, time); });
+        return with_joint([&](SimulatedJoint& joint) { joint.set_position(position, time); });
     }
     int GetPosition(double& position) override {
-        return with([&](SimulatedJoint& joint) { position = joint.position(); });
+        return with_joint([&](SimulatedJoint& joint) { position = joint.position(); });
     }
 };
 

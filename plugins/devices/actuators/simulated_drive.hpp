@@ -6,23 +6,25 @@
 
 namespace tandem::devices {
 
-/// One drive, for the classes of drives.
+/// One drive, for the device classes Actuator and ServoActuator.
 template <typename Class>
 class SimulatedDrive : public SimulatedDevice<Class> {
   public:
+    /// The time that the power is to be reached in is ignored: it is reached at once.
     int SetPower(double power, unsigned long) override {
-        return with([&](SimulatedJoint& joint) { joint.set_power(power); });
+        return with_joint([&](SimulatedJoint& joint) { joint.set_power(power); });
     }
     int GetPower(double& power) override {
-        return with([&](SimulatedJoint& joint) { power = joint.power(); });
+        return with_joint([&](SimulatedJoint& joint) { power = joint.power(); });
     }
 
   protected:
-    template <typename Act>
-    int with(Act act) {
-        return this->serve([&](double, double elapsed) {
+    /// Calls action(joint) with the lock held, after the joint has moved on to the present time.
+    template <typename Action>
+    int with_joint(Action action) {
+        return this->perform([&](double, double elapsed) {
             joint_.advance(elapsed);
-            act(joint_);
+            action(joint_);
         });
     }
     void configure() override { joint_ = SimulatedJoint(); }

@@ -3,15 +3,17 @@
 
 namespace tandem::devices {
 
-/// A drive: it coasts at its velocity, or goes to a position in the time it is given.
+/// [one thread] The motion of one joint or drive: it moves at its velocity for good, or reaches a position in a
+/// given time and stops. Positions in rad or m, velocities per second, as the device class has them.
 class SimulatedJoint {
   public:
+    /// Only remembered: power moves nothing here.
     void set_power(double power) { power_ = power; }
     void set_velocity(double velocity);
-    /// Milliseconds; 0 is at once.
+    /// Reaches the position after that time; at once if it is 0.
     void set_position(double position, unsigned long milliseconds);
     void stop();
-    /// So many seconds later.
+    /// Moves on by so many seconds.
     void advance(double seconds);
 
     double power() const { return power_; }
@@ -20,7 +22,7 @@ class SimulatedJoint {
 
   private:
     double power_ = 0, velocity_ = 0, position_ = 0;
-    double target_ = 0, seconds_left_ = 0;
+    double target_ = 0, seconds_left_ = 0; // of set_position(); 0: there is no target
 };
 
 } // namespace tandem::devices

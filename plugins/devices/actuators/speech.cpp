@@ -5,14 +5,14 @@
 
 namespace {
 
-/// Has spoken as soon as it is asked, without a sound.
+/// Is silent: each text is finished as soon as it is started.
 class SimulatedSpeech : public tandem::devices::SimulatedDevice<Speech> {
   public:
     int PlaySpeech(std::string, int) override {
-        return serve([](double, double) {});
+        return perform([] {});
     }
     int StopSpeech() override {
-        return serve([](double, double) {});
+        return perform([] {});
     }
 };
 

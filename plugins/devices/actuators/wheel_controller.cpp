@@ -5,67 +5,75 @@
 
 namespace {
 
-/// A base that moves at once as it is told; m, rad, seconds. Its odometers count `WheelDiameter` and
-/// `AxleDistance` in 1000 pulses per turn of a wheel.
+/// A base with two wheels (differential drive) that reaches each velocity at once; m, rad, s. Its odometers count
+/// 1000 pulses per turn of a wheel of `WheelDiameter`, the wheels being `AxleDistance` apart.
 class SimulatedWheelController : public tandem::devices::SimulatedDevice<WheelController> {
   public:
+    /// Corrects the position, as after localization: the base does not move.
     int SetPosition(ObjectLocation position) override {
-        return driven([&] { position_ = position; });
+        return perform_moved([&] { position_ = position; });
     }
     int GetPosition(ObjectLocation& position) override {
-        return driven([&] { position = position_; });
+        return perform_moved([&] { position = position_; });
     }
     int GetOdometery(std::vector<long>& pulses) override {
-        return driven([&] { pulses = {std::lround(left_), std::lround(right_)}; });
+        return perform_moved([&] { pulses = {std::lround(left_), std::lround(right_)}; });
     }
+    /// Until the next command.
     int DriveWheel(double linear, double angular) override {
-        return driven([&] { go(linear, angular, -1); });
+        return perform_moved([&] { set_motion(linear, angular, -1); });
     }
+    /// The sign of the distance is the direction; that of the velocity does not count.
     int MoveWheel(double distance, double linear) override {
         if (linear == 0) return API_ERROR;
-        return driven([&] { go(std::copysign(linear, distance), 0, std::fabs(distance / linear)); });
+        return perform_moved(
+            [&] { set_motion(std::copysign(linear, distance), 0, std::fabs(distance / linear)); });
     }
     int RotateWheel(double angle, double angular) override {
         if (angular == 0) return API_ERROR;
-        return driven([&] { go(0, std::copysign(angular, angle), std::fabs(angle / angular)); });
+        return perform_moved(
+            [&] { set_motion(0, std::copysign(angular, angle), std::fabs(angle / angular)); });
     }
     int StopWheel() override {
-        return driven([&] { go(0, 0, -1); });
+        return perform_moved([&] { set_motion(0, 0, -1); });
     }
     int IsWheelRunning(bool& running) override {
-        return driven([&] { running = linear_ != 0 || angular_ != 0; });
+        return perform_moved([&] { running = linear_ != 0 || angular_ != 0; });
     }
-    int Move(double distance) override { return MoveWheel(distance, usual_velocity); }
-    int Rotate(double angle) override { return RotateWheel(angle, usual_velocity); }
+    int Move(double distance) override { return MoveWheel(distance, default_velocity); }
+    int Rotate(double angle) override { return RotateWheel(angle, default_velocity); }
 
   protected:
     void configure() override {
-        pulses_per_metre_ = 1000 / (M_PI * std::max(1e-3, number("WheelDiameter", 0.15)));
-        half_axle_ = number("AxleDistance", 0.385) / 2;
+        pulses_per_metre_ = 1000 / (M_PI * std::max(1e-3, number_parameter("WheelDiameter", 0.15)));
+        half_axle_ = number_parameter("AxleDistance", 0.385) / 2;
         position_ = ObjectLocation();
         left_ = right_ = 0;
-        go(0, 0, -1);
+        set_motion(0, 0, -1);
     }
 
   private:
-    static constexpr double usual_velocity = 0.5; // for calls that give none
+    static constexpr double default_velocity = 0.5; // m/s or rad/s, of calls that give none
 
-    template <typename Act>
-    int driven(Act act) {
-        return serve([&](double, double elapsed) {
+    /// Calls action() after the base has moved on to the present time.
+    template <typename Action>
+    int perform_moved(Action action) {
+        return perform([&](double, double elapsed) {
             advance(elapsed);
-            act();
+            action();
         });
     }
-    /// Seconds below 0: until told otherwise.
-    void go(double linear, double angular, double seconds) {
+    /// For that long, or until the next command if it is below 0.
+    void set_motion(double linear, double angular, double seconds) {
         linear_ = linear;
         angular_ = angular;
         seconds_left_ = seconds;
     }
+    /// Moves on by so many seconds, or until the end of a limited motion.
     void advance(double elapsed) {
         const bool limited = seconds_left_ >= 0;
         const double moved = limited ? std::min(elapsed, seconds_left_) : elapsed;
+        // Along the chord of the arc: its direction is the heading in the middle of the time.
         position_.x += linear_ * moved * std::cos(position_.theta + angular_ * moved / 2);
         position_.y += linear_ * moved * std::sin(position_.theta + angular_ * moved / 2);
         position_.theta += angular_ * moved;
@@ -73,7 +81,7 @@ class SimulatedWheelController : public tandem::devices::SimulatedDevice<WheelCo
         right_ += (linear_ + angular_ * half_axle_) * moved * pulses_per_metre_;
         if (!limited) return;
         seconds_left_ -= moved;
-        if (seconds_left_ <= 0) go(0, 0, -1);
+        if (seconds_left_ <= 0) set_motion(0, 0, -1);
     }
 
     ObjectLocation position_;

@@ -3,10 +3,6 @@
 
 #include <device/AnalogDigitalIo.h>
 
-namespace {
 using namespace tandem::devices;
-class SimulatedAnalogDigitalIo : public SimulatedAnalog<SimulatedDigital<SimulatedDevice<AnalogDigitalIo>>> {
-};
-} // namespace
 
-TANDEM_DEVICE(SimulatedAnalogDigitalIo)
+TANDEM_DEVICE(SimulatedAnalog<SimulatedDigital<SimulatedDevice<AnalogDigitalIo>>>)

@@ -3,9 +3,6 @@
 
 #include <device/AnalogIo.h>
 
-namespace {
 using namespace tandem::devices;
-class SimulatedAnalogIo : public SimulatedAnalog<SimulatedDevice<AnalogIo>> {};
-} // namespace
 
-TANDEM_DEVICE(SimulatedAnalogIo)
+TANDEM_DEVICE(SimulatedAnalog<SimulatedDevice<AnalogIo>>)

@@ -8,22 +8,24 @@
 
 namespace {
 
-/// A bus that is looped back: frames of up to 8 bytes come out as they went in, the last 1000 of them.
-/// Without one, Read() gives frame 0 of zeros.
+/// A CAN bus that is looped back: frames of up to 8 bytes come out in the order in which they were written, the
+/// newest 1000 of them. If there is none, Read() gives a frame with id 0 and zeros.
 class SimulatedCan : public tandem::devices::SimulatedDevice<Can> {
   public:
+    /// `size`: at most 8 bytes, as the bus has it.
     int Write(long id, unsigned char* data, int size) override {
         if (size < 0 || size > 8 || (!data && size > 0)) return API_ERROR;
-        return serve([&](double, double) {
+        return perform([&] {
             Frame frame{id, {}};
             std::copy_n(data, size, frame.data.begin());
             frames_.push_back(frame);
             if (frames_.size() > 1000) frames_.pop_front();
         });
     }
+    /// Never waits.
     int Read(long& id, unsigned char* data, int size) override {
         if (size < 0 || size > 8 || (!data && size > 0)) return API_ERROR;
-        return serve([&](double, double) {
+        return perform([&] {
             const Frame frame = frames_.empty() ? Frame{0, {}} : frames_.front();
             if (!frames_.empty()) frames_.pop_front();
             id = frame.id;

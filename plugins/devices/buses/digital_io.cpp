@@ -3,9 +3,6 @@
 
 #include <device/DigitalIo.h>
 
-namespace {
 using namespace tandem::devices;
-class SimulatedDigitalIo : public SimulatedDigital<SimulatedDevice<DigitalIo>> {};
-} // namespace
 
-TANDEM_DEVICE(SimulatedDigitalIo)
+TANDEM_DEVICE(SimulatedDigital<SimulatedDevice<DigitalIo>>)

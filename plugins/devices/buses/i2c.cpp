@@ -8,16 +8,17 @@
 
 namespace {
 
-/// A bus on which every address keeps the bytes last written to it.
+/// An I2C bus with a memory at every address, which keeps the bytes last written to it. Bytes that were not
+/// written read as 0.
 class SimulatedI2C : public tandem::devices::SimulatedDevice<I2C> {
   public:
     int Write(unsigned long address, unsigned char* data, int size) override {
         if (!data || size < 0) return API_ERROR;
-        return serve([&](double, double) { memory_[address].assign(data, data + size); });
+        return perform([&] { memory_[address].assign(data, data + size); });
     }
     int Read(unsigned long address, unsigned char* data, int size) override {
         if (!data || size < 0) return API_ERROR;
-        return serve([&](double, double) {
+        return perform([&] {
             const std::vector<unsigned char>& bytes = memory_[address];
             std::fill_n(data, size, static_cast<unsigned char>(0));
             std::copy_n(bytes.begin(), std::min(bytes.size(), static_cast<std::size_t>(size)), data);

@@ -5,12 +5,12 @@
 
 namespace {
 
-/// A stick that is led round once in ten seconds, and `Buttons` buttons of which one at a time is held for a
-/// second.
+/// A stick that is moved round its circle once in ten seconds (x and y from -1 to 1), and `Buttons` buttons, which
+/// are pressed one after the other, a second each.
 class SimulatedJoystick : public tandem::devices::SimulatedDevice<Joystick> {
   public:
     int GetJoystickData(JoystickData& data) override {
-        return serve([&](double seconds, double) {
+        return perform([&](double seconds, double) {
             data.x = std::cos(0.2 * M_PI * seconds);
             data.y = std::sin(0.2 * M_PI * seconds);
             data.z = 0;
@@ -20,7 +20,7 @@ class SimulatedJoystick : public tandem::devices::SimulatedDevice<Joystick> {
     }
 
   protected:
-    void configure() override { buttons_ = count("Buttons", 8); }
+    void configure() override { buttons_ = count_parameter("Buttons", 8); }
 
   private:
     int buttons_ = 8;

@@ -8,39 +8,42 @@
 
 namespace tandem::devices {
 
-/// A line that is looped back: what is written can be read, up to 1 MB. Read() returns how many bytes it has
-/// given.
+/// A byte stream that is looped back: what is written can be read, the newest 1 MiB of it. For the device classes
+/// Socket, Uart and Usb.
 template <typename Class>
 class SimulatedBus : public SimulatedDevice<Class> {
   public:
+    /// Returns `size`, or API_ERROR.
     int Write(unsigned char* data, int size) override {
         if (!data || size < 0) return API_ERROR;
-        const int result = this->serve([&](double, double) { put(data, size); });
+        const int result = this->perform([&] { append(data, size); });
         return result == API_SUCCESS ? size : result;
     }
+    /// Never waits. Returns how many bytes there were, at most `size`, or API_ERROR.
     int Read(unsigned char* data, int size) override {
         if (!data || size < 0) return API_ERROR;
-        int given = 0;
-        const int result = this->serve([&](double, double) { given = take(data, size); });
-        return result == API_SUCCESS ? given : result;
+        int count = 0;
+        const int result = this->perform([&] { count = remove_front(data, size); });
+        return result == API_SUCCESS ? count : result;
     }
 
   private:
-    static constexpr std::size_t most = 1 << 20;
+    // A component that writes and never reads must not fill the memory.
+    static constexpr std::size_t max_bytes = 1 << 20;
 
-    void put(const unsigned char* data, int size) {
-        line_.insert(line_.end(), data, data + size);
-        while (line_.size() > most) line_.pop_front();
+    void append(const unsigned char* data, int size) {
+        bytes_.insert(bytes_.end(), data, data + size);
+        while (bytes_.size() > max_bytes) bytes_.pop_front();
     }
-    int take(unsigned char* data, int size) {
-        const auto count = std::min(line_.size(), static_cast<std::size_t>(size));
-        const auto end = line_.begin() + static_cast<std::ptrdiff_t>(count);
-        std::copy(line_.begin(), end, data);
-        line_.erase(line_.begin(), end);
+    int remove_front(unsigned char* data, int size) {
+        const auto count = std::min(bytes_.size(), static_cast<std::size_t>(size));
+        const auto end = bytes_.begin() + static_cast<std::ptrdiff_t>(count);
+        std::copy(bytes_.begin(), end, data);
+        bytes_.erase(bytes_.begin(), end);
         return static_cast<int>(count);
     }
 
-    std::deque<unsigned char> line_;
+    std::deque<unsigned char> bytes_;
 };
 
 } // namespace tandem::devices

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Inputs and outputs of a digital or analog card, for the device classes AnalogIo, DigitalIo and AnalogDigitalIo.
+// Each output is wired to the input of the same number; before any output is set, there is one input, at rest.
 #pragma once
 
 #include "plugins/devices/simulated_device.hpp"
@@ -7,38 +9,35 @@
 
 namespace tandem::devices {
 
-/// Outputs that are wired to the inputs. Before anything is set, there is one input, at rest.
-template <typename Value>
-struct LoopedBack {
-    std::vector<Value> values = std::vector<Value>(1);
-};
-
+/// Adds the analog functions to `Class`, a SimulatedDevice.
 template <typename Class>
 class SimulatedAnalog : public Class {
   public:
     int SetAnalogOutputData(std::vector<double> outputs) override {
-        return this->serve([&](double, double) { wires_.values = outputs; });
+        return this->perform([&] { volts_ = outputs; });
     }
     int GetAnalogInputData(std::vector<double>& inputs) override {
-        return this->serve([&](double, double) { inputs = wires_.values; });
+        return this->perform([&] { inputs = volts_; });
     }
 
   private:
-    LoopedBack<double> wires_;
+    std::vector<double> volts_ = std::vector<double>(1);
 };
 
+/// Adds the digital functions to `Class`, a SimulatedDevice.
 template <typename Class>
 class SimulatedDigital : public Class {
   public:
     int SetDigitalOutputData(std::vector<bool> outputs) override {
-        return this->serve([&](double, double) { wires_.values = outputs; });
+        return this->perform([&] { levels_ = outputs; });
     }
+    /// OPRoS spells it so.
     int GetDigitalnputData(std::vector<bool>& inputs) override {
-        return this->serve([&](double, double) { inputs = wires_.values; });
+        return this->perform([&] { inputs = levels_; });
     }
 
   private:
-    LoopedBack<bool> wires_;
+    std::vector<bool> levels_ = std::vector<bool>(1);
 };
 
 } // namespace tandem::devices

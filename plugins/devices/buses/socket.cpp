@@ -3,8 +3,4 @@
 
 #include <device/Socket.h>
 
-namespace {
-class SimulatedSocket : public tandem::devices::SimulatedBus<Socket> {};
-} // namespace
-
-TANDEM_DEVICE(SimulatedSocket)
+TANDEM_DEVICE(tandem::devices::SimulatedBus<Socket>)

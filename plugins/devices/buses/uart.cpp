@@ -3,8 +3,4 @@
 
 #include <device/Uart.h>
 
-namespace {
-class SimulatedUart : public tandem::devices::SimulatedBus<Uart> {};
-} // namespace
-
-TANDEM_DEVICE(SimulatedUart)
+TANDEM_DEVICE(tandem::devices::SimulatedBus<Uart>)

@@ -3,8 +3,4 @@
 
 #include <device/Usb.h>
 
-namespace {
-class SimulatedUsb : public tandem::devices::SimulatedBus<Usb> {};
-} // namespace
-
-TANDEM_DEVICE(SimulatedUsb)
+TANDEM_DEVICE(tandem::devices::SimulatedBus<Usb>)

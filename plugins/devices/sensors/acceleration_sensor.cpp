@@ -3,15 +3,9 @@
 
 #include <device/AccelerationSensor.h>
 
-namespace {
+/// Gravity on each third channel, a slow shaking on the others; m/s^2.
+static double acceleration(int channel, double seconds) {
+    return channel % 3 == 2 ? 9.81 : 0.5 * tandem::devices::sine(channel, seconds);
+}
 
-/// Gravity on the third axis, some shaking on the others; m/s^2.
-class SimulatedAccelerationSensor : public tandem::devices::SimulatedSensor<AccelerationSensor, double> {
-    double at(int channel, double seconds) override {
-        return channel % 3 == 2 ? 9.81 : 0.5 * wave(channel, seconds);
-    }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedAccelerationSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<AccelerationSensor, double, acceleration>)

@@ -3,13 +3,7 @@
 
 #include <device/BumperSensor.h>
 
-namespace {
+/// Touched for 1.4 s in every 10.
+static bool is_touched(int channel, double seconds) { return tandem::devices::sine(channel, seconds) > 0.9; }
 
-/// Now and then a touch.
-class SimulatedBumperSensor : public tandem::devices::SimulatedSensor<BumperSensor, bool> {
-    bool at(int channel, double seconds) override { return wave(channel, seconds) > 0.9; }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedBumperSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<BumperSensor, bool, is_touched>)

@@ -6,17 +6,21 @@
 
 namespace {
 
-/// A test picture of the size that the component asks for.
+/// A test picture of the size that the component asks for: `Width`, `Height`, `PixelBytes`.
 class SimulatedCamera : public tandem::devices::SimulatedDevice<Camera> {
   public:
+    /// The component has allocated the picture by the same properties.
     int GetImage(unsigned char* image) override {
         if (!image) return API_ERROR;
-        return serve(
+        return perform(
             [&](double seconds, double) { tandem::devices::draw_test_picture(image, size_, seconds); });
     }
 
   protected:
-    void configure() override { size_ = {count("Width", 320), count("Height", 240), count("PixelBytes", 3)}; }
+    void configure() override {
+        size_ = {count_parameter("Width", 320), count_parameter("Height", 240),
+                 count_parameter("PixelBytes", 3)};
+    }
 
   private:
     tandem::devices::PictureSize size_{320, 240, 3};

@@ -3,13 +3,7 @@
 
 #include <device/Encoder.h>
 
-namespace {
+/// Shafts that turn at 1 rad/s, each 1 rad ahead of the one before; rad.
+static double shaft_angle(int channel, double seconds) { return seconds + channel; }
 
-/// Shafts that turn at 1 rad/s; rad.
-class SimulatedEncoder : public tandem::devices::SimulatedSensor<Encoder, double> {
-    double at(int channel, double seconds) override { return seconds + channel; }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedEncoder)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<Encoder, double, shaft_angle>)

@@ -3,13 +3,7 @@
 
 #include <device/ForceSensor.h>
 
-namespace {
+/// Up to 10 N in both directions.
+static double force(int channel, double seconds) { return 10 * tandem::devices::sine(channel, seconds); }
 
-/// Up to 10 N either way.
-class SimulatedForceSensor : public tandem::devices::SimulatedSensor<ForceSensor, double> {
-    double at(int channel, double seconds) override { return 10 * wave(channel, seconds); }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedForceSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<ForceSensor, double, force>)

@@ -3,16 +3,10 @@
 
 #include <device/ForceTorqueSensor.h>
 
-namespace {
-
 /// A load of 10 N that swings; N, Nm.
-class SimulatedForceTorqueSensor
-    : public tandem::devices::SimulatedSensor<ForceTorqueSensor, ForceTorqueSensorData> {
-    ForceTorqueSensorData at(int channel, double seconds) override {
-        return ForceTorqueSensorData(wave(channel, seconds), 0, 10, 0, 0, 0.1 * wave(channel, seconds));
-    }
-};
+static ForceTorqueSensorData load(int channel, double seconds) {
+    const double swing = tandem::devices::sine(channel, seconds);
+    return ForceTorqueSensorData(swing, 0, 10, 0, 0, 0.1 * swing);
+}
 
-} // namespace
-
-TANDEM_DEVICE(SimulatedForceTorqueSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<ForceTorqueSensor, ForceTorqueSensorData, load>)

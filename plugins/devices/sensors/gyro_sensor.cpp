@@ -5,9 +5,10 @@
 
 namespace {
 
-/// Turns to and fro; rad.
+/// Turns to and fro by 1 rad; rad.
 class SimulatedGyroSensor : public tandem::devices::SimulatedSensor<GyroSensor, ObjectRotation> {
   public:
+    /// The name and the type of OPRoS v1 for the same values.
     int GetGyroSensorData(std::vector<ObjectLocation>& values) override {
         std::vector<ObjectRotation> rotations;
         const int result = GetSensorValue(rotations);
@@ -17,8 +18,8 @@ class SimulatedGyroSensor : public tandem::devices::SimulatedSensor<GyroSensor, 
     }
 
   protected:
-    ObjectRotation at(int channel, double seconds) override {
-        return ObjectRotation(0, 0, wave(channel, seconds));
+    ObjectRotation value_at(int channel, double seconds) override {
+        return ObjectRotation(0, 0, tandem::devices::sine(channel, seconds));
     }
 };
 

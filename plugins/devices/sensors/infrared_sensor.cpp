@@ -3,13 +3,9 @@
 
 #include <device/InfraredSensor.h>
 
-namespace {
+/// The distance of an object between 0.2 and 0.8 m.
+static double distance(int channel, double seconds) {
+    return 0.5 + 0.3 * tandem::devices::sine(channel, seconds);
+}
 
-/// Things 0.2 to 0.8 m away.
-class SimulatedInfraredSensor : public tandem::devices::SimulatedSensor<InfraredSensor, double> {
-    double at(int channel, double seconds) override { return 0.5 + 0.3 * wave(channel, seconds); }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedInfraredSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<InfraredSensor, double, distance>)

@@ -6,23 +6,24 @@
 
 namespace {
 
-/// Stands in the middle of a square room of 4 m: `ScanPoints` distances from `StartAngle` on, `DeltaAngle`
-/// apart; m, rad.
+/// Stands in the middle of a square room with sides of 4 m: `ScanPoints` distances, the first in the direction
+/// `StartAngle`, each next one `DeltaAngle` further; m, rad.
 class SimulatedLaserScanner : public tandem::devices::SimulatedSensor<LaserScanner, double> {
   protected:
     void configure() override {
         SimulatedSensor::configure();
-        start_ = number("StartAngle", -M_PI / 2);
-        delta_ = number("DeltaAngle", M_PI / 180);
+        start_angle_ = number_parameter("StartAngle", -M_PI / 2);
+        delta_angle_ = number_parameter("DeltaAngle", M_PI / 180);
     }
-    int channels() override { return count("ScanPoints", 181); }
-    double at(int channel, double) override {
-        const double angle = start_ + channel * delta_;
+    int configured_channels() override { return count_parameter("ScanPoints", 181); }
+    double value_at(int channel, double) override {
+        const double angle = start_angle_ + channel * delta_angle_;
+        // The nearer of the two walls that the beam's line crosses, each 2 m from the middle.
         return 2 / std::max(std::fabs(std::cos(angle)), std::fabs(std::sin(angle)));
     }
 
   private:
-    double start_ = 0, delta_ = 0;
+    double start_angle_ = 0, delta_angle_ = 0;
 };
 
 } // namespace

@@ -8,28 +8,28 @@
 
 namespace {
 
-/// `Count` test pictures of the sizes `Width0`, `Height0`, `PixelBytes0`, `Width1` and so on.
+/// `Count` test pictures, the first of the size `Width0`, `Height0`, `PixelBytes0`, the second of `Width1`, ...
 class SimulatedMultiCamera : public tandem::devices::SimulatedDevice<MultiCamera> {
   public:
     int GetImage(unsigned char* image) override { return GetImage(0, image); }
     int GetImage(int index, unsigned char* image) override {
         if (!image || index < 0) return API_ERROR;
-        bool there = false;
-        const int result = serve([&](double seconds, double) {
-            there = static_cast<std::size_t>(index) < sizes_.size();
-            if (there)
+        bool exists = false;
+        const int result = perform([&](double seconds, double) {
+            exists = static_cast<std::size_t>(index) < sizes_.size();
+            if (exists)
                 tandem::devices::draw_test_picture(image, sizes_[static_cast<std::size_t>(index)], seconds);
         });
-        return there ? result : API_ERROR;
+        return exists ? result : API_ERROR;
     }
 
   protected:
     void configure() override {
         sizes_.clear();
-        for (int i = 0; i < count("Count", 1); ++i) {
+        for (int i = 0; i < count_parameter("Count", 1); ++i) {
             const std::string number = std::to_string(i);
-            sizes_.push_back({count(("Width" + number).c_str(), 320), count(("Height" + number).c_str(), 240),
-                              count(("PixelBytes" + number).c_str(), 3)});
+            sizes_.push_back({count_parameter("Width" + number, 320), count_parameter("Height" + number, 240),
+                              count_parameter("PixelBytes" + number, 3)});
         }
     }
 

@@ -3,16 +3,10 @@
 
 #include <device/PositionSensor.h>
 
-namespace {
+/// Drives on a circle of radius 1 m, once in 10 s, and looks ahead; m, rad. Channels differ in their heading.
+static ObjectPosition position(int channel, double seconds) {
+    const double angle = 0.2 * M_PI * seconds;
+    return ObjectPosition(std::cos(angle), std::sin(angle), 0, 0, 0, angle + M_PI / 2 + channel);
+}
 
-/// Drives round a circle of 1 m; m, rad.
-class SimulatedPositionSensor : public tandem::devices::SimulatedSensor<PositionSensor, ObjectPosition> {
-    ObjectPosition at(int channel, double seconds) override {
-        return ObjectPosition(std::cos(0.2 * M_PI * seconds), std::sin(0.2 * M_PI * seconds), 0, 0, 0,
-                              0.2 * M_PI * seconds + M_PI / 2 + channel);
-    }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedPositionSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<PositionSensor, ObjectPosition, position>)

@@ -1,33 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
+// The classes of sensors whose value is a list with one entry for each channel.
 #pragma once
 
 #include "plugins/devices/simulated_device.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace tandem::devices {
 
-/// A sensor of `Size` channels, each a function of time.
+/// A sine of amplitude 1 and a period of 10 s; each channel is 1 rad ahead of the one before. Most sensors
+/// scale it: slow enough to be seen in a plot, and never the same on two channels.
+inline double sine(int channel, double seconds) { return std::sin(0.2 * M_PI * seconds + channel); }
+
+/// A sensor of `Size` channels, whose values are functions of time. `Class` has GetSensorValue(vector<Value>&).
 template <typename Class, typename Value>
 class SimulatedSensor : public SimulatedDevice<Class> {
   public:
     int GetSensorValue(std::vector<Value>& values) override {
-        return this->serve([&](double seconds, double) {
+        return this->perform([&](double seconds, double) {
             values.clear();
-            for (int i = 0; i < channels_; ++i) values.push_back(at(i, seconds));
+            for (int i = 0; i < channels_; ++i) values.push_back(value_at(i, seconds));
         });
     }
 
   protected:
-    virtual Value at(int channel, double seconds) = 0;
-    virtual int channels() { return this->count("Size", 1); }
-    void configure() override { channels_ = channels(); }
-
-    /// Between -1 and 1 once in ten seconds, each channel a bit later than the one before.
-    static double wave(int channel, double seconds) { return std::sin(0.2 * M_PI * seconds + channel); }
+    /// [lock held] The value of a channel, counted from 0, so many seconds after Initialize().
+    virtual Value value_at(int channel, double seconds) = 0;
+    /// The number of channels, from the parameters.
+    virtual int configured_channels() { return this->count_parameter("Size", 1); }
+    void configure() override { channels_ = configured_channels(); }
 
   private:
     int channels_ = 1;
+};
+
+/// A sensor that is no more than a function of channel and time: most of them.
+template <typename Class, typename Value, Value (*function)(int channel, double seconds)>
+class FunctionSensor : public SimulatedSensor<Class, Value> {
+    Value value_at(int channel, double seconds) override { return function(channel, seconds); }
 };
 
 } // namespace tandem::devices

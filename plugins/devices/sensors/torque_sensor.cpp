@@ -3,13 +3,7 @@
 
 #include <device/TorqueSensor.h>
 
-namespace {
+/// Up to 1 Nm in both directions.
+static double torque(int channel, double seconds) { return tandem::devices::sine(channel, seconds); }
 
-/// Up to 1 Nm either way.
-class SimulatedTorqueSensor : public tandem::devices::SimulatedSensor<TorqueSensor, double> {
-    double at(int channel, double seconds) override { return wave(channel, seconds); }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedTorqueSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<TorqueSensor, double, torque>)

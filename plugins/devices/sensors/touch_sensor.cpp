@@ -3,13 +3,7 @@
 
 #include <device/TouchSensor.h>
 
-namespace {
+/// Touched for 1.4 s in every 10.
+static bool is_touched(int channel, double seconds) { return tandem::devices::sine(channel, seconds) > 0.9; }
 
-/// Now and then a touch.
-class SimulatedTouchSensor : public tandem::devices::SimulatedSensor<TouchSensor, bool> {
-    bool at(int channel, double seconds) override { return wave(channel, seconds) > 0.9; }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedTouchSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<TouchSensor, bool, is_touched>)

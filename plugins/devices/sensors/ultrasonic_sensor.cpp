@@ -3,13 +3,7 @@
 
 #include <device/UltrasonicSensor.h>
 
-namespace {
+/// The distance of an object between 1 and 3 m.
+static double distance(int channel, double seconds) { return 2 + tandem::devices::sine(channel, seconds); }
 
-/// Things 1 to 3 m away.
-class SimulatedUltrasonicSensor : public tandem::devices::SimulatedSensor<UltrasonicSensor, double> {
-    double at(int channel, double seconds) override { return 2 + wave(channel, seconds); }
-};
-
-} // namespace
-
-TANDEM_DEVICE(SimulatedUltrasonicSensor)
+TANDEM_DEVICE(tandem::devices::FunctionSensor<UltrasonicSensor, double, distance>)

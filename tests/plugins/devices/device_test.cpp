@@ -54,7 +54,7 @@ class DeviceUnderTest {
 
 } // namespace
 
-TEST_CASE("every device library gives a device that lives through its states") {
+TEST_CASE("every device library creates a device that goes through its states") {
     int devices = 0;
     for (const auto& entry : std::filesystem::directory_iterator(DEVICES)) {
         const std::string name = entry.path().stem();
@@ -76,9 +76,9 @@ TEST_CASE("every device library gives a device that lives through its states") {
         CHECK(device->Initialize(given) == API_SUCCESS);
         CHECK(device->Enable() == API_SUCCESS);
         CHECK(device->OnExecute() == API_SUCCESS);
-        Property told;
-        CHECK(device->GetParameter(told) == API_SUCCESS);
-        CHECK(told.GetValue("Size") == "2");
+        Property read_back;
+        CHECK(device->GetParameter(read_back) == API_SUCCESS);
+        CHECK(read_back.GetValue("Size") == "2");
         CHECK(device->Disable() == API_SUCCESS);
         CHECK(device->Finalize() == API_SUCCESS);
         CHECK(device->Enable() == API_ERROR);
@@ -88,7 +88,7 @@ TEST_CASE("every device library gives a device that lives through its states") {
     CHECK(devices >= 60);
 }
 
-TEST_CASE("a sensor has as many channels as it is told and answers to both its names") {
+TEST_CASE("a sensor has as many channels as its parameter Size and both names of its function") {
     DeviceUnderTest<PositionSensor> sensor("PositionSensorApi", {{"Size", "3"}});
     std::vector<ObjectPosition> values;
     REQUIRE(sensor->GetSensorValue(values) == API_SUCCESS);
@@ -126,7 +126,7 @@ TEST_CASE("a laser scanner in a square room measures its walls") {
     CHECK(ranges[2] == Approx(2));
 }
 
-TEST_CASE("a base goes where it is driven") {
+TEST_CASE("a base moves as it is driven") {
     DeviceUnderTest<WheelController> base("WheelControllerApi");
     ObjectLocation here;
     bool running = true;
@@ -215,7 +215,7 @@ TEST_CASE("outputs come back as inputs") {
     CHECK(digital == std::vector<bool>{true, false, true});
 }
 
-TEST_CASE("cameras fill a picture of the size asked for and nothing behind it") {
+TEST_CASE("cameras fill a picture of the configured size and nothing behind it") {
     DeviceUnderTest<MultiCamera> cameras(
         "MultiCameraApi", {{"Count", "2"}, {"Width1", "4"}, {"Height1", "2"}, {"PixelBytes1", "1"}});
     std::vector<unsigned char> picture(9, 255);
@@ -226,7 +226,7 @@ TEST_CASE("cameras fill a picture of the size asked for and nothing behind it") 
     CHECK(cameras->GetImage(2, picture.data()) == API_ERROR);
 }
 
-TEST_CASE("the other devices answer") {
+TEST_CASE("the other devices give values") {
     double value = 0;
     std::vector<double> cells;
     DeviceUnderTest<BatteryManagementSystem> battery("BatteryManagementSystemApi", {{"CellCount", "3"}});
