@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/harness/forked_children.hpp"
 #include "apps/bench/options.hpp"
+#include "apps/bench/report/acceptance.hpp"
 #include "apps/bench/report/compare.hpp"
 #include "apps/bench/report/html.hpp"
 #include "apps/bench/report/table.hpp"
@@ -15,6 +17,7 @@ namespace {
 
 using namespace tandem::bench;
 
+/// Throws std::runtime_error, after closing: a full disk shows then.
 void write_file(const std::string& path, const std::string& text) {
     std::ofstream file(path);
     file << text;
@@ -28,7 +31,7 @@ std::string read_file(const std::string& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-Report old_report(const std::string& path) {
+Report read_report(const std::string& path) {
     try {
         return from_json(read_file(path));
     } catch (const std::runtime_error& failure) {
@@ -36,54 +39,61 @@ Report old_report(const std::string& path) {
     }
 }
 
+/// The limits that this build can check: a peer without cases has none.
 std::vector<AcceptanceLimit> limits_for(const Registry& registry) {
     std::vector<std::string> ids;
     for (const Case& entry : registry.cases) ids.push_back(entry.id());
     return acceptance_limits(ids);
 }
 
-Plan plan_of(const Options& options, const Registry& registry, const std::vector<AcceptanceLimit>& bar) {
+/// With --acceptance and no --only, the cases that the limits refer to and no others.
+Plan plan_of(const Options& options, const Registry& registry, const std::vector<AcceptanceLimit>& limits) {
     Plan plan;
     plan.cases = selected(registry.cases, options.only);
-    if (options.bar && options.only.empty())
-        std::erase_if(plan.cases, [&](const Case& entry) { return !needed_for_acceptance(bar, entry.id()); });
+    if (options.acceptance && options.only.empty())
+        std::erase_if(plan.cases,
+                      [&](const Case& entry) { return !needed_for_acceptance(limits, entry.id()); });
     if (plan.cases.empty())
         throw std::runtime_error(
-            fmt::format("--only {}: no case's name contains that; see --list", options.only));
+            fmt::format("--only {}: no case has a name that contains it; see --list", options.only));
     plan.skipped = registry.skipped;
     plan.budget = budget_of(options);
     plan.cores = cores_of(options);
-    plan.runs = options.runs > 0 ? options.runs : options.bar ? 5 : 1;
+    plan.runs = options.runs > 0 ? options.runs : options.acceptance ? 5 : 1;
     plan.progress = !options.quiet && isatty(STDERR_FILENO) != 0;
     return plan;
 }
 
+/// --list.
 int list(const Options& options, const Registry& registry) {
     for (const Case& entry : selected(registry.cases, options.only)) fmt::print("{}\n", entry.id());
-    for (const Skipped& skipped : registry.skipped)
+    for (const SkippedPeer& skipped : registry.skipped)
         fmt::print("skipped {}: {}\n", skipped.subject, skipped.reason);
     return 0;
 }
 
+/// The exit code: 1 if an acceptance limit is not met, 130 (as after SIGINT) if interrupted.
 int run(const Options& options) {
     const Registry registry = all_cases();
+    // --list measures nothing and needs no privileges.
     if (options.list) return list(options, registry);
-    const auto bar = limits_for(registry);
-    const Plan plan = plan_of(options, registry, bar);
-    const Report old = options.compare.empty() ? Report{} : old_report(options.compare);
+    const auto limits = limits_for(registry);
+    const Plan plan = plan_of(options, registry, limits);
+    const Report before = options.compare.empty() ? Report{} : read_report(options.compare);
+    // Before the first fork: children inherit the calibrated clock.
     catch_interrupts();
     Clock::calibrate();
     const Report report = measure(plan);
-    const auto verdict = options.bar ? check_acceptance(bar, report) : std::vector<AcceptanceResult>{};
+    const auto results =
+        options.acceptance ? check_acceptance(limits, report) : std::vector<AcceptanceResult>{};
     fmt::print("{}", table_text(report));
-    if (options.bar) fmt::print("\n{}", acceptance_text(verdict));
-    if (!options.compare.empty()) fmt::print("\n{}", compare_text(old, report));
+    if (options.acceptance) fmt::print("\n{}", acceptance_text(results));
+    if (!options.compare.empty()) fmt::print("\n{}", compare_text(before, report));
     if (!options.json.empty()) write_file(options.json, to_json(report));
-    if (!options.html.empty()) write_file(options.html, html_page(report, verdict));
+    if (!options.html.empty()) write_file(options.html, html_page(report, results));
     if (interrupted()) return 130;
-    const bool failed = std::any_of(verdict.begin(), verdict.end(), [](const AcceptanceResult& entry) {
-        return entry.missing.empty() && !entry.pass();
-    });
+    const bool failed = std::any_of(results.begin(), results.end(),
+                                    [](const AcceptanceResult& result) { return result.failed(); });
     return failed ? 1 : 0;
 }
 

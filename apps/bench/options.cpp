@@ -9,30 +9,39 @@ namespace tandem::bench {
 
 Options read_options(int argc, char** argv, int& exit_code) {
     Options options;
-    CLI::App app("Latency and throughput of Tandem's shared memory, of the machine's floor, and of peers.");
+    CLI::App app("Latency and throughput of Tandem, of the machine's own limits (baseline), and of other "
+                 "middleware (peers).");
     app.set_version_flag("--version", std::string("tandem-bench ") + version);
-    app.add_flag("--list", options.list, "Name the cases and stop");
-    app.add_option("--only", options.only, "Cases whose name contains one of these words, comma-separated");
+    app.add_flag("--list", options.list, "Print the names of the cases and stop");
+    app.add_option("--only", options.only,
+                   "Measure the cases whose name contains one of these words, comma-separated");
     app.add_flag("--quick", options.quick, "Few samples: seconds instead of minutes, rough figures");
-    app.add_option("--runs", options.runs, "Median of so many runs (default 1; with --bar 5)")
+    app.add_option("--runs", options.runs,
+                   "Measure everything N times and report the median (default 1; with --acceptance 5)")
         ->check(CLI::Range(1, 100));
-    app.add_option("--cores", options.cores, "Cores of A and B")->delimiter(',')->expected(1, 2);
+    app.add_option("--cores", options.cores, "Cores of the two sides of a case, A,B (default: the first two)")
+        ->delimiter(',')
+        ->expected(1, 2);
     app.add_option("--json", options.json, "Write the report as JSON");
     app.add_option("--html", options.html, "Write the report as one HTML page with plots");
     app.add_option("--compare", options.compare, "Show what changed since this JSON report");
-    app.add_flag("--bar", options.bar, "Measure what the bar asks for, and print ratio, bound, pass or FAIL");
+    // --bar is the former name of the option; scripts may still use it.
+    app.add_flag("--acceptance,--bar", options.acceptance,
+                 "Measure the cases with acceptance limits, and print value, limit, pass or FAIL");
     app.add_flag("--quiet", options.quiet, "No progress on stderr");
+    // CLI11 reports errors and --help by exceptions; exit() prints them.
     exit_code = -1;
     try {
         app.parse(argc, argv);
-    } catch (const CLI::ParseError& end) {
-        exit_code = app.exit(end);
+    } catch (const CLI::ParseError& error) { // or a request for help
+        exit_code = app.exit(error);
     }
     return options;
 }
 
 Budget budget_of(const Options& options) {
     Budget budget;
+    // About a tenth of everything: enough to see that a case works, not to compare two versions.
     if (options.quick) {
         budget.warm_up = 2'000;
         budget.samples = 5'000;

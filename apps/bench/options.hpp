@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The command line of tandem-bench.
 #pragma once
 #include "apps/bench/suite.hpp"
 
@@ -6,17 +7,19 @@ namespace tandem::bench {
 
 struct Options {
     std::string only, json, html, compare;
-    bool list = false, quick = false, bar = false, quiet = false;
-    int runs = 0; ///< 0: one, or five with --bar
-    std::vector<int> cores;
+    bool list = false, quick = false, acceptance = false, quiet = false;
+    int runs = 0;           ///< 0: one, or five with --acceptance
+    std::vector<int> cores; ///< of A and B; empty: the first two that are allowed
 };
 
-/// Reads the command line; prints help or the error and sets `exit_code` if the program is to end.
+/// Reads the command line. If the program is to end, it has printed help or the error, and exit_code is not -1.
 Options read_options(int argc, char** argv, int& exit_code);
 
+/// Of a case: for seconds with --quick, else for minutes.
 Budget budget_of(const Options& options);
 
-/// Two cores of those that this process may use: the ones asked for, or the first two, or one twice.
+/// Two of the cores that this process may use: those of --cores, or the first two, or the only one twice. Throws
+/// std::runtime_error if --cores names another.
 Cores cores_of(const Options& options);
 
 } // namespace tandem::bench

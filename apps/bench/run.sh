@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs what is missing, the peers of apps/bench/peers/peers.txt too if it can, builds, measures, writes the report.
 #   apps/bench/run.sh [--out FOLDER] [options of build/release/bin/tandem-bench]
-# FOLDER (build/bench) gets report.json and report.html. With --bar the exit code says whether every line held.
+# FOLDER (build/bench) gets report.json and report.html. With --acceptance the exit code is 1 if a limit is not met.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../setup.sh"
 
@@ -17,7 +17,7 @@ while [ $# -gt 0 ]; do
 done
 called_from=$PWD
 
-# A peer is worth a try, no more: each is installed on its own, and named if that fails.
+# Peers are optional: each is installed on its own, and one that cannot be installed is named and left out.
 install_peers() {
     local sudo=() package updated=no
     if [ "$(id -u)" -ne 0 ]; then sudo=(sudo -n); fi
@@ -29,7 +29,7 @@ install_peers() {
             apt-get install -y -qq --no-install-recommends "$package" >/dev/null 2>&1; then
             say "installed the peer $package"
         else
-            say "going without the peer $package: it could not be installed"
+            say "without the peer $package: it could not be installed"
         fi
     done < "$root/apps/bench/peers/peers.txt"
 }

@@ -2,6 +2,8 @@
 #include "apps/bench/suite.hpp"
 
 #include "apps/bench/harness/daemon.hpp"
+#include "apps/bench/harness/forked_children.hpp"
+#include "apps/bench/harness/machine_conditions.hpp"
 
 #include <fmt/format.h>
 
@@ -19,11 +21,13 @@ namespace tandem::bench {
 
 namespace {
 
+/// As the report shows them: "0", or "0,1".
 std::string cores_text(const Case& bench_case, const Cores& cores) {
     if (bench_case.placement == Placement::alone) return std::to_string(cores.a);
-    return fmt::format("{},{}", cores.a, bench_case.regime == Regime::same_core ? cores.a : cores.b);
+    return fmt::format("{},{}", cores.a, bench_case.placement == Placement::same_core ? cores.a : cores.b);
 }
 
+/// What is known of a row before it is measured.
 Row empty_row(const Case& bench_case, const Cores& cores) {
     Row row;
     row.id = bench_case.id();
@@ -32,22 +36,23 @@ Row empty_row(const Case& bench_case, const Cores& cores) {
     row.operation = bench_case.operation;
     row.bytes = bench_case.bytes;
     row.wake = name_of(bench_case.wake);
-    row.regime = name_of(bench_case.regime);
+    row.conditions = bench_case.conditions();
+    row.power_profile = name_of(bench_case.power_profile);
     row.placement = name_of(bench_case.placement);
+    row.loaded = bench_case.loaded;
     row.detail = bench_case.detail;
     row.unit = name_of(bench_case.unit);
     row.cores = cores_text(bench_case, cores);
     return row;
 }
 
-constexpr double max_foreign_cpu_share = 0.02; // of the machine: then the case was disturbed
-
-/// Repeated after a pause while others use the machine; the least disturbed attempt counts.
+/// Repeats a case, after a pause, while other processes disturb it; the least disturbed attempt counts.
 Outcome measure_undisturbed(const Case& bench_case, const Plan& plan) {
     Outcome best = run_case(bench_case, plan.budget, plan.cores);
     const int attempts =
-        bench_case.extra_seconds > 0 ? 1 : plan.budget.attempts; // such a case averages by itself
-    for (int i = 1; i < attempts && best.foreign_cpu_share > max_foreign_cpu_share && !interrupted(); ++i) {
+        bench_case.extra_seconds > 0 ? 1 : plan.budget.attempts; // a long case averages disturbances out
+    for (int i = 1; i < attempts && best.foreign_cpu_share > Row::max_foreign_cpu_share && !interrupted();
+         ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
         Outcome again = run_case(bench_case, plan.budget, plan.cores);
         if (again.failure.empty() &&
@@ -57,13 +62,13 @@ Outcome measure_undisturbed(const Case& bench_case, const Plan& plan) {
     return best;
 }
 
-/// One case of one run; what failed stands in the outcome.
+/// One case of one run. A failure is in the outcome, so that the other cases go on.
 Outcome measure_once(const Case& bench_case, const Plan& plan) {
     Outcome outcome;
     outcome.failure = unmet_requirement(bench_case, plan.cores);
     if (!outcome.failure.empty()) return outcome;
     try {
-        const Daemon service(bench_case.service);
+        const Daemon daemon(bench_case.daemon);
         return measure_undisturbed(bench_case, plan);
     } catch (const std::exception& failure) {
         outcome.failure = failure.what();
@@ -71,6 +76,37 @@ Outcome measure_once(const Case& bench_case, const Plan& plan) {
     return outcome;
 }
 
+/// What the runs of a case have brought so far.
+struct RowRuns {
+    std::vector<Summary> summaries;
+    std::string failure; ///< of the last run that failed
+};
+
+void add_run(Row& row, RowRuns& runs, Outcome outcome) {
+    if (!outcome.failure.empty()) {
+        runs.failure = outcome.failure;
+        row.runs.push_back(NAN); // keeps the place: ratios are formed run by run
+        return;
+    }
+    runs.summaries.push_back(summarize(std::move(outcome.samples)));
+    row.runs.push_back(runs.summaries.back().p50);
+    row.foreign_cpu_share = std::max(row.foreign_cpu_share, outcome.foreign_cpu_share);
+    if (!outcome.tick_counts) return;
+    if (!row.tick_counts) row.tick_counts.emplace();
+    row.tick_counts->add(*outcome.tick_counts);
+}
+
+/// A row without figures, under the name that all cases of the peer begin with.
+Row skipped_row(const SkippedPeer& peer) {
+    Row row;
+    row.id = "peer/" + peer.subject;
+    row.group = "peer";
+    row.subject = peer.subject;
+    row.skipped = peer.reason;
+    return row;
+}
+
+/// Sums the runs up. A case without a single good run is skipped, with the reason of the last.
 void finish_row(Row& row, const std::vector<Summary>& summaries, const std::string& failure) {
     row.summary = median_of(summaries);
     if (summaries.empty()) row.skipped = failure.empty() ? "not measured" : failure;
@@ -82,6 +118,7 @@ std::vector<Case> selected(const std::vector<Case>& cases, const std::string& pa
     if (patterns.empty()) return cases;
     std::vector<Case> out;
     for (const Case& entry : cases) {
+        // Several patterns select their union; an empty one, as after a last comma, selects nothing.
         std::istringstream list(patterns);
         for (std::string pattern; std::getline(list, pattern, ',');)
             if (!pattern.empty() && entry.id().find(pattern) != std::string::npos) {
@@ -92,6 +129,7 @@ std::vector<Case> selected(const std::vector<Case>& cases, const std::string& pa
     return out;
 }
 
+// The processor's name is what /proc/cpuinfo says; of some processors it says none.
 Machine this_machine() {
     Machine machine;
     utsname name{};
@@ -112,41 +150,20 @@ Machine this_machine() {
 Report measure(const Plan& plan) {
     Report report;
     report.machine = this_machine();
-    std::vector<std::vector<Summary>> summaries(plan.cases.size());
-    std::vector<std::string> failures(plan.cases.size());
     for (const Case& entry : plan.cases) report.rows.push_back(empty_row(entry, plan.cores));
+    std::vector<RowRuns> runs(plan.cases.size());
     for (int run = 0; run < plan.runs; ++run) {
         for (std::size_t i = 0; i < plan.cases.size() && !interrupted(); ++i) {
-            if (plan.progress)
+            if (plan.progress) // \r and "erase line": one line that is overwritten
                 fmt::print(stderr, "\r\033[K[run {}/{}, {}/{}] {}", run + 1, plan.runs, i + 1,
                            plan.cases.size(), report.rows[i].id);
-            Outcome outcome = measure_once(plan.cases[i], plan);
-            if (outcome.failure.empty()) {
-                summaries[i].push_back(summarize(std::move(outcome.samples)));
-                report.rows[i].runs.push_back(summaries[i].back().p50);
-                if (outcome.tick_counts) {
-                    if (!report.rows[i].tick_counts) report.rows[i].tick_counts.emplace();
-                    report.rows[i].tick_counts->add(*outcome.tick_counts);
-                }
-                report.rows[i].foreign_cpu_share =
-                    std::max(report.rows[i].foreign_cpu_share, outcome.foreign_cpu_share);
-            } else {
-                failures[i] = outcome.failure;
-                report.rows[i].runs.push_back(NAN);
-            }
+            add_run(report.rows[i], runs[i], measure_once(plan.cases[i], plan));
         }
     }
     if (plan.progress) fmt::print(stderr, "\r\033[K");
     for (std::size_t i = 0; i < plan.cases.size(); ++i)
-        finish_row(report.rows[i], summaries[i], interrupted() ? "interrupted" : failures[i]);
-    for (const Skipped& skipped : plan.skipped) {
-        Row row;
-        row.id = "peer/" + skipped.subject;
-        row.group = "peer";
-        row.subject = skipped.subject;
-        row.skipped = skipped.reason;
-        report.rows.push_back(row);
-    }
+        finish_row(report.rows[i], runs[i].summaries, interrupted() ? "interrupted" : runs[i].failure);
+    for (const SkippedPeer& peer : plan.skipped) report.rows.push_back(skipped_row(peer));
     return report;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least that anybody would write by hand for what opros_components.cpp measures: a queue behind a mutex, a
-// virtual call, a thread behind a condition variable, a loop on an absolute sleep.
+// The least that anybody would write by hand for what tandem/opros and tandem/rtm measure inside one process: a
+// queue behind a mutex, a virtual call, a thread behind a condition variable, a loop on an absolute sleep.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/power_profile.hpp"
+#include "apps/bench/harness/cores.hpp"
+#include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
-#include "apps/bench/harness/time_each.hpp"
+#include "apps/bench/harness/tick_budget.hpp"
+#include "apps/bench/harness/time_each_call.hpp"
 
 #include <condition_variable>
 #include <mutex>
@@ -15,11 +17,11 @@ namespace tandem::bench {
 
 namespace {
 
-/// The newest 15 values.
+/// Keeps the newest 15 values, as an OPRoS input port does by default.
 template <class T>
 class Queue {
   public:
-    explicit Queue(const T& like) : slots_(15, like) {}
+    explicit Queue(const T& prototype) : slots_(15, prototype) {}
     void push(const T& value) {
         const std::lock_guard<std::mutex> lock(mutex_);
         slots_[next_] = value;
@@ -32,48 +34,45 @@ class Queue {
     std::size_t next_ = 0;
 };
 
+/// What push() of an OPRoS port is compared with.
 void push_double(Session& session) {
     Queue<double> queue(0);
     time_each_call(session, [&](double value) { queue.push(value); });
 }
 
+/// The same with an array that is copied into a slot, whose memory is kept.
 void push_array(Session& session) {
     const std::vector<double> values(session.bytes() / sizeof(double), 1.5);
     Queue<std::vector<double>> queue(values);
     time_each_call(session, [&](double) { queue.push(values); });
 }
 
+/// The service of the call.
 class Doubler {
   public:
     virtual ~Doubler() = default;
     virtual double twice(double value) { return 2 * value; }
 };
 
+/// A virtual call is all that a service call inside one process needs.
 void call(Session& session) {
     Doubler doubler;
-    Doubler* called = &doubler;
-    asm volatile("" : "+r"(called)); // or the compiler would know whom it calls
+    Doubler* service = &doubler;
+    asm volatile("" : "+r"(service)); // or the compiler would know the class and call it directly
     double sum = 0;
-    time_each_call(session, [&](double value) { sum += called->twice(value); });
-    asm volatile("" : : "r"(&sum) : "memory");
+    time_each_call(session, [&](double value) { sum += service->twice(value); });
+    asm volatile("" : : "r"(&sum) : "memory"); // or the calls would be dropped with their unused results
 }
 
-/// A thread that sleeps until there is a value, and passes it on.
+/// A thread that sleeps until a value is sent, and publishes it.
 class Listener {
   public:
-    Listener()
-        : thread_([this] {
-              std::unique_lock<std::mutex> lock(mutex_);
-              for (;;) {
-                  wake_.wait(lock, [this] { return sent_ != heard_.load(); });
-                  if (sent_ < 0) return;
-                  heard_ = sent_;
-              }
-          }) {}
+    Listener() : thread_([this] { run(); }) {}
     ~Listener() {
-        send(-1);
+        send(stop_value);
         thread_.join();
     }
+    /// Values are positive.
     void send(double value) {
         {
             const std::lock_guard<std::mutex> lock(mutex_);
@@ -81,58 +80,59 @@ class Listener {
         }
         wake_.notify_one();
     }
-    double heard() const { return heard_; }
+    double last_received() const { return received_; }
 
   private:
+    static constexpr double stop_value = -1;
+
+    void run() {
+        std::unique_lock<std::mutex> lock(mutex_);
+        for (;;) {
+            wake_.wait(lock, [this] { return sent_ != received_.load(); });
+            if (sent_ == stop_value) return;
+            received_ = sent_;
+        }
+    }
+
     std::mutex mutex_;
     std::condition_variable wake_;
-    double sent_ = 0;
-    std::atomic<double> heard_{0};
-    std::thread thread_;
+    double sent_ = 0; // guarded by mutex_
+    std::atomic<double> received_{0};
+    std::thread thread_; // last: it uses the others
 };
 
+/// From the notification to the woken thread's answer. The two threads need a core each.
 void event(Session& session) {
     pin_to_all_cores();
     Listener listener;
-    const std::uint64_t pause = to_ticks(2e5);
-    double value = 0;
-    const auto loop = [&] {
-        while (session.needs_more()) {
-            for (const std::uint64_t begin = ticks(); ticks() - begin < pause;) {
-            }
-            const std::uint64_t before = ticks();
-            listener.send(++value);
-            while (listener.heard() != value) {
-            }
-            const std::uint64_t now = ticks();
-            session.add_sample(now - before, now);
+    double sent = 0;
+    const auto send_and_wait = [&](double) {
+        listener.send(++sent);
+        while (listener.last_received() != sent) {
         }
     };
-    session.begin_warm_up();
-    loop();
-    session.begin_measuring();
-    loop();
-    session.end_measuring();
+    time_each_call(session, send_and_wait, [](double) { busy_wait(2e5); });
 }
 
+std::int64_t monotonic_ns() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+/// The lateness of a loop on clock_nanosleep(). Missed periods are skipped, as a periodic executor skips them.
 void tick(Session& session) {
-    constexpr std::int64_t second_ns = 1'000'000'000, period_ns = 1'000'000;
-    const int count = session.budget().samples >= 50'000 ? 10'000 : 1'000;
-    const auto now_ns = [] {
-        timespec now{};
-        clock_gettime(CLOCK_MONOTONIC, &now);
-        return now.tv_sec * second_ns + now.tv_nsec;
-    };
+    constexpr std::int64_t second_ns = 1'000'000'000;
     TickCounts counts;
-    std::int64_t next = now_ns();
-    for (int i = 0; i < count; ++i) {
-        next += period_ns;
+    std::int64_t next = monotonic_ns();
+    for (int i = 0; i < lateness_ticks(session.budget()); ++i) {
+        next += tick_period_ns;
         const timespec until{next / second_ns, next % second_ns};
         clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
-        const std::int64_t late = now_ns() - next;
+        const std::int64_t late = monotonic_ns() - next;
         session.add_result(static_cast<double>(late));
-        counts.add(late, period_ns);
-        next += late / period_ns * period_ns;
+        counts.add(late, tick_period_ns);
+        next += late / tick_period_ns * tick_period_ns;
     }
     session.set_tick_counts(counts);
 }
@@ -140,26 +140,12 @@ void tick(Session& session) {
 } // namespace
 
 void add_hand_written_cases(Registry& registry) {
-    Case entry;
-    entry.group = Group::baseline;
-    entry.subject = "hand-written";
-    entry.placement = Placement::alone;
-    entry.wake = Wake::none;
-    const auto add = [&](const char* operation, std::size_t bytes, void (*run)(Session&)) {
-        entry.operation = operation;
-        entry.bytes = bytes;
-        entry.run = run;
-        registry.cases.push_back(entry);
-    };
-    add("push", sizeof(double), push_double);
-    add("push", 1000 * sizeof(double), push_array);
-    add("local-call", sizeof(double), call);
-    entry.wake = Wake::blocking;
-    add("event", sizeof(double), event);
-    entry.regime = Regime::low_latency_idle;
-    add("event", sizeof(double), event);
-    entry.regime = Regime::normal;
-    add("tick", sizeof(double), tick);
+    InProcessCases cases(registry, Group::baseline, "hand-written");
+    cases.add("push", sizeof(double), Wake::none, push_double);
+    cases.add("push", 1000 * sizeof(double), Wake::none, push_array);
+    cases.add("local-call", sizeof(double), Wake::none, call);
+    cases.add_event(event);
+    cases.add("tick", sizeof(double), Wake::blocking, tick);
 }
 
 } // namespace tandem::bench

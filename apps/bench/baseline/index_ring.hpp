@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floor of every ring: one writer, one reader, fixed slots, an index on a line of its own at each end,
-// the other side's index cached. No policies, no counters, no checks, no lengths: what remains when all that
-// makes a ring usable is left out.
+// The least that a ring can be: one writer, one reader, slots of one size, an index on a cache line of its own
+// at each end, the peer's index cached. It has no policies, counters, checks or lengths: the difference to
+// Tandem's ring is what those cost.
 #pragma once
 #include "apps/bench/harness/measurements.hpp"
 
@@ -11,68 +11,73 @@
 
 namespace tandem::bench {
 
-/// At the front of the ring's memory. Two lines each, because the core fetches lines in pairs.
+/// At the front of the ring's memory, which is zero at first. Each word has two cache lines, because the
+/// prefetcher fetches lines in pairs.
 struct IndexRingHeader {
-    alignas(128) std::atomic<std::uint32_t> head; // written by the writer
-    alignas(128) std::atomic<std::uint32_t> tail; // written by the reader
-    alignas(128) std::atomic<std::uint32_t> asleep;
+    alignas(128) std::atomic<std::uint32_t> head; // messages published; written by the writer
+    alignas(128) std::atomic<std::uint32_t> tail; // messages released; written by the reader
+    alignas(128) std::atomic<std::uint32_t> reader_sleeps;
 };
 
-/// latency: each message as early as possible. rate: as many as possible, so that the reader stays off the
-/// head line for a moment when it has caught up, and gives slots back by the batch.
+/// latency: each message arrives as early as possible. throughput: as many as possible, so that the reader
+/// stays off the head's line for a moment when the ring is empty, and gives slots back 64 at a time.
 enum class RingTuning { latency, throughput };
 
-/// Everything that can be known at compile time is: the floor has no knobs.
+/// [one thread at each end] A template over all its options, so that none of them costs anything at run time.
+/// Both ends are made over the same memory; an object is used as the writer or as the reader, never as both.
 template <std::size_t slot_bytes, std::uint32_t slots, Wake wake, RingTuning tuning = RingTuning::latency>
 class IndexRing {
   public:
     static constexpr std::size_t memory_bytes = sizeof(IndexRingHeader) + slot_bytes * slots;
 
     explicit IndexRing(std::byte* memory)
-        : words_(*reinterpret_cast<IndexRingHeader*>(memory)), slots_(memory + sizeof(IndexRingHeader)) {}
+        : header_(*reinterpret_cast<IndexRingHeader*>(memory)), slots_(memory + sizeof(IndexRingHeader)) {}
 
-    /// The slot to be written next; waits for it if the ring is full.
+    /// [writer] The slot to be written next; polls while the ring is full.
     std::byte* claim() {
-        while (mine_ - other_ >= slots) other_ = words_.tail.load(std::memory_order_acquire);
-        return slot(mine_);
+        while (own_index_ - peer_index_ >= slots) peer_index_ = header_.tail.load(std::memory_order_acquire);
+        return slot(own_index_);
     }
+    /// [writer] Hands the claimed slot to the reader, and wakes it if it sleeps.
     void publish() {
-        words_.head.store(++mine_, std::memory_order_release);
+        header_.head.store(++own_index_, std::memory_order_release);
         if constexpr (wake == Wake::spin) return;
-        // Orders the store of head before the load of asleep: see sleep().
+        // Orders the store of head before the load of reader_sleeps; the reader does the opposite in sleep().
+        // Without both fences each could miss the other's store, and the reader would sleep on a message.
         std::atomic_thread_fence(std::memory_order_seq_cst);
-        if (words_.asleep.load(std::memory_order_relaxed) != 0) futex(FUTEX_WAKE, 1);
+        if (header_.reader_sleeps.load(std::memory_order_relaxed) != 0) futex(FUTEX_WAKE, 1);
     }
 
-    /// The slot to be read next; waits for it in the ring's wake mode.
-    const std::byte* next() {
-        if (other_ == mine_) other_ = words_.head.load(std::memory_order_acquire);
-        if (other_ == mine_) wait();
-        return slot(mine_);
+    /// [reader] The oldest slot; waits for it in the ring's wake mode.
+    const std::byte* wait_for_slot() {
+        if (peer_index_ == own_index_) peer_index_ = header_.head.load(std::memory_order_acquire);
+        if (peer_index_ == own_index_) wait();
+        return slot(own_index_);
     }
+    /// [reader] Gives the oldest slot back to the writer.
     void release() {
-        if (++mine_ % (tuning == RingTuning::throughput ? 64U : 1U) == 0)
-            words_.tail.store(mine_, std::memory_order_release);
+        if (++own_index_ % (tuning == RingTuning::throughput ? 64U : 1U) == 0)
+            header_.tail.store(own_index_, std::memory_order_release);
     }
 
   private:
+    // Otherwise the last slots of a full ring would never be given back.
     static_assert(slots % 64 == 0 || tuning == RingTuning::latency);
 
     std::byte* slot(std::uint32_t index) const { return slots_ + (index % slots) * slot_bytes; }
-    /// Asking for the slot's line along with the head's lets the two transfers overlap: 160 ns instead of
-    /// 240.
-    bool arrived() {
-        other_ = words_.head.load(std::memory_order_acquire);
-        if (other_ != mine_) return true;
+    /// Prefetching the slot's line along with the head's lets the two transfers overlap: 160 ns instead of 240.
+    bool has_message() {
+        peer_index_ = header_.head.load(std::memory_order_acquire);
+        if (peer_index_ != own_index_) return true;
         if (tuning == RingTuning::throughput)
             _mm_pause();
         else
-            __builtin_prefetch(slot(mine_));
+            __builtin_prefetch(slot(own_index_));
         return false;
     }
     void wait() {
         if (wake == Wake::spin) {
-            while (!arrived()) {
+            while (!has_message()) {
             }
         } else if (wake == Wake::blocking || !spin_50_us()) {
             sleep();
@@ -80,28 +85,29 @@ class IndexRing {
     }
     bool spin_50_us() {
         const std::uint64_t end = ticks() + to_ticks(50e3);
-        for (unsigned round = 1; !arrived(); ++round) {
+        for (unsigned round = 1; !has_message(); ++round) {
             if (round % 64 == 0 && ticks() > end) return false;
         }
         return true;
     }
     void sleep() {
         for (;;) {
-            words_.asleep.store(1, std::memory_order_relaxed);
-            std::atomic_thread_fence(std::memory_order_seq_cst);
-            if (arrived()) break;
-            futex(FUTEX_WAIT, mine_); // the kernel looks at head again
-            if (arrived()) break;
+            header_.reader_sleeps.store(1, std::memory_order_relaxed);
+            std::atomic_thread_fence(std::memory_order_seq_cst); // see publish()
+            if (has_message()) break;
+            futex(FUTEX_WAIT, own_index_); // returns at once if head has changed since has_message()
+            if (has_message()) break;
         }
-        words_.asleep.store(0, std::memory_order_relaxed);
+        header_.reader_sleeps.store(0, std::memory_order_relaxed);
     }
     void futex(int operation, std::uint32_t value) {
-        syscall(SYS_futex, &words_.head, operation, value, nullptr, nullptr, 0);
+        syscall(SYS_futex, &header_.head, operation, value, nullptr, nullptr, 0);
     }
 
-    IndexRingHeader& words_;
+    IndexRingHeader& header_;
     std::byte* slots_;
-    std::uint32_t mine_ = 0, other_ = 0; // other_: the other side's index as last seen
+    std::uint32_t own_index_ = 0;  // of the next slot of this end
+    std::uint32_t peer_index_ = 0; // the peer's index as last seen
 };
 
 } // namespace tandem::bench

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one core does with memory alone: copy, fill, sum.
+// What one core does with large messages alone: copying, filling and summing memory. A stream between two cores
+// fills on one and sums on the other, and cannot be faster than the slower of the two.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/measurements.hpp"
+#include "apps/bench/harness/registry.hpp"
 
 #include <cstring>
 
@@ -9,12 +11,12 @@ namespace tandem::bench {
 
 namespace {
 
-/// Windows of repeated work on the case's bytes, as GB/s.
+/// Windows of repeated work(1), work(2), ... on the case's bytes; results in GB/s.
 template <class Work>
 void repeat(Session& session, Work&& work) {
     const auto bytes = static_cast<double>(session.bytes());
     const std::uint64_t window = to_ticks(session.budget().window_seconds * 1e9 / 3);
-    for (int i = -1; i < session.budget().windows; ++i) {
+    for (int i = -1; i < session.budget().windows; ++i) { // the first is warm-up
         const std::uint64_t begin = ticks();
         std::uint64_t now = begin, rounds = 0;
         for (; now - begin < window; now = ticks()) work(++rounds);
@@ -22,26 +24,29 @@ void repeat(Session& session, Work&& work) {
     }
 }
 
+/// From one half of the session's memory to the other.
 void copy(Session& session) {
     std::byte* from = session.memory().data();
     std::byte* to = from + session.memory().size() / 2;
     fill_message(from, session.bytes(), 1);
     repeat(session, [&](std::uint64_t) {
         std::memcpy(to, from, session.bytes());
-        asm volatile("" ::: "memory"); // or all copies but the last might go
+        asm volatile("" ::: "memory"); // or the compiler would drop all copies but the last
     });
     checked_sequence(to, session.bytes());
 }
 
-void fill_only(Session& session) {
+/// What the writer of a stream does without a reader.
+void fill(Session& session) {
     repeat(session,
            [&](std::uint64_t round) { fill_message(session.memory().data(), session.bytes(), round); });
 }
 
-void sum_only(Session& session) {
+/// What the reader of a stream does without a writer.
+void sum(Session& session) {
     fill_message(session.memory().data(), session.bytes(), 1);
     repeat(session, [&](std::uint64_t) {
-        asm volatile("" ::: "memory");
+        asm volatile("" ::: "memory"); // or the compiler would sum once
         checked_sequence(session.memory().data(), session.bytes());
     });
 }
@@ -49,23 +54,20 @@ void sum_only(Session& session) {
 } // namespace
 
 void add_memory_cases(Registry& registry) {
-    for (std::size_t bytes : {std::size_t{1} << 20U, std::size_t{6} << 20U}) {
-        Case entry;
-        entry.group = Group::baseline;
-        entry.bytes = bytes;
-        entry.operation = "stream";
-        entry.wake = Wake::none;
-        entry.placement = Placement::alone;
-        entry.unit = Unit::gigabytes;
-        entry.subject = "memcpy";
-        entry.run = copy;
-        registry.cases.push_back(entry);
-        entry.subject = "fill";
-        entry.run = fill_only;
-        registry.cases.push_back(entry);
-        entry.subject = "sum";
-        entry.run = sum_only;
-        registry.cases.push_back(entry);
+    const auto add = [&](const char* subject, std::size_t bytes, void (*run)(Session&)) {
+        registry.add({.group = Group::baseline,
+                      .subject = subject,
+                      .operation = "stream",
+                      .bytes = bytes,
+                      .wake = Wake::none,
+                      .placement = Placement::alone,
+                      .unit = Unit::gigabytes_per_second,
+                      .run = run});
+    };
+    for (std::size_t bytes : {mebibyte, 6 * mebibyte}) {
+        add("memcpy", bytes, copy);
+        add("fill", bytes, fill);
+        add("sum", bytes, sum);
     }
 }
 

@@ -4,7 +4,8 @@
 
 namespace tandem::bench {
 
-/// Calls of operator new in this process so far. The program's operator new is replaced by one that counts.
+/// [any-thread] How often operator new has been called in this process, by any library in it. The program's
+/// operator new is replaced by one that counts.
 std::uint64_t allocation_count();
 
 } // namespace tandem::bench

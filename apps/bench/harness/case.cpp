@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/harness/case.hpp"
 
-#include "apps/bench/harness/cases.hpp"
-
-#include <algorithm>
-#include <map>
-
 namespace tandem::bench {
 
+// The names are part of the JSON format and of the ids that users give to --only.
 const char* name_of(Group group) {
     static constexpr const char* names[] = {"baseline", "tandem", "peer"};
     return names[static_cast<int>(group)];
@@ -16,12 +12,12 @@ const char* name_of(Wake wake) {
     static constexpr const char* names[] = {"-", "spin", "spin-then-futex", "blocking"};
     return names[static_cast<int>(wake)];
 }
-const char* name_of(Regime regime) {
-    static constexpr const char* names[] = {"normal", "low-latency-idle", "same-core", "loaded"};
-    return names[static_cast<int>(regime)];
+const char* name_of(PowerProfile profile) {
+    static constexpr const char* names[] = {"normal", "low-latency-idle"};
+    return names[static_cast<int>(profile)];
 }
 const char* name_of(Placement placement) {
-    static constexpr const char* names[] = {"processes", "threads", "alone"};
+    static constexpr const char* names[] = {"processes", "same-core", "threads", "alone"};
     return names[static_cast<int>(placement)];
 }
 const char* name_of(Unit unit) {
@@ -40,47 +36,24 @@ std::string Case::id() const {
     if (wake != Wake::none) id += std::string("/") + name_of(wake);
     if (!detail.empty()) id += "/" + detail;
     if (placement == Placement::threads) id += "/threads";
-    if (regime != Regime::normal) id += std::string("/") + name_of(regime);
+    // A case under normal conditions has the short name, since it is the one that is asked for most.
+    if (conditions() != "normal") id += "/" + conditions();
     return id;
 }
 
+std::string Case::conditions() const {
+    std::string text;
+    const auto append = [&](const char* word) { text += (text.empty() ? "" : "+") + std::string(word); };
+    if (power_profile != PowerProfile::normal) append(name_of(power_profile));
+    if (placement == Placement::same_core) append(name_of(placement));
+    if (loaded) append("loaded");
+    return text.empty() ? "normal" : text;
+}
+
 std::string Case::topic() const {
-    // The cache line and the short record belong to the 64-byte crossing.
+    // The cache line (8 bytes) and the 48-byte record are compared with the 64-byte message.
     const std::size_t size = bytes < 64 ? 64 : bytes;
-    return operation + "/" + size_text(size) + "/" + name_of(regime);
-}
-
-void Registry::add_regimes(const Case& entry) {
-    cases.push_back(entry);
-    if (entry.wake == Wake::spin)
-        return; // never sleeps: the idle state does not matter, one core cannot do it
-    for (Regime regime : {Regime::low_latency_idle, Regime::same_core}) {
-        cases.push_back(entry);
-        cases.back().regime = regime;
-    }
-}
-
-Registry all_cases() {
-    Registry registry;
-    add_cache_line_cases(registry);
-    add_index_ring_cases(registry);
-    add_hand_written_cases(registry);
-    add_memory_cases(registry);
-    add_tandem_ring_cases(registry);
-    add_tandem_bridge_cases(registry);
-    add_tandem_stream_cases(registry);
-    add_tandem_call_cases(registry);
-    add_tandem_port_cases(registry);
-    add_tandem_opros_cases(registry);
-    add_tandem_publish_count_cases(registry);
-    add_tandem_rtm_cases(registry);
-    add_tandem_wheelchair_cases(registry);
-    add_peer_cases(registry);
-    std::map<std::string, std::size_t> order;
-    for (const Case& entry : registry.cases) order.emplace(entry.topic(), order.size());
-    std::stable_sort(registry.cases.begin(), registry.cases.end(),
-                     [&](const Case& a, const Case& b) { return order.at(a.topic()) < order.at(b.topic()); });
-    return registry;
+    return operation + "/" + size_text(size) + "/" + conditions();
 }
 
 } // namespace tandem::bench

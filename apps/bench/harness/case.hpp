@@ -1,67 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
-// A case is one row of the report: what is measured, on what, in which wake mode and regime.
+// A case is one row of the report: which transport or program is measured, doing what, with how many bytes,
+// how its reader waits, and in which state the machine is.
 #pragma once
 #include <cstddef>
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace tandem::bench {
 
 class Session;
 
+constexpr std::size_t mebibyte = std::size_t{1} << 20U;
+
+/// baseline: the least that the hardware or hand-written code needs. tandem: what users of this project run.
+/// peer: other middleware.
 enum class Group { baseline, tandem, peer };
 
-/// How the waiting side waits.
+/// How the waiting side waits: it polls; it polls for a while and then sleeps; it sleeps at once.
 enum class Wake { none, spin, spin_then_futex, blocking };
 
-/// normal: an idle core halts. low_latency_idle: /dev/cpu_dma_latency held at 0. same_core: both on core a.
-/// loaded: one process that only computes on each core.
-enum class Regime { normal, low_latency_idle, same_core, loaded };
+/// What an idle core does. normal: it halts, and takes tens of microseconds to come back. low_latency_idle:
+/// /dev/cpu_dma_latency is held at 0, so that it stays in the shallowest idle state.
+enum class PowerProfile { normal, low_latency_idle };
 
-/// processes: A and B are processes of their own. threads: of one process. alone: only A.
-enum class Placement { processes, threads, alone };
+/// processes: A and B are processes on a core each. same_core: processes on one core. threads: threads of one
+/// process, on a core each. alone: there is only A.
+enum class Placement { processes, same_core, threads, alone };
 
-enum class Unit { ns, gigabytes, megamessages, count };
+enum class Unit { ns, gigabytes_per_second, million_messages_per_second, count };
 
 struct Case {
     Group group = Group::tandem;
-    std::string subject;   ///< "index-ring", "ring", "iceoryx"
-    std::string operation; ///< "one-way", "call", "stream", ...
+    std::string subject = {};   ///< what is measured: "index-ring", "ring", "iceoryx"
+    std::string operation = {}; ///< what it does: "one-way", "call", "stream", ...
     std::size_t bytes = 64;
     Wake wake = Wake::spin;
-    Regime regime = Regime::normal;
+    PowerProfile power_profile = PowerProfile::normal;
     Placement placement = Placement::processes;
+    bool loaded = false; ///< a process that only computes runs on each core, too
     Unit unit = Unit::ns;
-    double divisor = 1;                ///< samples are divided by it: 2 for one way by round trip
-    double extra_seconds = 0;          ///< a case that takes longer than the others by its nature
-    std::string detail;                ///< what else tells it from its neighbours: "loan", "256 ports"
-    std::string service;               ///< a program that must run meanwhile: "iox-roudi"
-    std::function<void(Session&)> run; ///< [in each of the processes or threads]
+    double divisor = 1;                     ///< samples are divided by it: 2 for one way by round trip
+    double extra_seconds = 0;               ///< added to the timeout of a case that is long by its nature
+    std::string detail = {};                ///< distinguishes it from similar cases: "loan", "256 ports"
+    std::string daemon = {};                ///< a program that must run during the case: "iox-roudi"
+    std::function<void(Session&)> run = {}; ///< [in each of the processes or threads]
 
-    std::string id() const; ///< who/what/bytes/wake[/detail][/regime]; unique
-    /// Cases of one topic are measured one after the other, so that a ratio's two sides are close in time.
+    /// group/subject/operation/bytes[/wake][/detail][/threads][/conditions]; unique. --only matches it.
+    std::string id() const;
+    /// The state of the machine: "normal", or what differs from it: "low-latency-idle", "same-core", "loaded".
+    std::string conditions() const;
+    /// Cases of one topic are measured one after the other, so that the two cases of a ratio are close in time.
     std::string topic() const;
+    bool needs_two_cores() const {
+        return placement == Placement::processes || placement == Placement::threads;
+    }
 };
 
-struct Skipped {
-    std::string subject, reason;
-};
-
-struct Registry {
-    std::vector<Case> cases;
-    std::vector<Skipped> skipped; ///< peers that this build does not have
-
-    /// The case in each regime that its wake mode makes sense in.
-    void add_regimes(const Case& entry);
-};
-
-/// All cases, by topic.
-Registry all_cases();
-
+// The words of ids, tables and JSON files.
 const char* name_of(Group group);
 const char* name_of(Wake wake);
-const char* name_of(Regime regime);
+const char* name_of(PowerProfile profile);
 const char* name_of(Placement placement);
 const char* name_of(Unit unit);
 std::string size_text(std::size_t bytes); ///< "64", "4K", "6M"

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/harness/case_runner.hpp"
 
+#include "apps/bench/harness/forked_children.hpp"
+#include "apps/bench/harness/machine_conditions.hpp"
 #include "apps/bench/harness/machine_load.hpp"
-#include "host/process/child_process.hpp"
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <chrono>
-#include <csignal>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 #include <mqueue.h>
-#include <poll.h>
 #include <sys/mman.h>
 #include <system_error>
 #include <thread>
@@ -25,62 +22,40 @@ namespace tandem::bench {
 namespace {
 
 constexpr std::size_t memory_bytes = std::size_t{64} << 20U;
-volatile std::sig_atomic_t interrupt_seen = 0;
 
-/// Anonymous memory that children inherit; pages come when they are touched.
+/// Anonymous memory that forked children share with the driver; the kernel provides pages when they are touched.
 class SharedMemory {
   public:
     explicit SharedMemory(std::size_t bytes) : bytes_(bytes) {
-        at_ = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-        if (at_ == MAP_FAILED)
+        address_ = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (address_ == MAP_FAILED)
             throw std::system_error(errno, std::generic_category(), "cannot map the memory of a case");
     }
-    ~SharedMemory() { munmap(at_, bytes_); }
+    ~SharedMemory() { munmap(address_, bytes_); }
     SharedMemory(const SharedMemory&) = delete;
     SharedMemory& operator=(const SharedMemory&) = delete;
-    std::span<std::byte> bytes() const { return {static_cast<std::byte*>(at_), bytes_}; }
+    std::span<std::byte> bytes() const { return {static_cast<std::byte*>(address_), bytes_}; }
 
   private:
-    void* at_;
+    void* address_;
     std::size_t bytes_;
 };
 
-/// Everything that the sides of one case share.
-struct CaseRun {
-    const Case& bench_case;
-    const Budget& budget;
-    Cores cores;
-    std::string name;
-    SharedMemory control_memory, memory;
+/// One attempt at a case: what the driver and both sides share, and what each side does with it.
+class CaseRun {
+  public:
+    CaseRun(const Case& bench_case, const Budget& budget, const Cores& cores)
+        : case_(bench_case), budget_(budget), cores_(cores), name_(fresh_name()),
+          // 64 more than budgeted: results that are no samples of the loop (windows, counts) go there, too.
+          control_memory_(sizeof(Control) + (budget.samples + 64) * sizeof(double)), memory_(memory_bytes) {}
 
-    CaseRun(const Case& c, const Budget& b, const Cores& where)
-        : bench_case(c), budget(b), cores(where), name(fresh_name()),
-          control_memory(sizeof(Control) + (b.samples + 64) * sizeof(double)), memory(memory_bytes) {}
+    const std::string& name() const { return name_; }
+    Control& control() const { return *reinterpret_cast<Control*>(control_memory_.bytes().data()); }
 
-    Control& control() const { return *reinterpret_cast<Control*>(control_memory.bytes().data()); }
-
-    static std::string fresh_name() {
-        static int number = 0;
-        return fmt::format("tandem-bench-{}-{}", getpid(), number++);
-    }
-
-    /// [in the child] One side from beginning to end. True if it went well.
-    bool run_side(Session::Role role) const {
-        const bool b = role == Session::Role::b;
-        try {
-            pin_to(b && bench_case.regime != Regime::same_core ? cores.b : cores.a);
-            Session session(bench_case, budget, role, name, control(), memory.bytes());
-            bench_case.run(session);
-            return true;
-        } catch (const std::exception& failure) {
-            std::strncpy(control().failure[b ? 1 : 0], failure.what(), Control::text_bytes - 1);
-            return false;
-        }
-    }
-
-    // Not _exit(): some middlewares say good-bye in the destructors of their static objects.
+    // [child] Not _exit(): some middlewares release their shared resources in destructors of static objects.
     [[noreturn]] void run_side_and_exit(Session::Role role) const { std::exit(run_side(role) ? 0 : 1); }
 
+    // [child] Both sides as threads. _exit(), since static destructors must not run while a thread still works.
     [[noreturn]] void run_both_sides_and_exit() const {
         std::thread second([&] {
             if (!run_side(Session::Role::b)) _exit(1);
@@ -89,79 +64,69 @@ struct CaseRun {
         second.join();
         _exit(0);
     }
+
+  private:
+    /// The names of segments, queues and sockets of a case contain it, so that leftovers can be found.
+    static std::string fresh_name() {
+        static int number = 0;
+        return fmt::format("tandem-bench-{}-{}", getpid(), number++);
+    }
+
+    /// True if it went well; otherwise the text of the exception is in the control block.
+    bool run_side(Session::Role role) const {
+        const bool b = role == Session::Role::b;
+        try {
+            pin_to(b && case_.placement != Placement::same_core ? cores_.b : cores_.a);
+            Session session(case_, budget_, role, name_, control(), memory_.bytes());
+            case_.run(session);
+            return true;
+        } catch (const std::exception& failure) {
+            // The memory is zero at first: one byte less than there is room for ends in a zero.
+            std::strncpy(control().failure[b ? 1 : 0], failure.what(), Control::text_bytes - 1);
+            return false;
+        }
+    }
+
+    const Case& case_;
+    const Budget& budget_;
+    Cores cores_;
+    std::string name_;
+    SharedMemory control_memory_, memory_;
 };
 
-/// What a killed side may have left behind under the case's name.
-void remove_left_overs(const std::string& name) {
-    std::error_code ignored; // somebody else's file may vanish while we look
+/// Removes what a killed side has left behind: files whose names contain the case's, and its message queues.
+void remove_leftovers(const std::string& name) {
+    std::error_code ignored; // a file of somebody else may vanish between listing and removing
     for (const auto& folder : {std::filesystem::path("/dev/shm"), std::filesystem::temp_directory_path()})
         for (const auto& file : std::filesystem::directory_iterator(folder, ignored))
             if (file.path().filename().string().find(name) != std::string::npos)
                 std::filesystem::remove_all(file.path(), ignored);
-    for (const char* end : {"-0", "-1"}) mq_unlink(("/" + name + end).c_str());
+    for (const char* suffix : {"-0", "-1"}) mq_unlink(("/" + name + suffix).c_str());
 }
 
-/// Waits until all children of a case have ended. Empty if all ended well; the first that does not, an
-/// interrupt or the bound ends the wait.
-std::string wait_for(std::vector<process::ChildProcess>& children, double seconds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    for (;;) {
-        std::vector<pollfd> fds;
-        for (std::size_t i = 0; i < children.size(); ++i) {
-            const auto& ended = children[i].poll();
-            if (!ended)
-                fds.push_back({children[i].pidfd(), POLLIN, 0});
-            else if (ended->signalled)
-                return fmt::format("side {} was ended by signal {}", "AB"[i], strsignal(ended->code));
-            else if (!ended->success())
-                return fmt::format("side {} failed", "AB"[i]);
-        }
-        if (fds.empty()) return {};
-        const std::chrono::duration<double, std::milli> rest = end - std::chrono::steady_clock::now();
-        const int changed = poll(fds.data(), fds.size(), std::max(0, static_cast<int>(rest.count())));
-        if (interrupted()) return "interrupted";
-        if (changed == 0) return fmt::format("not finished after {:g} s", seconds);
-    }
-}
-
-template <class Work>
-void start(std::vector<process::ChildProcess>& children, Work&& work) {
-    const pid_t child = fork_child();
-    if (child == 0) work();
-    children.emplace_back(child);
+void start_sides(ForkedChildren& children, const CaseRun& run, Placement placement) {
+    if (placement == Placement::threads) return children.start([&] { run.run_both_sides_and_exit(); });
+    children.start([&] { run.run_side_and_exit(Session::Role::a); });
+    if (placement != Placement::alone) children.start([&] { run.run_side_and_exit(Session::Role::b); });
 }
 
 } // namespace
 
-void catch_interrupts() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupt_seen = 1; };
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
-
-bool interrupted() { return interrupt_seen != 0; }
-
 Outcome run_case(const Case& bench_case, const Budget& budget, const Cores& cores) {
     Outcome outcome;
-    const CaseRun stage(bench_case, budget, cores);
-    {
-        const RegimeHold hold(bench_case.regime, cores);
+    const CaseRun run(bench_case, budget, cores);
+    { // children and conditions end with this scope, before what they left is removed
+        const MachineConditions conditions(bench_case, cores);
         const MachineLoad load;
-        Children children;
-        if (bench_case.placement == Placement::threads) {
-            start(children, [&] { stage.run_both_sides_and_exit(); });
-        } else {
-            start(children, [&] { stage.run_side_and_exit(Session::Role::a); });
-            if (bench_case.placement == Placement::processes)
-                start(children, [&] { stage.run_side_and_exit(Session::Role::b); });
-        }
+        ForkedChildren children;
+        start_sides(children, run, bench_case.placement);
         outcome.failure = children.wait(budget.timeout_seconds + bench_case.extra_seconds);
-        if (bench_case.regime != Regime::loaded) outcome.foreign_cpu_share = load.foreign_cpu_share();
+        // The load of a loaded case would count as that of others.
+        if (!bench_case.loaded) outcome.foreign_cpu_share = load.foreign_cpu_share();
     }
-    remove_left_overs(stage.name);
-    Control& control = stage.control();
-    for (const char* text : control.failure)
+    remove_leftovers(run.name());
+    Control& control = run.control();
+    for (const char* text : control.failure) // says more than "side A failed"
         if (*text != '\0') outcome.failure = text;
     if (control.has_tick_counts) outcome.tick_counts = control.tick_counts;
     if (outcome.failure.empty())

@@ -11,7 +11,7 @@ namespace tandem::bench {
 
 namespace {
 
-/// Both flags: it ticks at one rate, and goes on in deep sleep.
+/// constant_tsc: the rate does not follow the core's frequency. nonstop_tsc: it counts on in deep idle states.
 bool invariant_tsc() {
 #ifdef __x86_64__
     std::ifstream info("/proc/cpuinfo");
@@ -23,16 +23,20 @@ bool invariant_tsc() {
     return false;
 }
 
+/// The same moment on both clocks.
 struct ClockReadings {
     std::uint64_t ns, ticks;
 };
 
-/// The tightest of several pairs of readings, so that an interruption between the two does not count.
+/// CLOCK_MONOTONIC_RAW is read between two readings of the counter; of 50 such triples the tightest counts,
+/// since an interrupt within a triple would shift the moments against each other.
 ClockReadings read_both_clocks() {
     ClockReadings best{};
     std::uint64_t tightest = ~std::uint64_t{0};
     for (int i = 0; i < 50; ++i) {
-        const std::uint64_t before = ticks(), ns = raw_ns(), after = ticks();
+        const std::uint64_t before = ticks();
+        const std::uint64_t ns = raw_ns();
+        const std::uint64_t after = ticks();
         if (after - before < tightest) {
             tightest = after - before;
             best = {ns, before + (after - before) / 2};
@@ -47,6 +51,7 @@ void Clock::calibrate() {
     tsc = invariant_tsc();
     ns_per_tick = 1.0;
     if (!tsc) return;
+    // 100 ms: an error of 20 ns at each end is then 0.4 ppm.
     const ClockReadings from = read_both_clocks();
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const ClockReadings to = read_both_clocks();

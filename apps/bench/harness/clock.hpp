@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clock of every measurement: the time-stamp counter, fenced on both sides, where it counts evenly
-// (invariant TSC); CLOCK_MONOTONIC_RAW elsewhere.
+// The clock of every measurement: the time-stamp counter (rdtsc) where it counts evenly, which the kernel calls
+// constant_tsc and nonstop_tsc; CLOCK_MONOTONIC_RAW elsewhere. Its unit is the tick.
 #pragma once
 #include <cstdint>
 #include <ctime>
@@ -12,15 +12,18 @@
 
 namespace tandem::bench {
 
+/// [any-thread after calibrate()] Inherited by forked children.
 struct Clock {
     static inline bool tsc = false;
     static inline double ns_per_tick = 1.0;
 
     /// [before any fork] Chooses the clock and measures the counter's rate against CLOCK_MONOTONIC_RAW.
     static void calibrate();
+    /// For the report: "rdtsc+lfence, 2.300 GHz" or "CLOCK_MONOTONIC_RAW".
     static std::string name();
 };
 
+/// Now, in ns of CLOCK_MONOTONIC_RAW.
 inline std::uint64_t raw_ns() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC_RAW, &now);
@@ -28,7 +31,8 @@ inline std::uint64_t raw_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-/// Now, in ticks. The fences keep what is measured from drifting out of the measured stretch.
+/// Now, in ticks. Without the fences the processor would execute measured instructions before the first reading
+/// or after the second.
 inline std::uint64_t ticks() {
 #ifdef __x86_64__
     if (Clock::tsc) {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Pools for 64-byte, 1 MiB and 6 MiB messages; RouDi's own default ends at 4 MiB.
+/// RouDi's memory pools: chunks for 64-byte, 1 MiB and 6 MiB messages. Its default has none above 4 MiB.
 constexpr const char* roudi_pools = "[general]\nversion = 1\n[[segment]]\n"
                                     "[[segment.mempool]]\nsize = 256\ncount = 2000\n"
                                     "[[segment.mempool]]\nsize = 1048704\ncount = 16\n"
@@ -25,11 +25,11 @@ constexpr const char* roudi_pools = "[general]\nversion = 1\n[[segment]]\n"
 } // namespace
 
 struct Daemon::Running {
-    Running(fs::path where, const std::vector<std::string>& command, int log)
-        : folder(std::move(where)), process(command, {-1, log, log, ""}) {}
+    Running(fs::path temporary_folder, const std::vector<std::string>& command, int log)
+        : folder(std::move(temporary_folder)), process(command, {-1, log, log, ""}) {}
     ~Running() {
         process.stop(std::chrono::seconds(5));
-        std::error_code ignored; // a folder in /tmp; nothing depends on its end
+        std::error_code ignored; // what stays in the temporary folder does no harm
         fs::remove_all(folder, ignored);
     }
     fs::path folder;
@@ -45,18 +45,21 @@ Daemon::Daemon(const std::string& program) {
     const process::FileDescriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
     running_ = std::make_unique<Running>(
         folder, std::vector<std::string>{program, "-c", (folder / "roudi.toml").string()}, out.get());
-    const auto says_ready = [&] {
+    const auto is_ready = [&] {
         std::ifstream text(log);
         return std::string{std::istreambuf_iterator<char>(text), {}}.find("ready for clients") !=
                std::string::npos;
     };
-    for (int i = 0; i < 1000 && !says_ready(); ++i) {
+    // RouDi has no other sign of being ready: a client that starts earlier would wait or give up.
+    for (int i = 0; i < 1000 && !is_ready(); ++i) {
         if (running_->process.poll())
-            throw std::runtime_error(program +
-                                     " ended at once; is another one running (another tandem-bench)?");
+            throw std::runtime_error(
+                program +
+                " ended before it was ready; stop another instance of it (of another tandem-bench)");
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
-    if (!says_ready()) throw std::runtime_error(program + " was not ready after 10 s");
+    if (!is_ready())
+        throw std::runtime_error(program + " was not ready after 10 s; see the load of the machine");
 }
 
 Daemon::~Daemon() = default;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program that a peer needs beside it (iceoryx: RouDi): started for one case, stopped by its pid.
 #pragma once
 #include <memory>
 #include <string>
 
 namespace tandem::bench {
 
+/// A program that a peer needs beside it (iceoryx: RouDi). It runs as long as this object exists, with a log and
+/// a configuration in a temporary folder of its own.
 class Daemon {
   public:
-    explicit Daemon(const std::string& program); ///< Empty: none. Throws if it does not start in 10 s.
-    ~Daemon();
+    /// Starts the program (looked up on PATH) and waits until its log says that it is ready. Empty: there is
+    /// none. Throws std::runtime_error if it ends, or is not ready in 10 s.
+    explicit Daemon(const std::string& program);
+    ~Daemon(); ///< SIGTERM, SIGKILL after 5 s; removes the folder
 
   private:
     struct Running;

@@ -11,7 +11,9 @@ namespace tandem::bench {
 
 MachineLoad::Reading MachineLoad::read() {
     Reading now{};
-    // cpu user nice system idle iowait irq softirq steal; proc(5)
+    // The first line of /proc/stat is the sum over all cores (proc(5)): cpu user nice system idle iowait irq
+    // softirq steal, in ticks. Columns 3 and 4 are the idle time; steal counts as busy, since another guest
+    // of the hypervisor disturbs a measurement as another process does.
     std::ifstream stat("/proc/stat");
     std::string label;
     stat >> label;
@@ -22,9 +24,9 @@ MachineLoad::Reading MachineLoad::read() {
         now.total += ticks * tick;
         if (column != 3 && column != 4) now.busy += ticks * tick;
     }
-    for (int subject : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    for (int processes : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
         rusage usage{};
-        getrusage(subject, &usage);
+        getrusage(processes, &usage);
         for (const timeval& time : {usage.ru_utime, usage.ru_stime})
             now.own += static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
     }
@@ -35,6 +37,7 @@ MachineLoad::MachineLoad() : start_(read()) {}
 
 double MachineLoad::foreign_cpu_share() const {
     const Reading now = read();
+    // The sums are read one after the other: a small negative difference means none.
     const double total = now.total - start_.total;
     if (total <= 0) return 0;
     return std::max(0.0, (now.busy - start_.busy - (now.own - start_.own)) / total);

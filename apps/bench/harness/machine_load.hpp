@@ -4,16 +4,17 @@
 
 namespace tandem::bench {
 
-/// Notices whether somebody else used the machine from its construction on: the busy time of all cores less
-/// that of this process and of its children that have ended. Good to the kernel's tick, 10 ms.
+/// How much of the machine other processes have used since its construction: the busy time of all cores without
+/// that of this process and of its children that have ended. Its resolution is the kernel's tick, 10 ms.
 class MachineLoad {
   public:
     MachineLoad();
-    double foreign_cpu_share() const; ///< 0 to 1 of the machine's cores
+    /// 0 to 1 of the time of all cores.
+    double foreign_cpu_share() const;
 
   private:
     struct Reading {
-        double busy, total, own; // seconds
+        double busy, total, own; // seconds of CPU time since boot; own: of this process and its children
     };
     static Reading read();
     Reading start_;

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurements, each a template over an End: a class made from a Session in each side, with
-//     void send(sequence)          a message of session.bytes(), the sequence number in all its words
-//     std::uint64_t receive()      waits for the next in the case's wake mode; its sequence, checked
-// and, for calls, a Client with call(sequence) and a Server with serve(), which returns what it answered.
-// Templates, so that no virtual call stands between the clock and what is measured. No wait here has a bound
-// of its own: the driver kills both sides when the case takes too long.
+// The measurements, each a template over an Endpoint: a class that each side makes from its Session, with
+//     void send(sequence)          sends a message of session.bytes(), the sequence number in all its words
+//     std::uint64_t receive()      waits for the next one in the case's wake mode; its sequence number, checked
+// and, for calls, over a Client with call(sequence) and a Server with serve(), which returns what it answered.
+// They are templates, because a virtual call would be part of each measured time. No wait here has a timeout:
+// the driver kills both sides when the case takes too long.
 #pragma once
 #include "apps/bench/harness/payload.hpp"
 #include "apps/bench/harness/session.hpp"
 
 namespace tandem::bench {
 
+/// Throws std::runtime_error if a message was lost, repeated or overtaken.
 inline void require_sequence(std::uint64_t got, std::uint64_t wanted) {
     if (got != wanted) detail::throw_out_of_order(got, wanted);
 }
 
-/// Answers until the stop message.
+/// Side B of a round trip: sends every message back, up to and including the stop message.
 template <class Endpoint>
 void echo_until_stop(Endpoint& endpoint) {
     for (;;) {
@@ -25,6 +26,7 @@ void echo_until_stop(Endpoint& endpoint) {
     }
 }
 
+/// Side A of a round trip: times exchange(sequence), which sends a message and returns the answer's number.
 template <class Exchange>
 void time_round_trips(Session& session, Exchange&& exchange, std::size_t parts = 1) {
     std::uint64_t sequence = 1;
@@ -45,7 +47,8 @@ void time_round_trips(Session& session, Exchange&& exchange, std::size_t parts =
     exchange(stop_sequence);
 }
 
-/// Round trips, one after the other; the case's divisor makes them one-way times.
+/// Round trips, one after the other. The case's divisor of 2 makes them one-way times: the clocks of two cores
+/// need not agree then.
 template <class Endpoint>
 void measure_round_trips(Session& session) {
     Endpoint endpoint(session);
@@ -57,27 +60,25 @@ void measure_round_trips(Session& session) {
     });
 }
 
-/// The same at several places of the session's memory, one after the other, as End(session, place): how far a
-/// line that stays where it is lies from a core depends on its address.
+/// The same in several regions of the session's memory, one after the other, as Endpoint(session, region). How
+/// far a cache line is from a core depends on its address: a ring that never moves would measure its luck.
 template <class Endpoint>
-void measure_round_trips_in_regions(Session& session, std::size_t places) {
-    for (std::size_t place = 0; place < places; ++place) {
-        Endpoint endpoint(session, place);
+void measure_round_trips_in_regions(Session& session, std::size_t regions) {
+    for (std::size_t region = 0; region < regions; ++region) {
+        Endpoint endpoint(session, region);
+        const auto exchange = [&](std::uint64_t sequence) {
+            endpoint.send(sequence);
+            return endpoint.receive();
+        };
         session.arrive_and_wait();
-        if (!session.is_a())
-            echo_until_stop(endpoint);
+        if (session.is_a())
+            time_round_trips(session, exchange, regions);
         else
-            time_round_trips(
-                session,
-                [&](std::uint64_t sequence) {
-                    endpoint.send(sequence);
-                    return endpoint.receive();
-                },
-                places);
+            echo_until_stop(endpoint);
     }
 }
 
-/// Calls: A is the client, B the server.
+/// Calls, one after the other: A is the client, B the server.
 template <class Client, class Server>
 void measure_calls(Session& session) {
     if (session.is_a()) {
@@ -90,12 +91,12 @@ void measure_calls(Session& session) {
         session.arrive_and_wait();
         while (server.serve() != stop_sequence) {
         }
-        session.arrive_and_wait(); // so that the client has its last reply before the server goes
+        session.arrive_and_wait(); // the client must have its last reply before the server's memory goes
     }
 }
 
-/// Round trips that are due every millisecond, measured from when they were due and not from when they were
-/// sent: a stall delays the following ones too, and shows in each of them.
+/// Round trips that are due every millisecond. Each is measured from when it was due, not from when it was
+/// sent: a stall delays the following messages, too, and shows in each of them (no coordinated omission).
 template <class Endpoint>
 void measure_paced(Session& session) {
     Endpoint endpoint(session);
@@ -117,7 +118,8 @@ void measure_paced(Session& session) {
     endpoint.receive();
 }
 
-/// What publishing costs the writer: one message every 5 us while B reads.
+/// What send() costs the writer: one message every 5 us while B receives, so that the ring is empty and B waits
+/// in its wake mode each time.
 template <class Endpoint>
 void measure_publish(Session& session) {
     Endpoint endpoint(session);
@@ -147,12 +149,13 @@ void measure_publish(Session& session) {
     endpoint.send(stop_sequence);
 }
 
-/// As fast as it goes: A fills and sends, B receives and sums and measures windows, each at least so long,
-/// until it has enough. Results: GB/s, or million messages per second.
+/// The rate of messages sent without a pause: A fills and sends; B receives, sums, and counts over windows of
+/// time. Results: GB/s, or million messages per second, one for each window. No message may be lost.
 template <class Endpoint>
 void measure_stream(Session& session) {
     Endpoint endpoint(session);
     session.arrive_and_wait();
+    // Of short messages the clock and the stop flag are looked at once for 64: either costs as much as a message.
     const std::uint64_t batch = session.bytes() <= 4096 ? 64 : 1;
     if (session.is_a()) {
         for (std::uint64_t sequence = 1; !session.stop_requested();)
@@ -161,8 +164,9 @@ void measure_stream(Session& session) {
         session.arrive_and_wait();
         return;
     }
-    const double unit =
-        session.bench_case().unit == Unit::gigabytes ? static_cast<double>(session.bytes()) : 1e3;
+    const bool in_gigabytes = session.bench_case().unit == Unit::gigabytes_per_second;
+    // Of one message: bytes per ns are GB/s, 1000 messages per ns are millions per second.
+    const double unit = in_gigabytes ? static_cast<double>(session.bytes()) : 1e3;
     const std::uint64_t window = to_ticks(session.budget().window_seconds * 1e9);
     std::uint64_t expected = 1;
     for (int i = -1; i < session.budget().windows; ++i) { // the first is warm-up
@@ -176,7 +180,7 @@ void measure_stream(Session& session) {
         if (i >= 0) session.add_result(static_cast<double>(expected - first) * unit / to_ns(now - begin));
     }
     session.request_stop();
-    for (std::uint64_t got = 0; got != stop_sequence;) {
+    for (std::uint64_t got = 0; got != stop_sequence;) { // what A had sent before it saw the request
         got = endpoint.receive();
         if (got != stop_sequence) require_sequence(got, expected++);
     }

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-// The widest vectors that the machine has, chosen when the program starts: the limit is to be the memory.
+// Large messages are filled and summed with the widest vectors that the machine has (chosen when the program
+// starts), so that the memory is the limit and not this loop. The sanitizers do not support the dispatch.
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 #define TANDEM_BENCH_WIDE __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -21,12 +22,13 @@ TANDEM_BENCH_WIDE std::uint64_t sum_large(const std::uint64_t* words, std::size_
 }
 
 void throw_out_of_order(std::uint64_t got, std::uint64_t wanted) {
-    throw std::runtime_error(fmt::format("message {} came where {} was due", got, wanted));
+    throw std::runtime_error(
+        fmt::format("received message {} instead of {}: messages were lost or reordered", got, wanted));
 }
 
 void throw_corrupt(std::uint64_t first, std::uint64_t sum, std::size_t count) {
     throw std::runtime_error(
-        fmt::format("a message of {} words is damaged: first word {}, sum {} instead of {}", count, first,
+        fmt::format("a message of {} words is corrupt: first word {}, sum {} instead of {}", count, first,
                     sum, first * count));
 }
 

@@ -8,10 +8,11 @@ namespace tandem::bench {
 
 void Session::arrive_and_wait() {
     if (case_.placement == Placement::alone) return;
-    const std::uint32_t all = 2 * ++met_;
-    control_.arrived.fetch_add(1, std::memory_order_acq_rel);
-    // The driver bounds it: it kills both if one of them does not come.
-    while (control_.arrived.load(std::memory_order_acquire) < all)
+    const std::uint32_t all = 2 * ++barriers_;
+    control_.arrivals.fetch_add(1, std::memory_order_acq_rel);
+    // No timeout here: the driver kills both sides if one of them does not come. Sleeps, since on one core a
+    // side that polls would hold the other up.
+    while (control_.arrivals.load(std::memory_order_acquire) < all)
         std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
 
@@ -24,9 +25,9 @@ void Session::begin(std::size_t count, double seconds, bool keep) {
 }
 
 void Session::add_result(double value) {
-    const std::size_t at = control_.sample_count.load(std::memory_order_relaxed);
-    control_.samples()[at] = value;
-    control_.sample_count.store(at + 1, std::memory_order_release);
+    const std::size_t index = control_.sample_count.load(std::memory_order_relaxed);
+    control_.samples()[index] = value;
+    control_.sample_count.store(index + 1, std::memory_order_release);
 }
 
 } // namespace tandem::bench

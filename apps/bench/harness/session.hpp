@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one of the two sides of a case sees: who it is, when both are ready, when it has enough, where its
-// samples go. Lives in memory that the driver shares with the two.
+// What one side of a case works with: which side it is, when both are ready, when it has measured enough, and
+// where its samples go.
 #pragma once
 #include "apps/bench/harness/case.hpp"
 #include "apps/bench/harness/clock.hpp"
 #include "apps/bench/harness/tick_record.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <span>
 
 namespace tandem::bench {
@@ -15,23 +16,25 @@ namespace tandem::bench {
 struct Budget {
     std::size_t warm_up = 10'000, samples = 50'000;
     double warm_up_seconds = 0.3, seconds = 1.5; ///< whichever of count and time is reached first
-    double window_seconds = 0.15;                ///< streams
+    double window_seconds = 0.15;                ///< a stream's rate is measured over windows of this length
     int windows = 5;
     double timeout_seconds = 20; ///< then both sides are killed
     int attempts = 4;            ///< a case is repeated if other processes disturbed it
 };
 
-/// Shared by the driver and both sides; zero at first.
+/// Memory that the driver and both sides share; zero at first. The samples follow it, as many as the budget says.
 struct Control {
     static constexpr std::size_t text_bytes = 400;
-    std::atomic<std::uint32_t> arrived, finished;
+    std::atomic<std::uint32_t> arrivals;       ///< calls of arrive_and_wait() of both sides
+    std::atomic<std::uint32_t> stop_requested; ///< 0 or 1
     std::atomic<std::uint64_t> sample_count;
-    char failure[2][text_bytes];
+    char failure[2][text_bytes]; ///< of A and of B; empty if it went well
     bool has_tick_counts;
     TickCounts tick_counts;
-    double* samples() { return reinterpret_cast<double*>(this + 1); } // as many as the limits say
+    double* samples() { return reinterpret_cast<double*>(this + 1); }
 };
 
+/// [one thread] Made by the runner for each side.
 class Session {
   public:
     enum class Role { a, b };
@@ -44,15 +47,15 @@ class Session {
     const Case& bench_case() const { return case_; }
     const Budget& budget() const { return budget_; }
     bool is_a() const { return role_ == Role::a; }
-    std::size_t bytes() const { return case_.bytes; }
-    const std::string& name() const { return name_; }       ///< no other process uses it
+    std::size_t bytes() const { return case_.bytes; }       ///< of a message
+    const std::string& name() const { return name_; }       ///< the same in both sides; no other case has it
     std::span<std::byte> memory() const { return memory_; } ///< zero at first, 64 MiB, one for both sides
 
     /// Waits until both sides have called it the same number of times.
     void arrive_and_wait();
 
-    /// The warm-up loop and the measured loop: while (more()) { ...; sample(ticks it took, now); }
-    /// Of several such loops, `parts`, each gets its share; the samples add up.
+    /// The warm-up loop and the measured loop: while (needs_more()) { ...; add_sample(duration, now); }
+    /// Of several such loops, `parts`, each gets its share of the budget; the samples add up.
     void begin_warm_up(std::size_t parts = 1) {
         begin(budget_.warm_up / parts, budget_.warm_up_seconds / static_cast<double>(parts), false);
     }
@@ -60,13 +63,17 @@ class Session {
         begin(budget_.samples / parts, budget_.seconds / static_cast<double>(parts), true);
     }
     bool needs_more() const { return taken_ < wanted_ && last_ < end_; }
-    void add_sample(std::uint64_t took, std::uint64_t now) {
-        if (keep_) control_.samples()[kept_++] = to_ns(took) / case_.divisor;
+    /// Both in ticks. The end of a sample is the time that needs_more() looks at: no second reading of the clock.
+    void add_sample(std::uint64_t duration, std::uint64_t now) {
+        if (keep_) control_.samples()[kept_++] = to_ns(duration) / case_.divisor;
         ++taken_;
         last_ = now;
     }
+    /// Shows the samples to the driver.
     void end_measuring() { control_.sample_count.store(kept_, std::memory_order_release); }
-    void add_result(double value); ///< One figure of a stream or a count.
+
+    /// Adds one figure in the case's unit: for cases that do not time a loop.
+    void add_result(double value);
 
     /// How many of a case's ticks came a period late or more.
     void set_tick_counts(const TickCounts& counts) {
@@ -74,9 +81,9 @@ class Session {
         control_.has_tick_counts = true;
     }
 
-    /// One side tells the other that it has enough.
-    void request_stop() { control_.finished.store(1, std::memory_order_release); }
-    bool stop_requested() const { return control_.finished.load(std::memory_order_relaxed) != 0; }
+    /// The reader of a stream asks the writer to stop.
+    void request_stop() { control_.stop_requested.store(1, std::memory_order_release); }
+    bool stop_requested() const { return control_.stop_requested.load(std::memory_order_relaxed) != 0; }
 
   private:
     void begin(std::size_t count, double seconds, bool keep);
@@ -87,10 +94,10 @@ class Session {
     std::string name_;
     Control& control_;
     std::span<std::byte> memory_;
-    std::uint32_t met_ = 0;
-    std::size_t taken_ = 0, wanted_ = 0, kept_ = 0;
-    std::uint64_t last_ = 0, end_ = 0;
-    bool keep_ = false;
+    std::uint32_t barriers_ = 0;                    // calls of arrive_and_wait() of this side
+    std::size_t taken_ = 0, wanted_ = 0, kept_ = 0; // samples of this loop; of all loops
+    std::uint64_t last_ = 0, end_ = 0;              // ticks
+    bool keep_ = false;                             // false: warm-up
 };
 
 } // namespace tandem::bench

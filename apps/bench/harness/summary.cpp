@@ -10,7 +10,9 @@ namespace {
 
 constexpr int points_per_decade = 8;
 
-double at_share(const std::vector<double>& sorted, double share) {
+/// The smallest sample with at least `share` of all samples at or below it.
+double percentile(const std::vector<double>& sorted, double share) {
+    // Less 1e-9, or a product that rounding left just above a whole number would be the next rank.
     const auto rank = static_cast<std::size_t>(std::ceil(share * static_cast<double>(sorted.size()) - 1e-9));
     return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
 }
@@ -22,15 +24,15 @@ Summary summarize(std::vector<double> samples) {
     out.samples = samples.size();
     if (samples.empty()) return out;
     std::sort(samples.begin(), samples.end());
-    out.p50 = at_share(samples, 0.5);
-    out.p90 = at_share(samples, 0.9);
-    out.p99 = at_share(samples, 0.99);
-    out.p999 = at_share(samples, 0.999);
+    out.p50 = percentile(samples, 0.5);
+    out.p90 = percentile(samples, 0.9);
+    out.p99 = percentile(samples, 0.99);
+    out.p999 = percentile(samples, 0.999);
     out.max = samples.back();
     for (int i = 0;; ++i) {
         const double rest = std::pow(10.0, -static_cast<double>(i) / points_per_decade);
         if (rest * static_cast<double>(samples.size()) < 1.0) break;
-        out.curve.push_back({1.0 - rest, at_share(samples, 1.0 - rest)});
+        out.curve.push_back({1.0 - rest, percentile(samples, 1.0 - rest)});
     }
     return out;
 }
@@ -49,6 +51,7 @@ Summary median_of(const std::vector<Summary>& runs) {
         return median(std::move(all));
     };
     Summary out;
+    // Runs with fewer samples have shorter curves; the common points are comparable.
     std::size_t points = runs.empty() ? 0 : runs.front().curve.size();
     for (const Summary& run : runs) {
         out.samples += run.samples;

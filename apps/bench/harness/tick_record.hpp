@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ticks of a periodic component as it sees them, counted as cyclictest counts its own: a tick is late
-// against the first period since the tick before, so that one 3.2 periods late is one sample of 3.2 periods.
+// The ticks of a periodic component as it sees them, counted as cyclictest (rt-tests) counts its own: lateness
+// is measured from the first period that began since the previous tick, so that a tick 3.2 periods late is one
+// sample of 3.2 periods, not four samples.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +13,7 @@ struct TickCounts {
     std::uint64_t overruns = 0; ///< ticks a period late or more
     std::uint64_t skipped = 0;  ///< periods whose tick came in a later one or not at all
 
-    /// A sample that is so late.
+    /// One sample.
     void add(std::int64_t late_ns, std::int64_t period_ns) {
         if (late_ns < period_ns) return;
         ++overruns;
@@ -24,24 +25,27 @@ struct TickCounts {
     }
 };
 
+/// [tick-thread; read when it has stopped]
 class TickRecord {
   public:
-    /// Keeps the lateness of so many ticks and counts all. A period begins at the origin.
+    /// [before the first tick] Room for the lateness of `samples` ticks; later ticks are only counted. Periods
+    /// begin at origin_ns plus multiples of period_ns, on CLOCK_MONOTONIC.
     void prepare(std::int64_t period_ns, std::size_t samples, std::int64_t origin_ns) {
         period_ns_ = period_ns;
         origin_ns_ = origin_ns;
         lateness_ns_.reserve(samples);
     }
 
-    /// [tick-thread] At the beginning of a tick, in ns of CLOCK_MONOTONIC.
-    void tick(std::int64_t now) {
+    /// [tick-thread] To be called at the beginning of a tick. No allocation.
+    void record_tick(std::int64_t now_ns) {
         if (ticks_++ == 0) {
-            first_ns_ = now;
-            due_ns_ = now - (now - origin_ns_) % period_ns_;
+            first_ns_ = now_ns;
+            due_ns_ = now_ns - (now_ns - origin_ns_) % period_ns_;
         }
-        last_ns_ = now;
-        const std::int64_t late = now - due_ns_;
-        if (late < 0) return; // at once after a late one, which has served this period, too
+        last_ns_ = now_ns;
+        const std::int64_t late = now_ns - due_ns_;
+        // An executor may tick at once after a late tick; that period has its sample already.
+        if (late < 0) return;
         counts_.add(late, period_ns_);
         due_ns_ += (late / period_ns_ + 1) * period_ns_;
         if (lateness_ns_.size() < lateness_ns_.capacity()) lateness_ns_.push_back(late);
@@ -50,7 +54,8 @@ class TickRecord {
     std::uint64_t ticks() const { return ticks_; }
     const TickCounts& counts() const { return counts_; }
     const std::vector<std::int64_t>& lateness_ns() const { return lateness_ns_; }
-    /// From the first tick to the last, in ns more or less than so many whole periods.
+    /// By how much the mean period differs from the nominal one, in ns. The number of periods is counted on the
+    /// clock, not in ticks, so that skipped periods are no drift.
     double mean_drift_ns() const {
         const std::int64_t periods =
             (last_ns_ - origin_ns_) / period_ns_ - (first_ns_ - origin_ns_) / period_ns_;

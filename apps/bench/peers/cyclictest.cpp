@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// cyclictest (Debian package rt-tests): the lateness of its thread at a period of 1 ms, from its histogram of
-// whole microseconds.
-#include "apps/bench/harness/cases.hpp"
+// cyclictest (Debian package rt-tests): the lateness of its thread at a period of 1 ms, from the histogram that
+// it prints, in whole microseconds. The kernel's developers measure wake-up latency with it; the ticks of both
+// hosts are compared with it.
+#include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
+#include "apps/bench/harness/tick_budget.hpp"
 
 #include <fmt/format.h>
 
@@ -15,30 +17,34 @@ namespace tandem::bench {
 namespace {
 
 constexpr const char* program = "/usr/bin/cyclictest";
-constexpr int widest_us = 100'000;
-constexpr std::int64_t period_ns = 1'000'000;
+constexpr int histogram_us = 100'000; // wider latencies are only counted
 
+/// Runs it for as many ticks as the other tick cases take.
 void tick(Session& session) {
-    const int count = session.budget().samples >= 50'000 ? 10'000 : 1'000;
-    const std::string command = fmt::format(
-        "{} --quiet --threads=1 --interval=1000 --loops={} --histogram={} 2>&1", program, count, widest_us);
+    const int count = lateness_ticks(session.budget());
+    const std::string command =
+        fmt::format("{} --quiet --threads=1 --interval=1000 --loops={} --histogram={} 2>&1", program, count,
+                    histogram_us);
+    // It runs at normal priority (no --priority), as the components of the other tick cases do.
     const std::unique_ptr<FILE, int (*)(FILE*)> out(popen(command.c_str(), "re"), pclose);
-    if (!out) throw std::runtime_error("cannot start cyclictest");
+    if (!out) throw std::runtime_error("cannot start /usr/bin/cyclictest");
     char line[256];
-    int late_us = 0, times = 0, seen = 0, latest_us = 0, beyond = 0;
+    int late_us = 0, times = 0, seen = 0, max_us = 0, overflows = 0;
     TickCounts counts;
     const auto sample = [&](int us) {
         session.add_result(us * 1e3);
-        counts.add(us * std::int64_t{1000}, period_ns);
+        counts.add(us * std::int64_t{1000}, tick_period_ns);
         ++seen;
     };
     while (std::fgets(line, sizeof line, out.get()) != nullptr) {
+        // "000012 000345": 345 ticks were 12 us late. Lines of the summary begin with '#'.
         if (line[0] != '#' && std::sscanf(line, "%d %d", &late_us, &times) == 2)
             for (int i = 0; i < times && seen < count; ++i) sample(late_us);
-        std::sscanf(line, "# Max Latencies: %d", &latest_us);
-        std::sscanf(line, "# Histogram Overflows: %d", &beyond);
+        std::sscanf(line, "# Max Latencies: %d", &max_us);
+        std::sscanf(line, "# Histogram Overflows: %d", &overflows);
     }
-    for (int i = 0; i < beyond && seen < count; ++i) sample(latest_us); // wider than the histogram
+    for (int i = 0; i < overflows && seen < count; ++i)
+        sample(max_us); // each as late as the latest: its own lateness is not printed
     if (seen == 0) throw std::runtime_error("cyclictest printed no histogram");
     session.set_tick_counts(counts);
 }
@@ -47,18 +53,10 @@ void tick(Session& session) {
 
 void add_cyclictest_cases(Registry& registry) {
     if (access(program, X_OK) != 0) {
-        registry.skipped.push_back({"cyclictest", "not installed: Debian package rt-tests"});
+        registry.skipped.push_back({"cyclictest", "not installed: install the Debian package rt-tests"});
         return;
     }
-    Case entry;
-    entry.group = Group::peer;
-    entry.subject = "cyclictest";
-    entry.operation = "tick";
-    entry.placement = Placement::alone;
-    entry.wake = Wake::blocking;
-    entry.bytes = sizeof(double);
-    entry.run = tick;
-    registry.cases.push_back(entry);
+    InProcessCases(registry, Group::peer, "cyclictest").add("tick", sizeof(double), Wake::blocking, tick);
 }
 
 } // namespace tandem::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cyclone DDS: reliable, keep-all topics over UDP on the loopback, taken by polling or from a wait set.
-#include "apps/bench/harness/cases.hpp"
+// Cyclone DDS (one of ROS 2's middlewares): reliable, keep-all topics over UDP on the loopback, taken by polling
+// or by wait set.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,8 @@ namespace tandem::bench {
 
 namespace {
 
-// Loopback only, no multicast: nothing of this leaves the machine.
+// Loopback only and no multicast, so that nothing leaves the machine. Discovery by unicast to the same address.
+// The largest datagrams that UDP carries: 6 MiB are sent in fewer fragments.
 constexpr const char* configuration =
     "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='lo'/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast><MaxMessageSize>65500B</MaxMessageSize></General>"
@@ -25,6 +26,7 @@ constexpr const char* configuration =
     "address='127.0.0.1'/></Peers></Discovery>"
     "<Tracing><Verbosity>severe</Verbosity><OutputFile>stderr</OutputFile></Tracing></Domain></CycloneDDS>";
 
+// idlc generates a C type and a descriptor for each message size: DDS types have fixed arrays.
 template <class T>
 const dds_topic_descriptor_t& descriptor();
 template <>
@@ -40,37 +42,42 @@ const dds_topic_descriptor_t& descriptor<TandemBench_SixMebibytes>() {
     return TandemBench_SixMebibytes_desc;
 }
 
-dds_entity_t good(dds_return_t result, const char* operation) {
+/// The result; throws std::runtime_error if it is an error code.
+dds_entity_t require_ok(dds_return_t result, const char* operation) {
     if (result < 0)
         throw std::runtime_error(fmt::format("Cyclone DDS: {}: {}", operation, dds_strretcode(result)));
     return result;
 }
 
+/// A participant with a writer of one topic and a reader of the other.
 template <class T, Wake wake>
 class CycloneEndpoint {
   public:
     explicit CycloneEndpoint(Session& session) : message_(std::make_unique<T>()) {
+        // Read when the first participant is made.
         setenv("CYCLONEDDS_URI", configuration, 1);
-        participant_ = good(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr), "participant");
+        participant_ =
+            require_ok(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr), "participant");
         dds_qos_t* qos = dds_create_qos();
         dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
         dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+        // Bounded, so that the writer blocks instead of filling the memory when the reader is behind.
         const int depth = sizeof(T) <= 4096 ? 256 : 4;
         dds_qset_resource_limits(qos, depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
         const auto topic = [&](const char* end) {
-            return good(dds_create_topic(participant_, &descriptor<T>(), topic_name(session, end).c_str(),
-                                         qos, nullptr),
-                        "topic");
+            return require_ok(dds_create_topic(participant_, &descriptor<T>(),
+                                               topic_name(session, end).c_str(), qos, nullptr),
+                              "topic");
         };
-        writer_ = good(dds_create_writer(participant_, topic(session.is_a() ? "_0" : "_1"), qos, nullptr),
-                       "writer");
-        reader_ = good(dds_create_reader(participant_, topic(session.is_a() ? "_1" : "_0"), qos, nullptr),
-                       "reader");
+        writer_ = require_ok(
+            dds_create_writer(participant_, topic(session.is_a() ? "_0" : "_1"), qos, nullptr), "writer");
+        reader_ = require_ok(
+            dds_create_reader(participant_, topic(session.is_a() ? "_1" : "_0"), qos, nullptr), "reader");
         dds_delete_qos(qos);
         if constexpr (wake == Wake::blocking) {
-            wait_set_ = good(dds_create_waitset(participant_), "wait set");
-            good(dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS), "status mask");
-            good(dds_waitset_attach(wait_set_, reader_, 0), "wait set");
+            wait_set_ = require_ok(dds_create_waitset(participant_), "wait set");
+            require_ok(dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS), "status mask");
+            require_ok(dds_waitset_attach(wait_set_, reader_, 0), "wait set");
         }
         wait_for_match();
     }
@@ -80,38 +87,41 @@ class CycloneEndpoint {
 
     void send(std::uint64_t sequence) {
         fill_message(message_->words, sizeof(T), sequence);
-        good(dds_write(writer_, message_.get()), "write");
+        require_ok(dds_write(writer_, message_.get()), "write");
     }
+    // Takes one sample at a time, without a copy out of the reader's cache.
     std::uint64_t receive() {
         for (;;) {
             void* sample = nullptr; // lent by the reader
             dds_sample_info_t info{};
-            if (good(dds_take(reader_, &sample, &info, 1, 1), "take") > 0) {
-                const bool valid = info.valid_data;
+            if (require_ok(dds_take(reader_, &sample, &info, 1, 1), "take") > 0) {
+                const bool valid = info.valid_data; // false: a change of state without data, as at the end
                 const std::uint64_t sequence =
                     valid ? checked_sequence(static_cast<const T*>(sample)->words, sizeof(T)) : 0;
-                good(dds_return_loan(reader_, &sample, 1), "return loan");
+                require_ok(dds_return_loan(reader_, &sample, 1), "return loan");
                 if (valid) return sequence;
             } else if constexpr (wake == Wake::blocking) {
-                good(dds_waitset_wait(wait_set_, nullptr, 0, DDS_SECS(1)), "wait");
+                require_ok(dds_waitset_wait(wait_set_, nullptr, 0, DDS_SECS(1)), "wait");
             }
         }
     }
 
   private:
+    /// Topic names may contain no hyphen.
     static std::string topic_name(const Session& session, const char* end) {
         std::string name = session.name() + end;
         for (char& c : name)
             if (c == '-') c = '_';
         return name;
     }
+    /// A message written before the peer is discovered would be kept for it and count as late.
     void wait_for_match() const {
         dds_publication_matched_status_t readers{};
         dds_subscription_matched_status_t writers{};
         while (readers.current_count == 0 || writers.current_count == 0) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            good(dds_get_publication_matched_status(writer_, &readers), "status");
-            good(dds_get_subscription_matched_status(reader_, &writers), "status");
+            require_ok(dds_get_publication_matched_status(writer_, &readers), "status");
+            require_ok(dds_get_subscription_matched_status(reader_, &writers), "status");
         }
     }
 
@@ -126,14 +136,15 @@ using Small = CycloneEndpoint<TandemBench_Small, wake>;
 
 void add_cyclone_cases(Registry& registry) {
     PeerCases cases(registry, "cyclone-dds");
-    cases.one_way<Small<Wake::spin>>(Wake::spin);
-    cases.one_way<Small<Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<Small<Wake::blocking>>, PairServerOf<Small<Wake::blocking>>>(Wake::blocking,
-                                                                                         "pair");
-    cases.rate<Small<Wake::blocking>>(Wake::blocking);
-    cases.large<CycloneEndpoint<TandemBench_Mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
-    cases.large<CycloneEndpoint<TandemBench_SixMebibytes, Wake::blocking>>(6 * mebibyte, Wake::blocking,
-                                                                           "copy");
+    cases.add_one_way<Small<Wake::spin>>(Wake::spin);
+    cases.add_one_way<Small<Wake::blocking>>(Wake::blocking);
+    cases.add_call<PairClientOf<Small<Wake::blocking>>, PairServerOf<Small<Wake::blocking>>>(Wake::blocking,
+                                                                                             "pair");
+    cases.add_small_stream<Small<Wake::blocking>>(Wake::blocking);
+    cases.add_large_stream<CycloneEndpoint<TandemBench_Mebibyte, Wake::blocking>>(mebibyte, Wake::blocking,
+                                                                                  "copy");
+    cases.add_large_stream<CycloneEndpoint<TandemBench_SixMebibytes, Wake::blocking>>(6 * mebibyte,
+                                                                                      Wake::blocking, "copy");
 }
 
 } // namespace tandem::bench

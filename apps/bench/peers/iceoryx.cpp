@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// iceoryx (classic): loan, publish, take, by polling and by WaitSet; client and server where the version has
-// them. RouDi runs meanwhile. Publishers wait for the subscriber rather than lose messages.
-#include "apps/bench/harness/cases.hpp"
+// iceoryx (classic, Debian's version 2): zero-copy publish and subscribe by loan and take, by polling and by
+// WaitSet, and its client and server. Its daemon RouDi runs during each case. Publishers wait for a slow subscriber, so
+// that no message is lost.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <chrono>
@@ -20,8 +20,10 @@ namespace tandem::bench {
 
 namespace {
 
+// Of payloads: a message begins on a cache line of its own.
 constexpr std::uint32_t alignment = 64;
 
+/// To be called before any publisher or subscriber is made; registers this side with RouDi.
 void start_runtime(const Session& session) {
     iox::log::LogManager::GetLogManager().SetDefaultLogLevel(iox::log::LogLevel::kError,
                                                              iox::log::LogLevelOutput::kHideLogLevel);
@@ -29,12 +31,14 @@ void start_runtime(const Session& session) {
     iox::runtime::PoshRuntime::initRuntime({iox::cxx::TruncateToCapacity, name.c_str()});
 }
 
+/// Services have the case's name, so that two cases never see each other's.
 iox::capro::ServiceDescription service(const Session& session, const char* event) {
     return {{iox::cxx::TruncateToCapacity, session.name().c_str()},
             "bench",
             {iox::cxx::TruncateToCapacity, event}};
 }
 
+/// Discovery takes a few of RouDi's cycles.
 template <class Ready>
 void wait_for(Ready&& ready) {
     while (!ready()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -44,6 +48,7 @@ void wait_for(Ready&& ready) {
     throw std::runtime_error(std::string("iceoryx: ") + operation);
 }
 
+/// A publisher of one topic and a subscriber of the other; messages are filled and summed in shared memory.
 template <std::size_t bytes, Wake wake>
 class IceoryxEndpoint {
   public:
@@ -51,13 +56,14 @@ class IceoryxEndpoint {
         : IceoryxEndpoint((start_runtime(session), session), session.is_a() ? "0" : "1",
                           session.is_a() ? "1" : "0") {}
 
+    // Zero-copy: the message is written where the subscriber will read it.
     void send(std::uint64_t sequence) {
         publisher_.loan(bytes, alignment)
             .and_then([&](void*& chunk) {
                 fill_message(chunk, bytes, sequence);
                 publisher_.publish(chunk);
             })
-            .or_else([](auto&) { fail("no chunk to loan"); });
+            .or_else([](auto&) { fail("no chunk to loan, see RouDi's pools"); });
     }
     std::uint64_t receive() {
         for (;;) {
@@ -73,6 +79,7 @@ class IceoryxEndpoint {
     }
 
   private:
+    // Within RouDi's pools (harness/daemon.cpp).
     static constexpr std::uint64_t depth = bytes <= 4096 ? 256 : 4;
 
     IceoryxEndpoint(Session& session, const char* out, const char* in)
@@ -87,6 +94,7 @@ class IceoryxEndpoint {
             });
         }
     }
+    // Both options are needed: the publisher must be willing to wait, and the subscriber must ask for it.
     static iox::popo::PublisherOptions publisher_options() {
         iox::popo::PublisherOptions options;
         options.subscriberTooSlowPolicy = iox::popo::ConsumerTooSlowPolicy::WAIT_FOR_CONSUMER;
@@ -101,9 +109,10 @@ class IceoryxEndpoint {
 
     iox::popo::UntypedPublisher publisher_;
     iox::popo::UntypedSubscriber subscriber_;
-    std::unique_ptr<iox::popo::WaitSet<>> wait_set_; // detaches before the subscriber goes
+    std::unique_ptr<iox::popo::WaitSet<>> wait_set_; // last: it detaches from the subscriber first
 };
 
+/// Requests are loaned and sent as messages are.
 template <Wake wake>
 class IceoryxClient {
   public:
@@ -138,6 +147,7 @@ class IceoryxClient {
     std::unique_ptr<iox::popo::WaitSet<>> wait_set_;
 };
 
+/// A reply is loaned for its request: the request identifies its client.
 template <Wake wake>
 class IceoryxServer {
   public:
@@ -178,15 +188,15 @@ class IceoryxServer {
 
 void add_iceoryx_cases(Registry& registry) {
     PeerCases cases(registry, "iceoryx", "iox-roudi");
-    cases.one_way<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
-    cases.one_way<IceoryxEndpoint<64, Wake::blocking>>(Wake::blocking);
-    cases.due<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
-    cases.due<IceoryxEndpoint<64, Wake::blocking>>(Wake::blocking);
-    cases.call<IceoryxClient<Wake::spin>, IceoryxServer<Wake::spin>>(Wake::spin);
-    cases.call<IceoryxClient<Wake::blocking>, IceoryxServer<Wake::blocking>>(Wake::blocking);
-    cases.rate<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
-    cases.large<IceoryxEndpoint<mebibyte, Wake::spin>>(mebibyte, Wake::spin, "loan");
-    cases.large<IceoryxEndpoint<6 * mebibyte, Wake::spin>>(6 * mebibyte, Wake::spin, "loan");
+    cases.add_one_way<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.add_one_way<IceoryxEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.add_paced<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.add_paced<IceoryxEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.add_call<IceoryxClient<Wake::spin>, IceoryxServer<Wake::spin>>(Wake::spin);
+    cases.add_call<IceoryxClient<Wake::blocking>, IceoryxServer<Wake::blocking>>(Wake::blocking);
+    cases.add_small_stream<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.add_large_stream<IceoryxEndpoint<mebibyte, Wake::spin>>(mebibyte, Wake::spin, "loan");
+    cases.add_large_stream<IceoryxEndpoint<6 * mebibyte, Wake::spin>>(6 * mebibyte, Wake::spin, "loan");
 }
 
 } // namespace tandem::bench

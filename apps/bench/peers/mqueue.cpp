@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// POSIX message queues: through the kernel. Its default limits (10 messages of 8 KiB) exclude large messages.
-#include "apps/bench/harness/cases.hpp"
+// POSIX message queues (mq_overview(7)): a copy into the kernel and one out of it. The default limits of 10
+// messages of 8 KiB exclude large messages.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <cerrno>
@@ -12,6 +12,7 @@ namespace tandem::bench {
 
 namespace {
 
+/// A queue in each direction, named after the case; the runner unlinks them (remove_leftovers()).
 template <std::size_t bytes, Wake wake>
 class MqueueEndpoint {
   public:
@@ -26,13 +27,14 @@ class MqueueEndpoint {
     MqueueEndpoint(const MqueueEndpoint&) = delete;
     MqueueEndpoint& operator=(const MqueueEndpoint&) = delete;
     void send(std::uint64_t sequence) {
-        message_.write(sequence);
+        message_.fill(sequence);
         if (mq_send(out_, static_cast<const char*>(message_.data()), bytes, 0) != 0) fail("mq_send");
     }
     std::uint64_t receive() {
+        // Without O_NONBLOCK the call sleeps; with it, it returns EAGAIN and the loop polls the kernel.
         while (mq_receive(in_, static_cast<char*>(message_.data()), bytes, nullptr) < 0)
             if (errno != EAGAIN) fail("mq_receive");
-        return message_.read();
+        return message_.checked_sequence();
     }
 
   private:
@@ -41,7 +43,7 @@ class MqueueEndpoint {
     }
     static mqd_t open(Session& session, const char* end, int flags) {
         mq_attr sizes{};
-        sizes.mq_maxmsg = 10;
+        sizes.mq_maxmsg = 10; // more needs a privilege
         sizes.mq_msgsize = bytes;
         const mqd_t queue = mq_open(("/" + session.name() + end).c_str(), flags | O_CREAT, 0600, &sizes);
         if (queue < 0) fail("mq_open");
@@ -55,11 +57,12 @@ class MqueueEndpoint {
 
 void add_mqueue_cases(Registry& registry) {
     PeerCases cases(registry, "posix-mqueue");
-    cases.one_way<MqueueEndpoint<64, Wake::spin>>(Wake::spin);
-    cases.one_way<MqueueEndpoint<64, Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<MqueueEndpoint<64, Wake::spin>>, PairServerOf<MqueueEndpoint<64, Wake::spin>>>(
-        Wake::spin, "pair");
-    cases.rate<MqueueEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.add_one_way<MqueueEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.add_one_way<MqueueEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases
+        .add_call<PairClientOf<MqueueEndpoint<64, Wake::spin>>, PairServerOf<MqueueEndpoint<64, Wake::spin>>>(
+            Wake::spin, "pair");
+    cases.add_small_stream<MqueueEndpoint<64, Wake::blocking>>(Wake::blocking);
 }
 
 } // namespace tandem::bench

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// omniORB, what OpenRTM-aist's ports are made of: oneway and twoway operations over TCP on the loopback and
-// over unix sockets. Messages arrive in a thread of the ORB, which answers an echo itself. Oneways of one
-// connection keep their order only with one server thread per connection.
-#include "apps/bench/harness/cases.hpp"
+// omniORB, which OpenRTM-aist's ports between processes are made of: oneway and twoway operations over TCP on the
+// loopback and over unix sockets. A message arrives in a thread of the ORB, which sends the echo itself: a
+// hand-over to another thread would be no cost of omniORB's. Oneways of one connection keep their order only with
+// one server thread per connection.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include "omniorb.hh"
@@ -16,9 +16,10 @@ namespace tandem::bench {
 
 namespace {
 
-enum class Net { tcp, unix_socket };
+enum class Transport { tcp, unix_socket };
 
-/// Numbers of the messages that have arrived, in order; full, it holds the ORB's thread back.
+/// [any-thread] The sequence numbers of the messages that have arrived, in order. push() blocks while there are
+/// 1024, which holds the ORB's thread and so, by its socket, the sender back.
 class Inbox {
   public:
     void push(std::uint64_t sequence) {
@@ -42,50 +43,53 @@ class Inbox {
     std::deque<std::uint64_t> waiting_;
 };
 
+/// [ORB's thread] The object that the other side calls.
 class PeerServant : public POA_TandemBench::Peer {
   public:
     PeerServant(Inbox& inbox, bool echoes) : inbox_(inbox), echoes_(echoes) {}
     void put(const TandemBench::Bytes& message) override {
         const std::uint64_t sequence = checked_sequence(message.get_buffer(), message.length());
-        if (echoes_) other->put(message);
+        if (echoes_) peer->put(message);
+        // The echoing side's main thread waits for the stop message only.
         if (!echoes_ || sequence == stop_sequence) inbox_.push(sequence);
     }
     TandemBench::Bytes* call(const TandemBench::Bytes& message) override {
         inbox_.push(checked_sequence(message.get_buffer(), message.length()));
         return new TandemBench::Bytes(message);
     }
-    TandemBench::Peer_var other;
+    TandemBench::Peer_var peer;
 
   private:
     Inbox& inbox_;
     bool echoes_;
 };
 
-/// An ORB with one object, and a reference to the other side's.
-template <Net net>
+/// An ORB with one activated object, and a reference to the peer's. The references are exchanged as text through
+/// the session's memory, which takes the place of a naming service.
+template <Transport transport>
 class OrbSide {
   public:
     explicit OrbSide(Session& session)
-        : orb_(start(session)), echoes_(!session.is_a() && session.bench_case().operation == "one-way"),
+        : orb_(start_orb(session)), echoes_(!session.is_a() && session.bench_case().operation == "one-way"),
           servant_(new PeerServant(inbox_, echoes_)) {
         const CORBA::Object_var root = orb_->resolve_initial_references("RootPOA");
         const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
         const PortableServer::ObjectId_var id = poa->activate_object(servant_.in());
         const PortableServer::POAManager_var manager = poa->the_POAManager();
         manager->activate();
-        const CORBA::Object_var mine = poa->id_to_reference(id);
-        const CORBA::String_var text = orb_->object_to_string(mine);
-        char* shared = reinterpret_cast<char*>(session.memory().data()); // instead of a naming service
+        const CORBA::Object_var own = poa->id_to_reference(id);
+        const CORBA::String_var text = orb_->object_to_string(own);
+        char* shared = reinterpret_cast<char*>(session.memory().data());
         std::strcpy(shared + (session.is_a() ? 0 : text_bytes), text);
         session.arrive_and_wait();
-        const CORBA::Object_var theirs = orb_->string_to_object(shared + (session.is_a() ? text_bytes : 0));
-        peer_ = TandemBench::Peer::_narrow(theirs);
-        servant_->other = TandemBench::Peer::_duplicate(peer_);
+        const CORBA::Object_var other = orb_->string_to_object(shared + (session.is_a() ? text_bytes : 0));
+        peer_ = TandemBench::Peer::_narrow(other);
+        servant_->peer = TandemBench::Peer::_duplicate(peer_);
         session.arrive_and_wait();
     }
     ~OrbSide() {
         peer_ = TandemBench::Peer::_nil();
-        servant_->other = TandemBench::Peer::_nil();
+        servant_->peer = TandemBench::Peer::_nil();
         orb_->destroy();
     }
     OrbSide(const OrbSide&) = delete;
@@ -93,13 +97,15 @@ class OrbSide {
 
   protected:
     static constexpr std::size_t text_bytes = 4096;
-    static CORBA::ORB_ptr start(const Session& session) {
+    /// Options: large messages are allowed, and the client uses the transport that is measured.
+    static CORBA::ORB_ptr start_orb(const Session& session) {
         const std::string path = "giop:unix:/tmp/" + session.name() + (session.is_a() ? "-a" : "-b");
-        const char* options[][2] = {{"endPoint", net == Net::tcp ? "giop:tcp:127.0.0.1:" : path.c_str()},
-                                    {"clientTransportRule", net == Net::tcp ? "* tcp" : "* unix"},
-                                    {"maxServerThreadPerConnection", "1"},
-                                    {"giopMaxMsgSize", "16777216"},
-                                    {nullptr, nullptr}};
+        const char* options[][2] = {
+            {"endPoint", transport == Transport::tcp ? "giop:tcp:127.0.0.1:" : path.c_str()},
+            {"clientTransportRule", transport == Transport::tcp ? "* tcp" : "* unix"},
+            {"maxServerThreadPerConnection", "1"},
+            {"giopMaxMsgSize", "16777216"},
+            {nullptr, nullptr}};
         int argc = 0;
         return CORBA::ORB_init(argc, nullptr, "omniORB4", options);
     }
@@ -110,12 +116,13 @@ class OrbSide {
     TandemBench::Peer_var peer_;
 };
 
-template <std::size_t bytes, Net net>
-class OnewayEndpoint : OrbSide<net> {
+/// Messages as oneway operations: send() returns when the ORB has written the request to the socket.
+template <std::size_t bytes, Transport transport>
+class OnewayEndpoint : OrbSide<transport> {
   public:
-    explicit OnewayEndpoint(Session& session) : OrbSide<net>(session) { message_.length(bytes); }
+    explicit OnewayEndpoint(Session& session) : OrbSide<transport>(session) { message_.length(bytes); }
     void send(std::uint64_t sequence) {
-        if (this->echoes_) return; // the ORB's thread has answered already
+        if (this->echoes_) return; // the ORB's thread has sent the echo already
         fill_message(message_.get_buffer(), bytes, sequence);
         this->peer_->put(message_);
     }
@@ -125,10 +132,11 @@ class OnewayEndpoint : OrbSide<net> {
     TandemBench::Bytes message_;
 };
 
-template <Net net>
-class TwowayClient : OrbSide<net> {
+/// Calls as twoway operations.
+template <Transport transport>
+class TwowayClient : OrbSide<transport> {
   public:
-    explicit TwowayClient(Session& session) : OrbSide<net>(session) { message_.length(bytes); }
+    explicit TwowayClient(Session& session) : OrbSide<transport>(session) { message_.length(bytes); }
     std::uint64_t call(std::uint64_t sequence) {
         fill_message(message_.get_buffer(), bytes, sequence);
         const TandemBench::Bytes_var reply = this->peer_->call(message_);
@@ -140,29 +148,30 @@ class TwowayClient : OrbSide<net> {
     TandemBench::Bytes message_;
 };
 
-template <Net net>
-class TwowayServer : OrbSide<net> {
+template <Transport transport>
+class TwowayServer : OrbSide<transport> {
   public:
-    using OrbSide<net>::OrbSide;
-    TwowayServer(Session& session) : OrbSide<net>(session) {}
+    using OrbSide<transport>::OrbSide;
+    TwowayServer(Session& session) : OrbSide<transport>(session) {}
+    /// The ORB's thread has answered already; this waits for the next sequence number.
     std::uint64_t serve() { return this->inbox_.pop(); }
 };
 
-template <Net net>
-void add_net(Registry& registry, const char* subject) {
+template <Transport transport>
+void add_transport(Registry& registry, const char* subject) {
     PeerCases cases(registry, subject);
-    cases.one_way<OnewayEndpoint<64, net>>(Wake::blocking);
-    cases.call<TwowayClient<net>, TwowayServer<net>>(Wake::blocking);
-    cases.rate<OnewayEndpoint<64, net>>(Wake::blocking);
-    cases.large<OnewayEndpoint<mebibyte, net>>(mebibyte, Wake::blocking, "copy");
-    cases.large<OnewayEndpoint<6 * mebibyte, net>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.add_one_way<OnewayEndpoint<64, transport>>(Wake::blocking);
+    cases.add_call<TwowayClient<transport>, TwowayServer<transport>>(Wake::blocking);
+    cases.add_small_stream<OnewayEndpoint<64, transport>>(Wake::blocking);
+    cases.add_large_stream<OnewayEndpoint<mebibyte, transport>>(mebibyte, Wake::blocking, "copy");
+    cases.add_large_stream<OnewayEndpoint<6 * mebibyte, transport>>(6 * mebibyte, Wake::blocking, "copy");
 }
 
 } // namespace
 
 void add_omniorb_cases(Registry& registry) {
-    add_net<Net::tcp>(registry, "omniorb-tcp");
-    add_net<Net::unix_socket>(registry, "omniorb-unix");
+    add_transport<Transport::tcp>(registry, "omniorb-tcp");
+    add_transport<Transport::unix_socket>(registry, "omniorb-unix");
 }
 
 } // namespace tandem::bench

@@ -1,78 +1,84 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the cases of all peers have in common. A peer is measured in the wake modes and with the payloads that
-// it has; its Ends are templates over message size and wake mode.
+// What the peers' files have in common. A peer's endpoints are templates over message size and wake mode, and it
+// is measured in the modes and with the payloads that it has.
 #pragma once
+#include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/measurements.hpp"
+#include "apps/bench/harness/registry.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace tandem::bench {
 
-constexpr std::size_t mebibyte = std::size_t{1} << 20U;
-
+/// Adds the cases of one peer. Endpoint, Client and Server are described in measurements.hpp.
 class PeerCases {
   public:
-    PeerCases(Registry& registry, std::string subject, std::string service = {})
-        : registry_(registry), subject_(std::move(subject)), service_(std::move(service)) {}
+    /// `daemon`: a program that must run while the peer is measured.
+    PeerCases(Registry& registry, std::string subject, std::string daemon = {})
+        : registry_(registry), subject_(std::move(subject)), daemon_(std::move(daemon)) {}
 
-    /// One way, 64 B, by round trip.
+    /// One way, 64 B, as half a round trip.
     template <class Endpoint>
-    void one_way(Wake wake, const std::string& detail = {}) {
-        Case entry = base("one-way", 64, wake, detail);
-        entry.divisor = 2;
-        entry.run = measure_round_trips<Endpoint>;
-        registry_.add_regimes(entry);
+    void add_one_way(Wake wake) {
+        Case one_way = make("one-way", 64, wake);
+        one_way.divisor = 2;
+        one_way.run = measure_round_trips<Endpoint>;
+        registry_.add_with_conditions(one_way);
     }
-    /// Request and reply, 64 B each.
+    /// Request and reply, 64 B each. Detail "pair": the peer has no calls, two messages take their place.
     template <class Client, class Server>
-    void call(Wake wake, const std::string& detail = {}) {
-        Case entry = base("call", 64, wake, detail);
-        entry.run = measure_calls<Client, Server>;
-        registry_.add_regimes(entry);
+    void add_call(Wake wake, const std::string& detail = {}) {
+        Case call = make("call", 64, wake, detail);
+        call.run = measure_calls<Client, Server>;
+        registry_.add_with_conditions(call);
     }
-    /// Round trips that are due every millisecond.
+    /// Round trips that are due every millisecond, 64 B.
     template <class Endpoint>
-    void due(Wake wake) {
-        Case entry = base("paced", 64, wake, {});
-        entry.run = measure_paced<Endpoint>;
-        registry_.cases.push_back(entry);
+    void add_paced(Wake wake) {
+        Case paced = make("paced", 64, wake);
+        paced.run = measure_paced<Endpoint>;
+        registry_.add(paced);
     }
+    /// 64 B messages without a pause.
     template <class Endpoint>
-    void rate(Wake wake, const std::string& detail = {}) {
-        Case entry = base("stream", 64, wake, detail);
-        entry.unit = Unit::megamessages;
-        entry.run = measure_stream<Endpoint>;
-        registry_.cases.push_back(entry);
+    void add_small_stream(Wake wake) {
+        Case stream = make("stream", 64, wake);
+        stream.unit = Unit::million_messages_per_second;
+        stream.run = measure_stream<Endpoint>;
+        registry_.add(stream);
     }
+    /// Large messages without a pause. Detail: "loan", written and read in place, or "copy".
     template <class Endpoint>
-    void large(std::size_t bytes, Wake wake, const std::string& detail = {}) {
-        Case entry = base("stream", bytes, wake, detail);
-        entry.unit = Unit::gigabytes;
-        entry.run = measure_stream<Endpoint>;
-        registry_.cases.push_back(entry);
+    void add_large_stream(std::size_t bytes, Wake wake, const std::string& detail) {
+        Case stream = make("stream", bytes, wake, detail);
+        stream.unit = Unit::gigabytes_per_second;
+        stream.run = measure_stream<Endpoint>;
+        registry_.add(stream);
     }
 
   private:
-    Case base(const char* operation, std::size_t bytes, Wake wake, const std::string& detail) const {
-        Case entry;
-        entry.group = Group::peer;
-        entry.subject = subject_;
-        entry.operation = operation;
-        entry.bytes = bytes;
-        entry.wake = wake;
-        entry.detail = detail;
-        entry.service = service_;
-        return entry;
+    Case make(const char* operation, std::size_t bytes, Wake wake, const std::string& detail = {}) const {
+        return {.group = Group::peer,
+                .subject = subject_,
+                .operation = operation,
+                .bytes = bytes,
+                .wake = wake,
+                .detail = detail,
+                .daemon = daemon_};
     }
     Registry& registry_;
-    std::string subject_, service_;
+    std::string subject_, daemon_;
 };
 
-/// A private message for transports that copy.
+/// The sender's and the receiver's own copy of a message, for transports that copy.
 template <std::size_t bytes>
 struct Message {
     Message() : words(bytes / sizeof(std::uint64_t)) {}
     void* data() { return words.data(); }
-    void write(std::uint64_t sequence) { fill_message(words.data(), bytes, sequence); }
-    std::uint64_t read() const { return checked_sequence(words.data(), bytes); }
+    void fill(std::uint64_t sequence) { fill_message(words.data(), bytes, sequence); }
+    std::uint64_t checked_sequence() const { return bench::checked_sequence(words.data(), bytes); }
     std::vector<std::uint64_t> words;
 };
 

@@ -1,44 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which peers this build has (peers.cmake), and what is said of those that it has not.
+// Calls the function of each peer that this build has, and names the others. CMake writes peer_list.inc, one
+// line for each tandem_bench_peer() of peers.cmake:
+//     TANDEM_BENCH_PEER(iceoryx)                             add_iceoryx_cases() is in this build
+//     TANDEM_BENCH_MISSING_PEER("iceoryx", "packages")       it is not: these Debian packages are missing
 #include "apps/bench/harness/cases.hpp"
-
-#include "apps/bench/harness/case.hpp"
+#include "apps/bench/harness/registry.hpp"
 
 namespace tandem::bench {
 
+#define TANDEM_BENCH_PEER(name) void add_##name##_cases(Registry& registry);
+#define TANDEM_BENCH_MISSING_PEER(name, packages)
+#include "peer_list.inc"
+#undef TANDEM_BENCH_PEER
+#undef TANDEM_BENCH_MISSING_PEER
+
 namespace {
 
-[[maybe_unused]] void skip(Registry& registry, const char* subject, const char* package) {
-    registry.skipped.push_back({subject, std::string("this build has no ") + subject +
-                                             ": install the Debian package " + package +
-                                             " and build again (apps/bench/run.sh does both)"});
+[[maybe_unused]] void skip(Registry& registry, const char* name, const char* packages) {
+    registry.skipped.push_back({name, std::string("this build has no ") + name +
+                                          ": install the Debian packages " + packages +
+                                          " and build again (apps/bench/run.sh does both)"});
 }
 
 } // namespace
 
 void add_peer_cases(Registry& registry) {
-#ifdef TANDEM_BENCH_ICEORYX
-    add_iceoryx_cases(registry);
-#else
-    skip(registry, "iceoryx", "libiceoryx-posh-dev");
-#endif
-    add_boost_cases(registry);
-    add_cyclictest_cases(registry);
-    add_mqueue_cases(registry);
-    add_socket_cases(registry);
-#ifdef TANDEM_BENCH_ZEROMQ
-    add_zeromq_cases(registry);
-#else
-    skip(registry, "zeromq", "libzmq3-dev");
-#endif
-#ifdef TANDEM_BENCH_CYCLONE
-    add_cyclone_cases(registry);
-#else
-    skip(registry, "cyclone-dds", "cyclonedds-dev");
-#endif
-#ifdef TANDEM_BENCH_OMNIORB
-    add_omniorb_cases(registry);
-#endif
+#define TANDEM_BENCH_PEER(name) add_##name##_cases(registry);
+#define TANDEM_BENCH_MISSING_PEER(name, packages) skip(registry, name, packages);
+#include "peer_list.inc"
 }
 
 } // namespace tandem::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Unix sockets: SOCK_SEQPACKET for messages, SOCK_STREAM for what is longer than a packet may be.
-#include "apps/bench/harness/cases.hpp"
+// Unix sockets (unix(7)): SOCK_SEQPACKET for short messages, SOCK_STREAM for those that are longer than a packet
+// may be. A copy into the kernel and one out of it.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <cerrno>
@@ -20,14 +20,15 @@ namespace {
     throw std::system_error(errno, std::generic_category(), operation);
 }
 
-/// Abstract name: no file that could be left behind.
+/// An abstract name (it begins with a zero byte): there is no file that could be left behind.
 socklen_t address_of(const std::string& name, sockaddr_un& address) {
     address.sun_family = AF_UNIX;
     std::memcpy(address.sun_path + 1, name.data(), name.size());
     return static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
 }
 
-int connected(const Session& session, int type) {
+/// A connected socket: B listens and accepts, A connects. Throws std::system_error.
+int connect_sides(const Session& session, int type) {
     sockaddr_un address{};
     const socklen_t size = address_of(session.name(), address);
     const int fd = socket(AF_UNIX, type | SOCK_CLOEXEC, 0);
@@ -35,7 +36,7 @@ int connected(const Session& session, int type) {
     if (session.is_a()) {
         while (connect(fd, reinterpret_cast<const sockaddr*>(&address), size) != 0) {
             if (errno != ECONNREFUSED) fail("connect");
-            std::this_thread::sleep_for(std::chrono::milliseconds(1)); // B is not there yet
+            std::this_thread::sleep_for(std::chrono::milliseconds(1)); // B does not listen yet
         }
         return fd;
     }
@@ -46,16 +47,18 @@ int connected(const Session& session, int type) {
     return peer;
 }
 
+/// One socket for both directions.
 template <std::size_t bytes, Wake wake, int type>
 class SocketEndpoint {
   public:
-    explicit SocketEndpoint(Session& session) : fd_(connected(session, type)) {}
+    explicit SocketEndpoint(Session& session) : fd_(connect_sides(session, type)) {}
     ~SocketEndpoint() { close(fd_); }
     SocketEndpoint(const SocketEndpoint&) = delete;
     SocketEndpoint& operator=(const SocketEndpoint&) = delete;
     void send(std::uint64_t sequence) {
-        message_.write(sequence);
+        message_.fill(sequence);
         const auto* data = static_cast<const std::byte*>(message_.data());
+        // A stream socket may take a part only; a packet goes whole. MSG_NOSIGNAL: an error instead of SIGPIPE.
         for (std::size_t done = 0; done < bytes;) {
             const ssize_t sent = ::send(fd_, data + done, bytes - done, MSG_NOSIGNAL);
             if (sent < 0) fail("send");
@@ -63,10 +66,11 @@ class SocketEndpoint {
         }
     }
     std::uint64_t receive() {
+        // MSG_WAITALL: all bytes of a large message in one call.
         constexpr int flags = type == SOCK_STREAM ? MSG_WAITALL : wake == Wake::spin ? MSG_DONTWAIT : 0;
         for (;;) {
             const ssize_t got = recv(fd_, message_.data(), bytes, flags);
-            if (got == static_cast<ssize_t>(bytes)) return message_.read();
+            if (got == static_cast<ssize_t>(bytes)) return message_.checked_sequence();
             if (got >= 0) throw std::runtime_error("recv: the other side has closed its socket");
             if (errno != EAGAIN) fail("recv");
         }
@@ -77,6 +81,7 @@ class SocketEndpoint {
     int fd_;
 };
 
+// Packets keep their boundaries and their order; streams have no limit of size.
 template <Wake wake>
 using PacketEndpoint = SocketEndpoint<64, wake, SOCK_SEQPACKET>;
 template <std::size_t bytes>
@@ -84,15 +89,15 @@ using StreamEndpoint = SocketEndpoint<bytes, Wake::blocking, SOCK_STREAM>;
 
 } // namespace
 
-void add_socket_cases(Registry& registry) {
+void add_unix_socket_cases(Registry& registry) {
     PeerCases cases(registry, "unix-socket");
-    cases.one_way<PacketEndpoint<Wake::spin>>(Wake::spin);
-    cases.one_way<PacketEndpoint<Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<PacketEndpoint<Wake::spin>>, PairServerOf<PacketEndpoint<Wake::spin>>>(Wake::spin,
-                                                                                                   "pair");
-    cases.rate<PacketEndpoint<Wake::blocking>>(Wake::blocking);
-    cases.large<StreamEndpoint<mebibyte>>(mebibyte, Wake::blocking, "copy");
-    cases.large<StreamEndpoint<6 * mebibyte>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.add_one_way<PacketEndpoint<Wake::spin>>(Wake::spin);
+    cases.add_one_way<PacketEndpoint<Wake::blocking>>(Wake::blocking);
+    cases.add_call<PairClientOf<PacketEndpoint<Wake::spin>>, PairServerOf<PacketEndpoint<Wake::spin>>>(
+        Wake::spin, "pair");
+    cases.add_small_stream<PacketEndpoint<Wake::blocking>>(Wake::blocking);
+    cases.add_large_stream<StreamEndpoint<mebibyte>>(mebibyte, Wake::blocking, "copy");
+    cases.add_large_stream<StreamEndpoint<6 * mebibyte>>(6 * mebibyte, Wake::blocking, "copy");
 }
 
 } // namespace tandem::bench

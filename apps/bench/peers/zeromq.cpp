@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ZeroMQ over ipc: PAIR for messages, REQ/REP for calls. Its I/O thread shares the core of its process.
-#include "apps/bench/harness/cases.hpp"
+// ZeroMQ over ipc (a unix socket): PAIR sockets for messages, REQ and REP for calls. Its I/O thread runs on the
+// core that its process is pinned to, and each message passes through it.
 #include "apps/bench/peers/peer_cases.hpp"
 
 #include <fmt/format.h>
@@ -16,11 +16,12 @@ namespace {
     throw std::runtime_error(fmt::format("{}: {}", operation, zmq_strerror(zmq_errno())));
 }
 
+/// A context with one socket: A connects, B binds.
 class Socket {
   public:
     Socket(const Session& session, int type) : context_(zmq_ctx_new()), socket_(zmq_socket(context_, type)) {
-        const std::string address = "ipc://@" + session.name(); // abstract: no file
-        const int linger = 1000;                                // ms, for the last message
+        const std::string address = "ipc://@" + session.name(); // abstract name: there is no file
+        const int linger = 1000; // ms: the last message is still sent when the socket is closed
         zmq_setsockopt(socket_, ZMQ_LINGER, &linger, sizeof linger);
         if ((session.is_a() ? zmq_connect(socket_, address.c_str()) : zmq_bind(socket_, address.c_str())) !=
             0)
@@ -39,6 +40,7 @@ class Socket {
     void* socket_;
 };
 
+/// A message is allocated by ZeroMQ and filled in place. Large ones are passed to the I/O thread without a copy.
 template <std::size_t bytes, Wake wake, int type_a = ZMQ_PAIR, int type_b = ZMQ_PAIR>
 class ZmqEndpoint {
   public:
@@ -49,6 +51,7 @@ class ZmqEndpoint {
         fill_message(zmq_msg_data(&message), bytes, sequence);
         if (zmq_msg_send(&message, socket_.get(), 0) < 0) fail("zmq_msg_send");
     }
+    // Polling asks for a message again and again; blocking sleeps until the I/O thread has one.
     std::uint64_t receive() {
         zmq_msg_t message;
         zmq_msg_init(&message);
@@ -63,6 +66,7 @@ class ZmqEndpoint {
     Socket socket_;
 };
 
+// REQ and REP alternate sending and receiving, as a call does.
 template <Wake wake>
 using CallEndpoint = ZmqEndpoint<64, wake, ZMQ_REQ, ZMQ_REP>;
 
@@ -70,13 +74,13 @@ using CallEndpoint = ZmqEndpoint<64, wake, ZMQ_REQ, ZMQ_REP>;
 
 void add_zeromq_cases(Registry& registry) {
     PeerCases cases(registry, "zeromq");
-    cases.one_way<ZmqEndpoint<64, Wake::spin>>(Wake::spin);
-    cases.one_way<ZmqEndpoint<64, Wake::blocking>>(Wake::blocking);
-    cases.call<PairClientOf<CallEndpoint<Wake::blocking>>, PairServerOf<CallEndpoint<Wake::blocking>>>(
+    cases.add_one_way<ZmqEndpoint<64, Wake::spin>>(Wake::spin);
+    cases.add_one_way<ZmqEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.add_call<PairClientOf<CallEndpoint<Wake::blocking>>, PairServerOf<CallEndpoint<Wake::blocking>>>(
         Wake::blocking);
-    cases.rate<ZmqEndpoint<64, Wake::blocking>>(Wake::blocking);
-    cases.large<ZmqEndpoint<mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
-    cases.large<ZmqEndpoint<6 * mebibyte, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
+    cases.add_small_stream<ZmqEndpoint<64, Wake::blocking>>(Wake::blocking);
+    cases.add_large_stream<ZmqEndpoint<mebibyte, Wake::blocking>>(mebibyte, Wake::blocking, "copy");
+    cases.add_large_stream<ZmqEndpoint<6 * mebibyte, Wake::blocking>>(6 * mebibyte, Wake::blocking, "copy");
 }
 
 } // namespace tandem::bench

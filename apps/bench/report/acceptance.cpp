@@ -10,190 +10,223 @@ namespace tandem::bench {
 
 namespace {
 
-using Comparison = AcceptanceLimit::Comparison;
-
+// The denominators of most ratios.
 constexpr const char* cache_line = "baseline/cache-line/one-way/8/spin";
 constexpr const char* minimal_ring = "baseline/index-ring/one-way/64/spin";
+constexpr const char* ring_polling = "tandem/ring/one-way/64/spin";
 
-const std::vector<std::string>& asleep_regimes() {
-    static const std::vector<std::string> regimes{"", "/low-latency-idle", "/same-core"};
-    return regimes;
+/// The list under construction.
+class Limits {
+  public:
+    using Comparison = AcceptanceLimit::Comparison;
+
+    void at_most(const std::string& description, double limit, const std::string& numerator,
+                 const std::string& denominator = {}) {
+        list_.push_back({description, Comparison::at_most, limit, numerator, denominator});
+    }
+    void at_least(const std::string& description, double limit, const std::string& numerator,
+                  const std::string& denominator = {}) {
+        list_.push_back({description, Comparison::at_least, limit, numerator, denominator});
+    }
+    std::vector<AcceptanceLimit> take() { return std::move(list_); }
+
+  private:
+    std::vector<AcceptanceLimit> list_;
+};
+
+/// Tandem's ring with a sleeping reader, under the given conditions. On one core the wait mode is the one for
+/// one core, which yields before it sleeps.
+std::string ring_asleep(const std::string& conditions) {
+    const bool same_core = conditions == "/same-core";
+    return std::string("tandem/ring/one-way/64/") + (same_core ? "spin-then-futex" : "blocking") + conditions;
 }
 
-/// On one core our mode for it, which yields before it sleeps.
-std::string tandem_asleep(const std::string& regime) {
-    return (regime == "/same-core" ? "tandem/ring/one-way/64/spin-then-futex"
-                                   : "tandem/ring/one-way/64/blocking") +
-           regime;
+/// One 64-byte message. 48 bytes and their header fill one cache line: as little as a message can move.
+void add_one_way(Limits& limits) {
+    limits.at_most("one-way 48 B, polling / cache line", 1.15, "tandem/ring/one-way/48/spin", cache_line);
+    limits.at_most("one-way 64 B, polling / minimal ring", 1.2, ring_polling, minimal_ring);
+    limits.at_least("iceoryx take / one-way 64 B, polling", 6, "peer/iceoryx/one-way/64/spin", ring_polling);
+    limits.at_most("one-way 64 B, spin-then-futex, awake / minimal ring", 1.4,
+                   "tandem/ring/one-way/64/spin-then-futex", minimal_ring);
+    for (const std::string conditions : {"", "/low-latency-idle", "/same-core"})
+        limits.at_most(fmt::format("one-way 64 B, asleep, {} / minimal ring",
+                                   conditions.empty() ? "halted" : conditions.substr(1)),
+                       1.05, ring_asleep(conditions), "baseline/index-ring/one-way/64/blocking" + conditions);
 }
 
-void add_one_way(std::vector<AcceptanceLimit>& lines) {
-    lines.push_back({"one-way 48 B, polling / cache line", Comparison::at_most, 1.15,
-                     "tandem/ring/one-way/48/spin", cache_line});
-    lines.push_back({"one-way 64 B, polling / minimal ring", Comparison::at_most, 1.2,
-                     "tandem/ring/one-way/64/spin", minimal_ring});
-    lines.push_back({"iceoryx take / one-way 64 B, polling", Comparison::at_least, 6,
-                     "peer/iceoryx/one-way/64/spin", "tandem/ring/one-way/64/spin"});
-    lines.push_back({"one-way 64 B, spin-then-futex, awake / minimal ring", Comparison::at_most, 1.4,
-                     "tandem/ring/one-way/64/spin-then-futex", minimal_ring});
-    for (const std::string& regime : asleep_regimes())
-        lines.push_back({fmt::format("one-way 64 B, asleep, {} / bare futex ring",
-                                     regime.empty() ? "halted" : regime.substr(1)),
-                         Comparison::at_most, 1.05, tandem_asleep(regime),
-                         "baseline/index-ring/one-way/64/blocking" + regime});
-}
-
-/// Every peer that can sleep, in the two regimes in which the software shows.
-void add_asleep_peers(std::vector<AcceptanceLimit>& lines, const std::vector<std::string>& ids) {
-    for (const std::string regime : {"low-latency-idle", "same-core"})
+/// Every peer that can sleep, except under normal conditions: there the wake-up of the halted core takes most of
+/// the time, and all transports look alike.
+void add_asleep_peers(Limits& limits, const std::vector<std::string>& ids) {
+    for (const std::string conditions : {"low-latency-idle", "same-core"})
         for (const std::string& id : ids) {
             if (id.rfind("peer/", 0) != 0 || id.find("/one-way/64/blocking") == std::string::npos ||
-                !id.ends_with("/" + regime))
+                !id.ends_with("/" + conditions))
                 continue;
-            const std::string subject = id.substr(5, id.find('/', 5) - 5);
-            lines.push_back({fmt::format("{} asleep, {} / ours", subject, regime), Comparison::at_least, 1,
-                             id, tandem_asleep("/" + regime)});
+            const std::string peer = id.substr(5, id.find('/', 5) - 5);
+            limits.at_least(fmt::format("{} asleep, {} / tandem", peer, conditions), 1, id,
+                            ring_asleep("/" + conditions));
         }
 }
 
-void add_opros(std::vector<AcceptanceLimit>& lines) {
-    lines.push_back({"OPRoS push of a double, ns", Comparison::at_most, 300, "tandem/opros/push/8", ""});
-    lines.push_back(
-        {"OPRoS push of vector<double>(1000), ns", Comparison::at_most, 1000, "tandem/opros/push/8000", ""});
-    lines.push_back(
-        {"OPRoS blocking service call, ns", Comparison::at_most, 200, "tandem/opros/local-call/8", ""});
-    lines.push_back({"OPRoS event to call-back, low-latency-idle, ns", Comparison::at_most, 10'000,
-                     "tandem/opros/event/8/blocking/low-latency-idle", ""});
-    lines.push_back({"OPRoS 1 ms tick with tick-spin, late by ns", Comparison::at_most, 1000,
-                     "tandem/opros/tick/8/spin", ""});
-    lines.push_back({"OPRoS 1 ms tick / cyclictest", Comparison::at_most, 1.5, "tandem/opros/tick/8/blocking",
-                     "peer/cyclictest/tick/8/blocking"});
+/// A call is a message each way and a slot that is claimed and freed.
+void add_calls(Limits& limits) {
+    limits.at_most("call, polling / pair of minimal rings", 1.5, "tandem/call-queue/call/64/spin",
+                   "baseline/ring-pair/call/64/spin");
+    limits.at_least("iceoryx client/server / call, polling", 5, "peer/iceoryx/call/64/spin",
+                    "tandem/call-queue/call/64/spin");
 }
 
-void add_rtm(std::vector<AcceptanceLimit>& lines) {
-    lines.push_back(
-        {"RTM write of TimedLong, ns", Comparison::at_most, 500, "tandem/rtm/write/12/direct", ""});
-    lines.push_back(
-        {"RTM write of TimedDoubleSeq of 3, ns", Comparison::at_most, 500, "tandem/rtm/write/36/direct", ""});
-    lines.push_back({"RTM allocations per 100,000 writes and reads", Comparison::at_most, 0,
-                     "tandem/rtm/write-allocations/48/direct", ""});
-    lines.push_back({"RTM service call, ns", Comparison::at_most, 500, "tandem/rtm/local-call/8", ""});
-    lines.push_back({"RTM 1 ms tick with tick-spin, late by ns", Comparison::at_most, 1000,
-                     "tandem/rtm/tick/8/spin", ""});
-    lines.push_back({"RTM 1 ms tick / cyclictest", Comparison::at_most, 1.5, "tandem/rtm/tick/8/blocking",
-                     "peer/cyclictest/tick/8/blocking"});
-}
-
-void add_rest(std::vector<AcceptanceLimit>& lines) {
-    lines.push_back({"call, polling / floor pair", Comparison::at_most, 1.5, "tandem/call-queue/call/64/spin",
-                     "baseline/ring-pair/call/64/spin"});
-    lines.push_back({"iceoryx client/server / call, polling", Comparison::at_least, 5,
-                     "peer/iceoryx/call/64/spin", "tandem/call-queue/call/64/spin"});
-    lines.push_back(
-        {"64 B records, million per second", Comparison::at_least, 40, "tandem/ring/stream/64/spin", ""});
+/// Large messages are limited by the memory, for everybody: 0.97 is "not slower" within the noise of a run.
+void add_streams(Limits& limits) {
+    limits.at_least("64 B messages, million per second", 40, "tandem/ring/stream/64/spin");
     for (const std::string size : {"1M", "6M"}) {
-        const std::string ours = "tandem/ring/stream/" + size + "/spin/loan";
-        lines.push_back({size + "iB by loan / zero-copy floor", Comparison::at_least, 0.97, ours,
-                         "baseline/index-ring/stream/" + size + "/spin/zero-copy"});
-        // Both are at the memory's limit: "not behind" is within the noise of a run.
-        lines.push_back({size + "iB by loan / iceoryx", Comparison::at_least, 0.97, ours,
-                         "peer/iceoryx/stream/" + size + "/spin/loan"});
+        const std::string tandem = "tandem/ring/stream/" + size + "/spin/loan";
+        limits.at_least(size + "iB by loan / zero-copy baseline", 0.97, tandem,
+                        "baseline/index-ring/stream/" + size + "/spin/zero-copy");
+        limits.at_least(size + "iB by loan / iceoryx", 0.97, tandem,
+                        "peer/iceoryx/stream/" + size + "/spin/loan");
     }
-    lines.push_back({"1MiB by copy / copying floor", Comparison::at_least, 0.95,
-                     "tandem/ring/stream/1M/spin/copy", "baseline/index-ring/stream/1M/spin/copy"});
+    limits.at_least("1MiB by copy / copying baseline", 0.95, "tandem/ring/stream/1M/spin/copy",
+                    "baseline/index-ring/stream/1M/spin/copy");
+}
+
+/// Across the bridge, with both ports' own work; and links with many ports.
+void add_components(Limits& limits) {
     for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"})
-        lines.push_back({"component to component, " + direction + " / minimal ring", Comparison::at_most, 3,
-                         "tandem/bridge/one-way/64/spin/" + direction, minimal_ring});
-    lines.push_back({"one-way, 256 ports open, one used / one port", Comparison::at_most, 1.2,
-                     "tandem/ring/ports/64/spin-then-futex/256 ports (1 used)",
-                     "tandem/ring/ports/64/spin-then-futex/1 port"});
-    lines.push_back({"one-way round 256 ports / one port", Comparison::at_most, 1.2,
-                     "tandem/ring/ports/64/spin-then-futex/256 ports",
-                     "tandem/ring/ports/64/spin-then-futex/1 port"});
-    add_opros(lines);
-    add_rtm(lines);
+        limits.at_most("component to component, " + direction + " / minimal ring", 3,
+                       "tandem/bridge/one-way/64/spin/" + direction, minimal_ring);
+    limits.at_most("one-way, 256 ports open, one used / one port", 1.2,
+                   "tandem/ring/ports/64/spin/256 ports (1 used)", "tandem/ring/ports/64/spin/1 port");
+    limits.at_most("one-way round 256 ports / one port", 1.2, "tandem/ring/ports/64/spin/256 ports",
+                   "tandem/ring/ports/64/spin/1 port");
+}
+
+/// Inside opros_host: absolute, since what they replace (one mutex and a copy) takes as long on most machines.
+void add_opros(Limits& limits) {
+    limits.at_most("OPRoS push of a double, ns", 300, "tandem/opros/push/8");
+    limits.at_most("OPRoS push of vector<double>(1000), ns", 1000, "tandem/opros/push/8000");
+    limits.at_most("OPRoS blocking service call, ns", 200, "tandem/opros/local-call/8");
+    limits.at_most("OPRoS event to call-back, low-latency-idle, ns", 10'000,
+                   "tandem/opros/event/8/blocking/low-latency-idle");
+    limits.at_most("OPRoS 1 ms tick with tick-spin, late by ns", 1000, "tandem/opros/tick/8/spin");
+    limits.at_most("OPRoS 1 ms tick / cyclictest", 1.5, "tandem/opros/tick/8/blocking",
+                   "peer/cyclictest/tick/8/blocking");
+}
+
+/// Inside rtm_host.
+void add_rtm(Limits& limits) {
+    limits.at_most("RTM write of TimedLong, ns", 500, "tandem/rtm/write/12/direct");
+    limits.at_most("RTM write of TimedDoubleSeq of 3, ns", 500, "tandem/rtm/write/36/direct");
+    limits.at_most("RTM allocations per 100,000 writes and reads", 0,
+                   "tandem/rtm/write-allocations/48/direct");
+    limits.at_most("RTM service call, ns", 500, "tandem/rtm/local-call/8");
+    limits.at_most("RTM 1 ms tick with tick-spin, late by ns", 1000, "tandem/rtm/tick/8/spin");
+    limits.at_most("RTM 1 ms tick / cyclictest", 1.5, "tandem/rtm/tick/8/blocking",
+                   "peer/cyclictest/tick/8/blocking");
+}
+
+/// While the reader is awake, publishing must not touch the kernel or the heap.
+void add_publish_counts(Limits& limits) {
     for (const std::string wake : {"spin", "spin-then-futex"}) {
-        lines.push_back({"system calls per 100,000 publishes, " + wake, Comparison::at_most, 0,
-                         "tandem/ring/publish-system-calls/64/" + wake, ""});
-        lines.push_back({"allocations per 100,000 publishes, " + wake, Comparison::at_most, 0,
-                         "tandem/ring/publish-allocations/64/" + wake, ""});
+        limits.at_most("system calls per 100,000 publishes, " + wake, 0,
+                       "tandem/ring/publish-system-calls/64/" + wake);
+        limits.at_most("allocations per 100,000 publishes, " + wake, 0,
+                       "tandem/ring/publish-allocations/64/" + wake);
     }
 }
 
-std::string why_missing(const Report& report, const std::string& id) {
-    for (const Row& row : report.rows) // "peer/iceoryx" stands for all of its cases
+/// The reason in the row of the case, or in that of its peer: "peer/iceoryx" is the row of all its cases.
+std::string skip_reason(const Report& report, const std::string& id) {
+    for (const Row& row : report.rows)
         if (!row.skipped.empty() && (row.id == id || id.rfind(row.id + "/", 0) == 0)) return row.skipped;
     return "not measured: " + id;
 }
 
+/// The ratio, or the figure itself without a denominator, of each run in which both were measured.
+std::vector<double> values_of_runs(const Row& numerator, const Row* denominator) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < numerator.runs.size(); ++i) {
+        double below = 1;
+        if (denominator != nullptr) below = i < denominator->runs.size() ? denominator->runs[i] : NAN;
+        const double value = numerator.runs[i] / below; // a failed run is NaN
+        if (std::isfinite(value)) values.push_back(value);
+    }
+    return values;
+}
+
+/// Skipped, with the reason, if one of the cases has no figures.
+AcceptanceResult check_limit(const AcceptanceLimit& limit, const Report& report) {
+    AcceptanceResult result{.limit = limit, .skipped = {}};
+    const Row* numerator = report.find(limit.numerator);
+    const Row* denominator = limit.denominator.empty() ? nullptr : report.find(limit.denominator);
+    if (numerator == nullptr) {
+        result.skipped = skip_reason(report, limit.numerator);
+        return result;
+    }
+    if (denominator == nullptr && !limit.denominator.empty()) {
+        result.skipped = skip_reason(report, limit.denominator);
+        return result;
+    }
+    const std::vector<double> values = values_of_runs(*numerator, denominator);
+    if (values.empty()) {
+        result.skipped = "no run has measured both cases";
+        return result;
+    }
+    result.value = median(values);
+    result.min = *std::min_element(values.begin(), values.end());
+    result.max = *std::max_element(values.begin(), values.end());
+    return result;
+}
+
 } // namespace
 
-std::string AcceptanceLimit::text() const { return operation; }
-
-bool AcceptanceLimit::holds(double value) const {
+bool AcceptanceLimit::is_met(double value) const {
     const double shown = std::round(value * 1000) / 1000;
-    return comparison == Comparison::at_most ? shown <= bound : shown >= bound;
+    return comparison == Comparison::at_most ? shown <= limit : shown >= limit;
 }
 
 std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& ids) {
-    std::vector<AcceptanceLimit> lines;
-    add_one_way(lines);
-    add_asleep_peers(lines, ids);
-    add_rest(lines);
-    return lines;
+    Limits limits;
+    add_one_way(limits);
+    add_asleep_peers(limits, ids);
+    add_calls(limits);
+    add_streams(limits);
+    add_components(limits);
+    add_opros(limits);
+    add_rtm(limits);
+    add_publish_counts(limits);
+    return limits.take();
 }
 
-bool needed_for_acceptance(const std::vector<AcceptanceLimit>& lines, const std::string& id) {
-    return std::any_of(lines.begin(), lines.end(),
-                       [&](const AcceptanceLimit& line) { return line.over == id || line.under == id; });
+bool needed_for_acceptance(const std::vector<AcceptanceLimit>& limits, const std::string& id) {
+    return std::any_of(limits.begin(), limits.end(), [&](const AcceptanceLimit& limit) {
+        return limit.numerator == id || limit.denominator == id;
+    });
 }
 
-std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& lines,
+std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& limits,
                                                const Report& report) {
     std::vector<AcceptanceResult> results;
-    for (const AcceptanceLimit& line : lines) {
-        AcceptanceResult result{line, 0, 0, 0, ""};
-        const Row* over = report.find(line.over);
-        const Row* under = line.under.empty() ? nullptr : report.find(line.under);
-        if (over == nullptr)
-            result.missing = why_missing(report, line.over);
-        else if (under == nullptr && !line.under.empty())
-            result.missing = why_missing(report, line.under);
-        if (result.missing.empty()) {
-            std::vector<double> values; // of each run in which both were measured
-            for (std::size_t i = 0; i < over->runs.size(); ++i) {
-                const double below = under == nullptr ? 1.0 : i < under->runs.size() ? under->runs[i] : NAN;
-                if (std::isfinite(over->runs[i] / below)) values.push_back(over->runs[i] / below);
-            }
-            if (values.empty())
-                result.missing = "no run has both sides";
-            else {
-                result.value = median(values);
-                result.least = *std::min_element(values.begin(), values.end());
-                result.most = *std::max_element(values.begin(), values.end());
-            }
-        }
-        results.push_back(std::move(result));
-    }
+    for (const AcceptanceLimit& limit : limits) results.push_back(check_limit(limit, report));
     return results;
 }
 
 std::string acceptance_text(const std::vector<AcceptanceResult>& results) {
-    std::string out = fmt::format("{:<58} {:>9} {:>19} {:>9}\n", "bar: median of the runs", "measured",
-                                  "least .. most", "bound");
+    std::string out = fmt::format("{:<58} {:>9} {:>19} {:>9}\n", "acceptance limits: median of the runs",
+                                  "measured", "min .. max", "limit");
     std::size_t passed = 0, failed = 0;
     for (const AcceptanceResult& result : results) {
-        const char* sign = result.line.comparison == Comparison::at_most ? "<=" : ">=";
-        const std::string bound = fmt::format("{} {:g}", sign, result.line.bound);
-        if (!result.missing.empty()) {
-            out += fmt::format("{:<58} {:>9} {:>19} {:>9}  skipped: {}\n", result.line.text(), "-", "-",
-                               bound, result.missing);
+        const bool at_most = result.limit.comparison == AcceptanceLimit::Comparison::at_most;
+        const std::string limit = fmt::format("{} {:g}", at_most ? "<=" : ">=", result.limit.limit);
+        if (!result.skipped.empty()) {
+            out += fmt::format("{:<58} {:>9} {:>19} {:>9}  skipped: {}\n", result.limit.description, "-", "-",
+                               limit, result.skipped);
             continue;
         }
-        ++(result.pass() ? passed : failed);
-        out += fmt::format("{:<58} {:>9.3f} {:>19} {:>9}  {}\n", result.line.text(), result.value,
-                           fmt::format("{:.3f} .. {:.3f}", result.least, result.most), bound,
-                           result.pass() ? "pass" : "FAIL");
+        ++(result.passed() ? passed : failed);
+        out += fmt::format("{:<58} {:>9.3f} {:>19} {:>9}  {}\n", result.limit.description, result.value,
+                           fmt::format("{:.3f} .. {:.3f}", result.min, result.max), limit,
+                           result.passed() ? "pass" : "FAIL");
     }
     return out +
            fmt::format("{} pass, {} FAIL, {} skipped\n", passed, failed, results.size() - passed - failed);

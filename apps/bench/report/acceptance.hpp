@@ -1,33 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shared memory is held to: ratios within one run, each with its bound.
+// The acceptance limits: what Tandem's shared memory and both hosts are held to (--acceptance). Nearly all are ratios of
+// two cases of one run, because absolute times belong to one machine and hour.
 #pragma once
 #include "apps/bench/report/report.hpp"
 
 namespace tandem::bench {
 
+/// One limit: of the ratio numerator / denominator, or of the numerator's p50 alone.
 struct AcceptanceLimit {
-    std::string operation;
+    std::string description; ///< "one-way 48 B, polling / cache line"
     enum class Comparison { at_most, at_least } comparison;
-    double bound;
-    std::string over, under; ///< the ratio's cases; no `under`: the figure of `over` itself
+    double limit;
+    std::string numerator;   ///< the id of a case
+    std::string denominator; ///< the id of a case, or empty
 
-    std::string text() const;       ///< "one-way 48 B, polling / cache line"
-    bool holds(double value) const; ///< compares as printed: to three digits
+    /// Whether `value`, rounded to the three digits that are printed, is within the limit.
+    bool is_met(double value) const;
 };
 
 struct AcceptanceResult {
-    AcceptanceLimit line;
-    double value = 0, least = 0, most = 0; ///< median, smallest and largest over the runs
-    std::string missing;                   ///< why there is no value; empty if there is one
-    bool pass() const { return missing.empty() && line.holds(value); }
+    AcceptanceLimit limit;
+    double value = 0, min = 0, max = 0; ///< median, smallest and largest over the runs
+    std::string skipped;                ///< why there is no value; empty if there is one
+    bool passed() const { return skipped.empty() && limit.is_met(value); }
+    bool failed() const { return skipped.empty() && !limit.is_met(value); }
 };
 
-/// Of the cases with these ids: a peer has a line only if it is among them.
+/// All limits. Each peer that can sleep and is among the cases with these ids has a limit of its own.
 std::vector<AcceptanceLimit> acceptance_limits(const std::vector<std::string>& ids);
-bool needed_for_acceptance(const std::vector<AcceptanceLimit>& lines, const std::string& id);
 
-std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& lines,
+/// Whether a limit refers to the case with this id.
+bool needed_for_acceptance(const std::vector<AcceptanceLimit>& limits, const std::string& id);
+
+/// The median over the runs of the ratio within each run, so that a drift of the machine between runs cancels
+/// out; in the order of the limits.
+std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& limits,
                                                const Report& report);
+
+/// A table for a terminal: one line for each limit, with "pass", "FAIL" or "skipped: reason", then the sums.
 std::string acceptance_text(const std::vector<AcceptanceResult>& results);
 
 } // namespace tandem::bench

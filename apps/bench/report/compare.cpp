@@ -12,8 +12,10 @@ namespace tandem::bench {
 
 namespace {
 
+// What two runs of one program differ by on an idle machine, at least; and what two single runs differ by.
 constexpr double min_noise = 0.05, noise_of_one_run = 0.15;
 
+/// Sorted, without the failed ones.
 std::vector<double> measured_runs(const Row& row) {
     std::vector<double> runs;
     for (double run : row.runs)
@@ -22,12 +24,14 @@ std::vector<double> measured_runs(const Row& row) {
     return runs;
 }
 
+/// The spread of sorted runs, relative to their median.
 double noise_of(const std::vector<double>& runs) {
     if (runs.size() < 2) return noise_of_one_run;
     const double middle = median(runs);
     return middle > 0 ? (runs.back() - runs.front()) / middle : 0;
 }
 
+/// Whether the ranges of two sorted lists have a common value.
 bool overlap(const std::vector<double>& a, const std::vector<double>& b) {
     return !a.empty() && !b.empty() && a.front() <= b.back() && b.front() <= a.back();
 }
@@ -46,6 +50,7 @@ std::vector<Change> significant_changes(const Report& before, const Report& afte
         out.push_back({row.id, row.unit, old->summary.p50, row.summary.p50, noise,
                        row.higher_is_better() ? ratio > 1 : ratio < 1});
     }
+    // By the logarithm: half is as large a change as double.
     std::stable_sort(out.begin(), out.end(), [](const Change& a, const Change& b) {
         return std::abs(std::log(a.ratio())) > std::abs(std::log(b.ratio()));
     });
@@ -55,9 +60,11 @@ std::vector<Change> significant_changes(const Report& before, const Report& afte
 std::string compare_text(const Report& before, const Report& after) {
     std::string out = fmt::format("compared with {} ({})\n", before.machine.date, before.machine.kernel);
     if (before.machine.processor != after.machine.processor || before.machine.cores != after.machine.cores)
-        out += fmt::format("another machine: {}, {} cores; only ratios within one report mean anything\n",
-                           before.machine.processor, before.machine.cores);
+        out += fmt::format(
+            "measured on another machine: {}, {} cores; only ratios within one report are comparable\n",
+            before.machine.processor, before.machine.cores);
     const auto found = significant_changes(before, after);
+    // How many rows were compared tells whether "nothing changed" means anything.
     std::size_t common = 0;
     for (const Row& row : after.rows) common += row.skipped.empty() && before.find(row.id) != nullptr ? 1 : 0;
     for (const Change& change : found)

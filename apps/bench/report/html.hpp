@@ -4,7 +4,8 @@
 
 namespace tandem::bench {
 
-/// The whole report as one page that needs nothing else: conditions, bar (if judged), plots, every row.
-std::string html_page(const Report& report, const std::vector<AcceptanceResult>& bar);
+/// The whole report as one page that loads nothing else: the machine, the acceptance results (if there are any),
+/// the plots, and every row. Throws std::runtime_error if gnuplot cannot be run.
+std::string html_page(const Report& report, const std::vector<AcceptanceResult>& acceptance);
 
 } // namespace tandem::bench

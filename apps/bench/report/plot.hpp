@@ -6,10 +6,11 @@
 namespace tandem::bench {
 
 struct Plot {
-    std::string title, svg; ///< "<svg ...>...</svg>"
+    std::string title;
+    std::string svg; ///< "<svg ...>...</svg>"
 };
 
-/// Those for which the report has rows. Throws if gnuplot cannot be run.
+/// The plots for which the report has rows. Throws std::runtime_error if gnuplot cannot be run.
 std::vector<Plot> draw_plots(const Report& report);
 
 } // namespace tandem::bench

@@ -10,29 +10,37 @@ namespace tandem::bench {
 
 namespace {
 
+// Ordered: a reader of the file finds the name of the case first.
 using Json = nlohmann::ordered_json;
-constexpr int format_version = 1;
+// 2: group "baseline" and "tandem" instead of "floor" and "ours"; "subject", "operation" and "power_profile"
+// instead of "who", "what" and "regime"; "conditions" and "loaded" added; "foreign" is "foreign_cpu_share".
+constexpr int format_version = 2;
 
+/// Pairs of share and value.
 Json curve_json(const std::vector<CurvePoint>& curve) {
     Json out = Json::array();
     for (const CurvePoint& point : curve) out.push_back({point.share, point.value});
     return out;
 }
 
+/// The kernel is repeated in each row, so that a row says under which conditions it was measured on its own.
 Json row_json(const Row& row, const Machine& machine) {
     Json out{{"case", row.id},
              {"group", row.group},
-             {"who", row.subject},
-             {"what", row.operation},
+             {"subject", row.subject},
+             {"operation", row.operation},
              {"bytes", row.bytes},
              {"wake", row.wake},
-             {"regime", row.regime},
+             {"conditions", row.conditions},
+             {"power_profile", row.power_profile},
              {"placement", row.placement},
+             {"loaded", row.loaded},
              {"detail", row.detail},
              {"unit", row.unit},
              {"cores", row.cores},
              {"kernel", machine.kernel},
              {"timed_from", row.timed_from()}};
+    // A row without figures has none of the keys below.
     if (!row.skipped.empty()) {
         out["skipped"] = row.skipped;
         return out;
@@ -44,7 +52,7 @@ Json row_json(const Row& row, const Machine& machine) {
                 {"p99", s.p99},
                 {"p99.9", s.p999},
                 {"max", s.max},
-                {"foreign", row.foreign_cpu_share},
+                {"foreign_cpu_share", row.foreign_cpu_share},
                 {"runs", row.runs},
                 {"curve", curve_json(s.curve)}});
     if (row.tick_counts) {
@@ -54,17 +62,20 @@ Json row_json(const Row& row, const Machine& machine) {
     return out;
 }
 
+/// The inverse of row_json(). Throws what the library throws for a missing key or a wrong type.
 Row row_from(const Json& in) {
     Row row;
     const auto text = [&](const char* key) { return in.at(key).get<std::string>(); };
     row.id = text("case");
     row.group = text("group");
-    row.subject = text("who");
-    row.operation = text("what");
+    row.subject = text("subject");
+    row.operation = text("operation");
     row.bytes = in.at("bytes");
     row.wake = text("wake");
-    row.regime = text("regime");
+    row.conditions = text("conditions");
+    row.power_profile = text("power_profile");
     row.placement = text("placement");
+    row.loaded = in.at("loaded");
     row.detail = text("detail");
     row.unit = text("unit");
     row.cores = text("cores");
@@ -79,7 +90,8 @@ Row row_from(const Json& in) {
     s.p99 = in.at("p99");
     s.p999 = in.at("p99.9");
     s.max = in.at("max");
-    row.foreign_cpu_share = in.at("foreign");
+    row.foreign_cpu_share = in.at("foreign_cpu_share");
+    // JSON has no NaN: the library writes null for it.
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
     if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
@@ -117,15 +129,15 @@ Report from_json(const std::string& text) {
     try {
         const Json in = Json::parse(text);
         if (in.at("tandem_bench") != format_version)
-            throw std::runtime_error("is of another version of tandem-bench; expected " +
-                                     std::to_string(format_version) + "; measure it again");
+            throw std::runtime_error("has another format version of tandem-bench; expected " +
+                                     std::to_string(format_version) + "; measure again with this one");
         Report report;
         const Json& m = in.at("machine");
         report.machine = {m.at("kernel"), m.at("processor"), m.at("clock"), m.at("date"), m.at("cores")};
         for (const Json& row : in.at("rows")) report.rows.push_back(row_from(row));
         return report;
-    } catch (const nlohmann::json::exception& failure) {
-        throw std::runtime_error(std::string("is no report of tandem-bench (") + failure.what() +
+    } catch (const nlohmann::json::exception& failure) { // no JSON at all, or not the keys of a report
+        throw std::runtime_error(std::string("is not a report of tandem-bench (") + failure.what() +
                                  "); give a file written with --json");
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One row of the report, and the report as a whole; JSON in both directions.
+// The report of one measurement: a row for each case, and the machine. It is written and read as JSON.
 #pragma once
 #include "apps/bench/harness/summary.hpp"
 #include "apps/bench/harness/tick_record.hpp"
@@ -10,19 +10,29 @@
 
 namespace tandem::bench {
 
+/// One case over all runs. The words are those of harness/case.hpp.
 struct Row {
-    std::string id, group, subject, operation, wake, regime, placement, detail, unit, cores;
+    std::string id, group, subject, operation, wake, power_profile, placement, detail, unit;
+    std::string conditions; ///< of the machine: "normal", or what differs from it (Case::conditions())
+    std::string cores;      ///< "0,1": those of A and B
     std::size_t bytes = 0;
+    bool loaded = false;
     Summary summary;                       ///< median over the runs
     std::vector<double> runs;              ///< p50 of each run, in order; NaN where that run failed
     std::optional<TickCounts> tick_counts; ///< of cases that tick, over all runs
-    double foreign_cpu_share = 0;          ///< largest share of the machine that others got during a run
+    double foreign_cpu_share = 0;          ///< the largest share of the machine that others used in a run
     std::string skipped;                   ///< why there are no figures; empty if there are
+
     bool higher_is_better() const { return unit != "ns" && unit != "count"; }
     /// A paced message counts from when it was due, so that a stall is not hidden.
     const char* timed_from() const { return operation == "paced" ? "intended start" : "start"; }
-    bool disturbed() const { return foreign_cpu_share > 0.02; }
-    bool latency() const { return unit == "ns"; }
+    bool disturbed() const { return foreign_cpu_share > max_foreign_cpu_share; }
+    bool is_latency() const { return unit == "ns"; }
+    /// A and B are processes of their own, on one core or on two.
+    bool has_two_processes() const { return placement == "processes" || placement == "same-core"; }
+
+    /// Of the machine. A case is repeated, and its row marked as disturbed, when others used more.
+    static constexpr double max_foreign_cpu_share = 0.02;
 };
 
 struct Machine {
@@ -33,11 +43,12 @@ struct Machine {
 struct Report {
     Machine machine;
     std::vector<Row> rows;
-    const Row* find(const std::string& id) const; ///< nullptr: no such row, or it has no figures
+    const Row* find(const std::string& id) const; ///< nullptr: there is no such row, or it has no figures
 };
 
+/// One row per line. Version 2 of the format: see from_json().
 std::string to_json(const Report& report);
-Report
-from_json(const std::string& text); ///< Throws std::runtime_error, one line, if it is no report of ours.
+/// Throws std::runtime_error, in one line, if the text is not a report of this version.
+Report from_json(const std::string& text);
 
 } // namespace tandem::bench

@@ -10,28 +10,32 @@ namespace tandem::bench {
 
 std::string figure_text(double value) {
     if (value == 0) return "0";
+    // Four significant digits: of 123.4 one after the point, of 0.01234 five, cut to three.
     const int digits = std::max(0, 3 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
     return fmt::format("{:.{}f}", value, std::min(digits, 3));
 }
 
 namespace {
 
+/// One line. The upper percentiles of a rate are those of its best windows, which nobody asks for.
 std::string line_of(const Row& row, std::size_t width) {
     const Summary& s = row.summary;
-    const auto tail = [&](double value) { return row.latency() ? figure_text(value) : std::string("-"); };
-    return fmt::format(
-        "{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width, row.unit, row.cores,
-        s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
-        row.regime +
-            (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped", row.tick_counts->overruns,
-                                           row.tick_counts->skipped)
-                             : "") +
-            (row.disturbed() ? fmt::format(" DISTURBED by others ({:.0f} %)", row.foreign_cpu_share * 100)
-                             : ""));
+    const auto tail = [&](double value) { return row.is_latency() ? figure_text(value) : std::string("-"); };
+    return fmt::format("{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width,
+                       row.unit, row.cores, s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99),
+                       tail(s.p999), figure_text(s.max),
+                       row.conditions +
+                           (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped",
+                                                          row.tick_counts->overruns, row.tick_counts->skipped)
+                                            : "") +
+                           (row.disturbed() ? fmt::format(" DISTURBED: others used {:.0f} % of the machine",
+                                                          row.foreign_cpu_share * 100)
+                                            : ""));
 }
 
 } // namespace
 
+/// The first column is as wide as the longest name, so that the others stand below each other.
 std::string table_text(const Report& report) {
     const Machine& m = report.machine;
     std::size_t width = 4;
@@ -40,14 +44,14 @@ std::string table_text(const Report& report) {
     std::string out =
         fmt::format("{}, {} cores, {}\nclock {}, {}\n\n", m.processor, m.cores, m.kernel, m.clock, m.date);
     out += fmt::format("{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", "case", width, "unit",
-                       "cores", "samples", "p50", "p90", "p99", "p99.9", "max", "regime");
+                       "cores", "samples", "p50", "p90", "p99", "p99.9", "max", "conditions");
     for (const Row& row : report.rows)
         if (row.skipped.empty()) out += line_of(row, width);
     const auto disturbed =
         std::count_if(report.rows.begin(), report.rows.end(), [](const Row& row) { return row.disturbed(); });
     if (disturbed > 0)
         out += fmt::format(
-            "{} of {} rows were disturbed: other processes got more than 2 % of the machine meanwhile\n",
+            "{} of {} rows were disturbed: other processes used more than 2 % of the machine during a run\n",
             disturbed, report.rows.size());
     for (const Row& row : report.rows)
         if (!row.skipped.empty()) out += fmt::format("skipped {}: {}\n", row.id, row.skipped);

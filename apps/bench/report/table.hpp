@@ -4,9 +4,10 @@
 
 namespace tandem::bench {
 
-/// The report for a terminal: conditions first, then a line per row, then what was skipped and why.
+/// The report for a terminal: the machine first, then a line for each row, then what was skipped and why.
 std::string table_text(const Report& report);
 
-std::string figure_text(double value); ///< Four significant digits, no exponent.
+/// Four significant digits, at most three after the point, no exponent.
+std::string figure_text(double value);
 
 } // namespace tandem::bench

@@ -1,48 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our shared memory as the cases use it: a link whose sides are A and B, and the wake modes in shm's terms.
+// The shared memory of a link as the cases use it: sides A and B join one segment, each adds its objects and
+// finds the peer's.
 #pragma once
 #include "apps/bench/harness/measurements.hpp"
 #include "shm/segment.hpp"
 
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 namespace tandem::bench {
 
-/// On one core, to spin means to yield.
-inline shm::WaitOptions wait_options(Wake wake, Regime regime,
+/// The link option `wait` for a case's wake mode. Two sides on one core must yield instead of spin.
+inline shm::WaitOptions wait_options(const Case& bench_case,
                                      std::chrono::nanoseconds spin = shm::WaitOptions{}.spin) {
-    shm::WaitOptions how;
-    how.spin = spin;
-    how.mode = wake == Wake::spin              ? shm::WaitMode::spin
-               : wake != Wake::spin_then_futex ? shm::WaitMode::futex
-               : regime == Regime::same_core   ? shm::WaitMode::same_core
-                                               : shm::WaitMode::spin_then_futex;
-    return how;
+    shm::WaitOptions options;
+    options.spin = spin;
+    if (bench_case.wake == Wake::spin)
+        options.mode = shm::WaitMode::spin;
+    else if (bench_case.wake == Wake::blocking)
+        options.mode = shm::WaitMode::futex;
+    else if (bench_case.placement == Placement::same_core)
+        options.mode = shm::WaitMode::same_core;
+    else
+        options.mode = shm::WaitMode::spin_then_futex;
+    return options;
 }
 
+/// [one thread] One side of a link. Rings have the options that the proxy gives to data ports.
 class BenchLink {
   public:
-    static constexpr std::size_t small_capacity = std::size_t{64} * 1024;
+    static constexpr std::size_t default_capacity = std::size_t{64} * 1024;
+    static constexpr std::uint32_t chunks = 4; ///< the reader holds one, the writer fills one, two wait
 
+    /// Joins the case's segment; A is the first side. Throws shm::Error.
     BenchLink(Session& session, std::size_t arena_bytes)
-        : mine_(session.is_a() ? shm::Side::first : shm::Side::second) {
+        : side_(session.is_a() ? shm::Side::first : shm::Side::second) {
         shm::JoinOptions options;
         options.arena_bytes = arena_bytes;
-        segment_ = shm::Segment::join(session.name(), mine_, options);
+        segment_ = shm::Segment::join(session.name(), side_, options);
     }
 
     shm::Segment& segment() { return *segment_; }
-    shm::Side mine() const { return mine_; }
+    shm::Side side() const { return side_; }
 
-    /// A ring of ours that we write; long messages in chunks of their own.
+    /// A ring that this side writes, for messages of `bytes`; long messages get chunks of their own.
     shm::RingHandle add_ring(const std::string& name, std::size_t bytes,
-                             std::size_t capacity = small_capacity) {
+                             std::size_t capacity = default_capacity) {
         shm::RingOptions options;
-        options.writer = mine_;
-        options.policy = shm::RingPolicy::reject;
+        options.writer = side_;
         options.capacity = capacity;
-        if (bytes > longest_in_ring) {
+        if (bytes > max_bytes_in_ring) {
             options.max_record = 64;
             options.chunk_bytes = bytes;
             options.chunks = chunks;
@@ -51,28 +60,37 @@ class BenchLink {
         }
         return segment_->add_ring(name, options);
     }
-    /// A generous bound of what such a ring takes.
-    static std::size_t ring_bytes(std::size_t bytes, std::size_t capacity = small_capacity) {
-        return std::size_t{256} * 1024 + 2 * capacity + (bytes > longest_in_ring ? chunks + 1 : 4) * bytes;
+    /// An upper bound of the arena bytes that such a ring needs, with its share of the directory.
+    static std::size_t ring_bytes(std::size_t bytes, std::size_t capacity = default_capacity) {
+        return std::size_t{256} * 1024 + 2 * capacity + (bytes > max_bytes_in_ring ? chunks + 1 : 4) * bytes;
     }
 
-    /// After all objects of this side are there: shows them, waits for the peer's.
-    void open() {
+    /// To be called when all objects of this side are added: publishes them, and waits for the peer's.
+    void publish_and_wait() {
         segment_->publish();
         while (!segment_->peer_published()) std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
+    /// [after publish_and_wait()] Throws std::runtime_error if the peer has no such ring.
     shm::RingHandle peer_ring(const std::string& name) {
-        const auto found = segment_->find_ring(shm::other(mine_), name);
+        const auto found = segment_->find_ring(shm::other(side_), name);
         if (!found) throw std::runtime_error("the other side has no ring " + name);
         return *found;
     }
 
   private:
-    static constexpr std::size_t longest_in_ring = 4096;
-    static constexpr std::uint32_t chunks = 4;
+    static constexpr std::size_t max_bytes_in_ring = 4096;
 
-    shm::Side mine_;
+    shm::Side side_;
     std::unique_ptr<shm::Segment> segment_;
 };
+
+/// Writes one message of `bytes`, in the way in which the proxy writes a port's value: encoded into the room
+/// that the ring provides. Throws std::runtime_error if the ring has none, which a sound ring always has.
+inline void write_message(shm::RingWriter& ring, std::size_t bytes, std::uint64_t sequence) {
+    const std::span<std::byte> room = ring.reserve(bytes);
+    if (room.data() == nullptr) throw std::runtime_error("the ring has no room for a message");
+    fill_message(room.data(), bytes, sequence);
+    ring.commit(bytes, sequence, 0);
+}
 
 } // namespace tandem::bench

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many ports behind one doorbell: N rings each way are open, and the messages go round them all, or (1 used)
-// all through one of them. Round 256 every message finds its lines in the second-level cache.
+// Many data ports on one link: N rings each way are open, and the messages go through all of them in turn, or
+// (1 used) all through one. What unused ports cost, and what changing ports costs: with 256 in turn each
+// message finds its cache lines in the second-level cache only.
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/registry.hpp"
 #include "apps/bench/tandem/bench_link.hpp"
 
 namespace tandem::bench {
@@ -9,67 +11,53 @@ namespace tandem::bench {
 namespace {
 
 constexpr std::size_t bytes = 64;
-constexpr unsigned doorbell_bits = shm::Doorbell::user_bits;
 
-std::size_t ports_of(const Session& session) { return std::stoul(session.bench_case().detail); }
-bool one_is_used(const Session& session) { return session.bench_case().detail.ends_with(" (1 used)"); }
+// The case's detail says how many: "256 ports (1 used)".
+std::size_t port_count(const Session& session) { return std::stoul(session.bench_case().detail); }
+bool uses_one_port(const Session& session) { return session.bench_case().detail.ends_with(" (1 used)"); }
 
 class PortsEndpoint {
   public:
     explicit PortsEndpoint(Session& session)
-        : how_(wait_options(session.bench_case().wake, session.bench_case().regime)),
-          link_(session, ports_of(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)),
-          step_(one_is_used(session) ? 0 : 1), next_(one_is_used(session) ? ports_of(session) / 2 : 0) {
-        const std::size_t ports = ports_of(session);
+        : link_(session, port_count(session) * (std::size_t{80} * 1024) + (std::size_t{1} << 20U)),
+          step_(uses_one_port(session) ? 0 : 1),
+          next_out_(uses_one_port(session) ? port_count(session) / 2 : 0), next_in_(next_out_) {
+        const std::size_t ports = port_count(session);
         for (std::size_t i = 0; i < ports; ++i) out_.emplace_back(link_.add_ring(std::to_string(i), bytes));
-        link_.open();
+        link_.publish_and_wait();
         for (std::size_t i = 0; i < ports; ++i) in_.emplace_back(link_.peer_ring(std::to_string(i)));
     }
 
     void send(std::uint64_t sequence) {
-        const std::size_t port = next_;
-        next_ = (next_ + step_) % out_.size();
-        alignas(8) std::byte message[bytes];
-        fill_message(message, bytes, sequence);
-        out_[port].write(message, sequence, 0);
-        link_.segment().ring_peer(static_cast<unsigned>(port % doorbell_bits));
+        write_message(out_[next_out_], bytes, sequence);
+        next_out_ = (next_out_ + step_) % out_.size();
     }
-
-    /// The doorbell says which ports may have something; those are looked at, and no other.
+    /// Polls the port that the next message comes through, as the component with that port does.
     std::uint64_t receive() {
         for (;;) {
-            std::uint64_t sequence = 0;
-            link_.segment().doorbell().wait(std::chrono::seconds(1), how_).for_each([&](unsigned bit) {
-                for (std::size_t port = bit; port < in_.size(); port += doorbell_bits)
-                    if (const auto record = in_[port].read())
-                        sequence = checked_sequence(record->bytes.data(), bytes);
-            });
-            if (sequence != 0) return sequence;
+            const auto record = in_[next_in_].read();
+            if (!record) continue;
+            next_in_ = (next_in_ + step_) % in_.size();
+            return checked_sequence(record->bytes.data(), bytes);
         }
     }
 
   private:
-    shm::WaitOptions how_;
     BenchLink link_;
     std::vector<shm::RingWriter> out_;
     std::vector<shm::RingReader> in_;
-    std::size_t step_, next_;
+    std::size_t step_, next_out_, next_in_;
 };
 
 } // namespace
 
-void add_tandem_port_cases(Registry& registry) {
-    for (const char* ports :
-         {"1 port", "4 ports", "16 ports", "64 ports", "256 ports", "256 ports (1 used)"}) {
-        Case entry;
-        entry.subject = "ring";
-        entry.operation = "ports";
-        entry.wake = Wake::spin_then_futex;
-        entry.detail = ports;
-        entry.divisor = 2;
-        entry.run = measure_round_trips<PortsEndpoint>;
-        registry.cases.push_back(entry);
-    }
+void add_port_cases(Registry& registry) {
+    for (const char* ports : {"1 port", "4 ports", "16 ports", "64 ports", "256 ports", "256 ports (1 used)"})
+        registry.add({.subject = "ring",
+                      .operation = "ports",
+                      .divisor = 2,
+                      .detail = ports,
+                      .run = measure_round_trips<PortsEndpoint>});
 }
 
 } // namespace tandem::bench

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many system calls and allocations 100,000 publishes take while the reader is awake: each system call is
-// caught by a seccomp filter and counted in its signal handler, each operator new by a replaced one.
+// How many system calls and allocations 100,000 publishes take while the reader is awake. A seccomp filter turns
+// each system call into a signal, whose handler counts it; operator new is replaced by one that counts.
 #include "apps/bench/harness/allocation_count.hpp"
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/registry.hpp"
 #include "apps/bench/tandem/ring_endpoint.hpp"
 
 #include <csignal>
@@ -18,12 +19,13 @@ namespace {
 constexpr int publishes = 100'000;
 volatile std::sig_atomic_t system_calls = 0;
 
-/// From here on every system call of this process is refused and counted, but those that end a process or a
-/// signal handler. Cannot be undone; what the process does afterwards it does in vain.
-void catch_system_calls() {
+/// From here on every system call of this thread fails and is counted, but those that end the process or a signal
+/// handler. It cannot be undone: the process can only spin on shared memory and end.
+void count_system_calls() {
     struct sigaction action {};
     action.sa_handler = [](int) { system_calls = system_calls + 1; };
     sigaction(SIGSYS, &action, nullptr);
+    // A classic BPF program: load the number of the system call, allow the two, trap all others.
     sock_filter code[] = {
         BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
         BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_rt_sigreturn, 2, 0),
@@ -37,43 +39,42 @@ void catch_system_calls() {
         throw std::system_error(errno, std::generic_category(), "cannot set a seccomp filter");
 }
 
+/// A publishes, B polls for as long as it takes. Each publish must find the reader awake.
 template <Wake wake>
 void count_publishes(Session& session) {
     using Endpoint = RingEndpoint<64, wake>;
-    Endpoint endpoint(session, std::chrono::seconds(10)); // the reader spins throughout
+    Endpoint endpoint(session, std::chrono::seconds(10)); // of polling: the reader never sleeps
     session.arrive_and_wait();
     if (!session.is_a()) {
         while (endpoint.receive() != stop_sequence) {
         }
         return;
     }
-    endpoint.send(1);
-    const bool calls = session.bench_case().operation == "publish-system-calls";
+    endpoint.send(1); // page faults and lazy binding happen here
+    const bool counts_calls = session.bench_case().operation == "publish-system-calls";
     const std::uint64_t allocated = allocation_count();
-    if (calls) catch_system_calls();
+    if (counts_calls) count_system_calls();
     for (std::uint64_t i = 0; i < publishes; ++i) endpoint.send(2);
     const auto counted = static_cast<double>(system_calls);
-    session.add_result(calls ? counted : static_cast<double>(allocation_count() - allocated));
+    session.add_result(counts_calls ? counted : static_cast<double>(allocation_count() - allocated));
     endpoint.send(stop_sequence);
-    if (calls) _exit(0);
+    if (counts_calls) _exit(0); // destructors need system calls
 }
 
 template <Wake wake>
 void add_counts(Registry& registry) {
     for (const char* operation : {"publish-system-calls", "publish-allocations"}) {
-        Case entry;
-        entry.subject = "ring";
-        entry.operation = operation;
-        entry.wake = wake;
-        entry.unit = Unit::count;
-        entry.run = count_publishes<wake>;
-        registry.cases.push_back(entry);
+        registry.add({.subject = "ring",
+                      .operation = operation,
+                      .wake = wake,
+                      .unit = Unit::count,
+                      .run = count_publishes<wake>});
     }
 }
 
 } // namespace
 
-void add_tandem_publish_count_cases(Registry& registry) {
+void add_publish_count_cases(Registry& registry) {
     add_counts<Wake::spin>(registry);
     add_counts<Wake::spin_then_futex>(registry);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Our ring as fast as it goes: small records, and large ones in place or copied in and out.
-#include "apps/bench/tandem/ring_endpoint.hpp"
-
+// Tandem's ring without a pause: short messages, and large ones read in place or copied out. A data port drops
+// the oldest message when its ring is full; so that none is lost, the reader returns credits over a second
+// port, as two components do that need flow control.
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/ring_cases.hpp"
+#include "apps/bench/tandem/ring_endpoint.hpp"
 
 #include <cstring>
 #include <immintrin.h>
@@ -11,96 +13,92 @@ namespace tandem::bench {
 
 namespace {
 
-/// Small records, taken by the batch.
+/// A sends messages, B credits: how many messages it has received so far.
+template <std::size_t bytes>
 class StreamEndpoint {
   public:
     explicit StreamEndpoint(Session& session)
         : link_(session, BenchLink::ring_bytes(bytes, capacity)),
-          out_(link_.add_ring("out", bytes, capacity)), in_((link_.open(), link_.peer_ring("out"))) {}
+          out_(link_.add_ring("out", session.is_a() ? bytes : sizeof(std::uint64_t), capacity)),
+          in_((link_.publish_and_wait(), link_.peer_ring("out"))) {}
 
     void send(std::uint64_t sequence) {
-        alignas(8) std::byte message[bytes];
-        fill_message(message, bytes, sequence);
-        while (!out_.write(message, sequence, 0)) {
-        }
+        while (sent_ - credits_ >= window) update_credits();
+        write_message(out_, bytes, sequence);
+        ++sent_;
     }
     std::uint64_t receive() {
-        while (next_ == taken_) {
-            next_ = taken_ = 0;
-            const auto keep = [this](const shm::Record& record) {
-                batch_[taken_++] = checked_sequence(record.bytes.data(), bytes);
-            };
-            if (in_.consume(keep, std::size(batch_)) == 0) _mm_pause(); // as the floor's reader
+        return receive_with([](const void* message) { return checked_sequence(message, bytes); });
+    }
+
+  protected:
+    /// Waits for a message and returns use(its first byte). The message is valid only in use().
+    template <class Use>
+    std::uint64_t receive_with(Use&& use) {
+        for (;;) {
+            const auto record = in_.read();
+            if (!record) {
+                if (is_short)
+                    _mm_pause(); // leaves the writer its cache line; the minimal ring's reader does the same
+                continue;
+            }
+            // Before the content is used: a large message is used longer than the credit travels.
+            if (++received_ % credit_interval == 0) write_message(out_, sizeof received_, received_);
+            return use(record->bytes.data());
         }
-        return batch_[next_++];
     }
 
   private:
-    static constexpr std::size_t bytes = 64, capacity = std::size_t{1024} * 1024;
+    static constexpr bool is_short = bytes <= 4096;
+    static constexpr std::size_t capacity = is_short ? std::size_t{1024} * 1024 : BenchLink::default_capacity;
+    // Messages on the way: of short ones fewer than the ring holds; of large ones all chunks but the reader's.
+    static constexpr std::uint64_t window = is_short ? 4096 : BenchLink::chunks - 1;
+    static constexpr std::uint64_t credit_interval = is_short ? 256 : 1;
+
+    void update_credits() {
+        if (const auto credit = in_.read_newest())
+            credits_ = checked_sequence(credit->bytes.data(), sizeof credits_);
+    }
+
+    // In this order: rings live in the link's memory.
     BenchLink link_;
     shm::RingWriter out_;
     shm::RingReader in_;
-    std::uint64_t batch_[64] = {};
-    std::size_t next_ = 0, taken_ = 0;
+    std::uint64_t sent_ = 0, credits_ = 0; // of A
+    std::uint64_t received_ = 0;           // of B
 };
 
-class CopyingStreamEndpoint {
+/// Copies each message out before it is used, as a component does that keeps the value.
+template <std::size_t bytes>
+class CopyingStreamEndpoint : public StreamEndpoint<bytes> {
   public:
     explicit CopyingStreamEndpoint(Session& session)
-        : bytes_(session.bytes()), buffer_(bytes_ / sizeof(std::uint64_t)),
-          link_(session, BenchLink::ring_bytes(bytes_)), out_(link_.add_ring("out", bytes_)),
-          in_((link_.open(), link_.peer_ring("out"))) {}
-
-    void send(std::uint64_t sequence) {
-        fill_message(buffer_.data(), bytes_, sequence);
-        while (!out_.write({reinterpret_cast<const std::byte*>(buffer_.data()), bytes_}, sequence, 0)) {
-        }
-    }
+        : StreamEndpoint<bytes>(session), buffer_(bytes / sizeof(std::uint64_t)) {}
     std::uint64_t receive() {
-        for (;;) {
-            const auto record = in_.peek();
-            if (!record) continue;
-            std::memcpy(buffer_.data(), record->bytes.data(), bytes_);
-            in_.release();
-            return checked_sequence(buffer_.data(), bytes_);
-        }
+        return this->receive_with([this](const void* message) {
+            std::memcpy(buffer_.data(), message, bytes);
+            return checked_sequence(buffer_.data(), bytes);
+        });
     }
 
   private:
-    std::size_t bytes_;
     std::vector<std::uint64_t> buffer_;
-    BenchLink link_;
-    shm::RingWriter out_;
-    shm::RingReader in_;
 };
 
 template <std::size_t bytes>
-void add_large(Registry& registry) {
-    Case entry;
-    entry.subject = "ring";
-    entry.operation = "stream";
-    entry.bytes = bytes;
-    entry.unit = Unit::gigabytes;
-    entry.detail = "loan";
-    entry.run = measure_stream<RingEndpoint<bytes, Wake::spin>>;
-    registry.cases.push_back(entry);
-    entry.detail = "copy";
-    entry.run = measure_stream<CopyingStreamEndpoint>;
-    registry.cases.push_back(entry);
+void add_large_streams(RingCases<RingEndpoint>& cases) {
+    cases.add_large_stream<StreamEndpoint<bytes>>(bytes, "loan");
+    cases.add_large_stream<CopyingStreamEndpoint<bytes>>(bytes, "copy");
 }
 
 } // namespace
 
-void add_tandem_stream_cases(Registry& registry) {
-    Case entry;
-    entry.subject = "ring";
-    entry.operation = "stream";
-    entry.unit = Unit::megamessages;
-    entry.run = measure_stream<StreamEndpoint>;
-    registry.cases.push_back(entry);
-    add_large<1 << 16>(registry);
-    add_large<1 << 20>(registry);
-    add_large<6 << 20>(registry);
+void add_stream_cases(Registry& registry) {
+    RingCases<RingEndpoint> cases(registry, Group::tandem, "ring");
+    cases.add_small_stream<StreamEndpoint<64>>();
+    add_large_streams<65536>(cases);
+    add_large_streams<mebibyte>(cases);
+    add_large_streams<6 * mebibyte>(cases);
 }
 
 } // namespace tandem::bench

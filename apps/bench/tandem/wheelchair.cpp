@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The paper's Table 1: JoystickComp's sending to ControlComp's reading while the wheelchair drives, with all
-// components OPRoS, all RTM, and mixed across the bridge. Hosts on cores a and b, a message every 10 ms.
+// The latency of the paper's Table 1: from JoystickComp's sending to ControlComp's reading while the wheelchair
+// drives, with all components OPRoS, all RTM, and mixed across the bridge. A message every 10 ms.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/power_profile.hpp"
+#include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
 
 #include "apps/wheelchair/run/run.hpp"
@@ -14,9 +14,10 @@ namespace tandem::bench {
 
 namespace {
 
-constexpr double settling = 1.0; // s before the table's first sample
+constexpr double settling_seconds = 1.0;      // the chair has reached its speed then
+constexpr std::size_t settling_samples = 100; // that many messages come in this time
 
-/// The core that each side was pinned to.
+/// The cores that A and B are pinned to. [both sides]
 std::pair<int, int> cores_of_both(Session& session) {
     auto* cores = reinterpret_cast<int*>(session.memory().data());
     cores[session.is_a() ? 0 : 1] = sched_getcpu();
@@ -24,11 +25,12 @@ std::pair<int, int> cores_of_both(Session& session) {
     return {cores[0], cores[1]};
 }
 
+/// A runs the wheelchair, whose hosts get both cores; B only holds its core for them.
 template <wheelchair::Configuration configuration>
 void drive(Session& session) {
     const auto [a, b] = cores_of_both(session);
     if (session.is_a()) {
-        // It tells its user about the hosts; this process has no user.
+        // The run prints its progress for a user; it would spoil the report.
         if (std::freopen("/dev/null", "w", stdout) == nullptr)
             throw std::runtime_error("cannot open /dev/null");
         cpu_set_t both; // the hosts inherit it
@@ -37,33 +39,31 @@ void drive(Session& session) {
         CPU_SET(b, &both);
         sched_setaffinity(0, sizeof both, &both);
         wheelchair::Options options;
-        options.duration = settling + std::max(1.5, session.budget().seconds * 2);
+        options.duration = settling_seconds + std::max(1.5, session.budget().seconds * 2);
         options.opros_cpu = a;
         options.rtm_cpu = b;
+        // As `wheelchair` runs it, with both hosts as child processes.
         const auto result = wheelchair::run(options, configuration);
         if (!result.failures.empty()) throw std::runtime_error(result.failures.front());
-        const std::size_t first = std::min<std::size_t>(100, result.latencies.size());
+        const std::size_t first = std::min(settling_samples, result.latencies.size());
         for (std::size_t i = first; i < result.latencies.size(); ++i)
-            session.add_result(result.latencies[i] * 1e3);
+            session.add_result(result.latencies[i] * 1e3); // us
     }
     session.arrive_and_wait();
 }
 
 } // namespace
 
-void add_tandem_wheelchair_cases(Registry& registry) {
-    Case entry;
-    entry.subject = "wheelchair";
-    entry.operation = "joystick-to-control";
-    entry.detail = "opros";
-    entry.run = drive<wheelchair::Configuration::opros>;
-    registry.cases.push_back(entry);
-    entry.detail = "rtm";
-    entry.run = drive<wheelchair::Configuration::rtm>;
-    registry.cases.push_back(entry);
-    entry.detail = "mixed";
-    entry.run = drive<wheelchair::Configuration::mixed>;
-    registry.cases.push_back(entry);
+void add_wheelchair_cases(Registry& registry) {
+    const auto add = [&](const char* configuration, void (*run)(Session&)) {
+        registry.add({.subject = "wheelchair",
+                      .operation = "joystick-to-control",
+                      .detail = configuration,
+                      .run = run});
+    };
+    add("opros", drive<wheelchair::Configuration::opros>);
+    add("rtm", drive<wheelchair::Configuration::rtm>);
+    add("mixed", drive<wheelchair::Configuration::mixed>);
 }
 
 } // namespace tandem::bench

@@ -9,42 +9,42 @@ using test::report;
 using test::row;
 using Comparison = AcceptanceLimit::Comparison;
 
-TEST_CASE("A line is judged by the median of the ratios of each run") {
-    const std::vector<AcceptanceLimit> lines{{"x", Comparison::at_most, 1.2, "tandem/a", "baseline/b"}};
+TEST_CASE("A limit is checked against the median of the ratios of each run") {
+    const std::vector<AcceptanceLimit> limits{{"x", Comparison::at_most, 1.2, "tandem/a", "baseline/b"}};
     // Run by run 1.0, 3.0, 1.1; the ratio of the medians would be 1.65.
     const auto results = check_acceptance(
-        lines, report({row("tandem/a", {100, 300, 220}), row("baseline/b", {100, 100, 200})}));
+        limits, report({row("tandem/a", {100, 300, 220}), row("baseline/b", {100, 100, 200})}));
     REQUIRE(results.size() == 1);
     CHECK(results[0].value == Approx(1.1));
-    CHECK(results[0].least == Approx(1.0));
-    CHECK(results[0].most == Approx(3.0));
-    CHECK(results[0].pass());
+    CHECK(results[0].min == Approx(1.0));
+    CHECK(results[0].max == Approx(3.0));
+    CHECK(results[0].passed());
 }
 
-TEST_CASE("Bounds hold in both senses and for figures without a second side") {
+TEST_CASE("Limits are checked in both directions and for figures without a denominator") {
     const Report of = report({row("tandem/a", {41}, "M/s"), row("baseline/b", {10}, "M/s")});
-    CHECK(check_acceptance({{"x", Comparison::at_least, 40, "tandem/a", ""}}, of)[0].pass());
-    CHECK_FALSE(check_acceptance({{"x", Comparison::at_least, 42, "tandem/a", ""}}, of)[0].pass());
-    CHECK(check_acceptance({{"x", Comparison::at_least, 4, "tandem/a", "baseline/b"}}, of)[0].pass());
-    CHECK_FALSE(check_acceptance({{"x", Comparison::at_most, 4, "tandem/a", "baseline/b"}}, of)[0].pass());
+    CHECK(check_acceptance({{"x", Comparison::at_least, 40, "tandem/a", ""}}, of)[0].passed());
+    CHECK_FALSE(check_acceptance({{"x", Comparison::at_least, 42, "tandem/a", ""}}, of)[0].passed());
+    CHECK(check_acceptance({{"x", Comparison::at_least, 4, "tandem/a", "baseline/b"}}, of)[0].passed());
+    CHECK_FALSE(check_acceptance({{"x", Comparison::at_most, 4, "tandem/a", "baseline/b"}}, of)[0].passed());
 }
 
-TEST_CASE("A line without its rows is skipped by name and reason and does not pass") {
-    const std::vector<AcceptanceLimit> lines{
-        {"peer line", Comparison::at_least, 6, "peer/iceoryx/one-way", "tandem/a"}};
+TEST_CASE("A limit without its rows is skipped by name and reason and does not pass") {
+    const std::vector<AcceptanceLimit> limits{
+        {"of a peer", Comparison::at_least, 6, "peer/iceoryx/one-way", "tandem/a"}};
     const auto results = check_acceptance(
-        lines, report({row("tandem/a", {1}), test::skipped("peer/iceoryx", "not installed")}));
-    CHECK_FALSE(results[0].pass());
-    CHECK_THAT(acceptance_text(results), Catch::Contains("peer line") &&
+        limits, report({row("tandem/a", {1}), test::skipped("peer/iceoryx", "not installed")}));
+    CHECK_FALSE(results[0].passed());
+    CHECK_THAT(acceptance_text(results), Catch::Contains("of a peer") &&
                                              Catch::Contains("skipped: not installed") &&
                                              Catch::Contains("0 pass, 0 FAIL, 1 skipped"));
 }
 
-TEST_CASE("A peer that can sleep has its lines in both regimes in which the software shows") {
+TEST_CASE("A peer that can sleep has a limit under both conditions in which its software decides") {
     const std::string id = "peer/quick/one-way/64/blocking/";
-    const auto lines =
+    const auto limits =
         acceptance_limits({id + "same-core", id + "low-latency-idle", "peer/quick/one-way/64/blocking"});
-    CHECK(needed_for_acceptance(lines, id + "same-core"));
-    CHECK(needed_for_acceptance(lines, id + "low-latency-idle"));
-    CHECK_FALSE(needed_for_acceptance(lines, "peer/quick/one-way/64/blocking"));
+    CHECK(needed_for_acceptance(limits, id + "same-core"));
+    CHECK(needed_for_acceptance(limits, id + "low-latency-idle"));
+    CHECK_FALSE(needed_for_acceptance(limits, "peer/quick/one-way/64/blocking"));
 }

@@ -34,7 +34,7 @@ std::string content(const std::string& file) {
 
 } // namespace
 
-TEST_CASE("A quick run of floors and rings yields rows and files and names skipped peers") {
+TEST_CASE("A quick run of baselines and rings yields rows and files and names skipped peers") {
     const Folder folder;
     const auto json = folder.file("a.json"), html = folder.file("a.html");
     const auto result =
@@ -49,13 +49,13 @@ TEST_CASE("A quick run of floors and rings yields rows and files and names skipp
         INFO(row.id << ": " << row.skipped);
         if (row.skipped.empty())
             CHECK((row.summary.samples > 0 && row.summary.p50 > 0 && !row.cores.empty()));
-        if (row.group == "baseline" && two_cores && row.regime == "normal") CHECK(row.skipped.empty());
+        if (row.group == "baseline" && two_cores && row.conditions == "normal") CHECK(row.skipped.empty());
     }
-    for (const Skipped& skipped : all_cases().skipped)
+    for (const SkippedPeer& skipped : all_cases().skipped)
         CHECK_THAT(result.output, Catch::Contains("skipped peer/" + skipped.subject));
 
     const auto again = bench({"--only", "baseline/clock", "--quick", "--compare", json});
-    CHECK(again.exit_code == 0);
+    CHECK(again.exit_code() == 0);
     CHECK_THAT(again.output, Catch::Contains("common rows changed beyond noise"));
 }
 
@@ -71,9 +71,9 @@ TEST_CASE("Wrong options end in one line and a code") {
     }
 }
 
-TEST_CASE("The list names every case and no measurement is made") {
+TEST_CASE("The list names every case and nothing is measured") {
     const auto result = bench({"--list", "--only", "baseline"});
-    CHECK(result.exit_code == 0);
+    CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output, Catch::Contains("baseline/cache-line/one-way/8/spin\n"));
     CHECK_THAT(result.output, !Catch::Contains("tandem/"));
 }

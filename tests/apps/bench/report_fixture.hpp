@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports made up for the tests.
+// Makes reports for the tests.
 #pragma once
 #include "apps/bench/report/report.hpp"
 
@@ -14,7 +14,8 @@ inline Row row(const std::string& id, std::vector<double> runs, const std::strin
     out.subject = "ring";
     out.operation = "one-way";
     out.wake = "spin";
-    out.regime = "normal";
+    out.conditions = "normal";
+    out.power_profile = "normal";
     out.placement = "processes";
     out.unit = unit;
     out.cores = "0,1";

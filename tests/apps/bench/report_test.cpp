@@ -11,7 +11,7 @@ using namespace tandem::bench;
 using test::report;
 using test::row;
 
-TEST_CASE("A report survives JSON in both directions") {
+TEST_CASE("A report is the same after being written as JSON and read") {
     const Report before =
         report({row("tandem/ring/one-way/64/spin", {200, NAN, 210}), test::skipped("peer/x", "not here")});
     const std::string text = to_json(before);
@@ -39,7 +39,7 @@ TEST_CASE("A row of ticks says how many came late by a period or more and how ma
     CHECK_THAT(table_text(after), Catch::Contains(" 2 overruns, 5 periods skipped\n"));
 }
 
-TEST_CASE("What is no report is refused in one line") {
+TEST_CASE("A text that is not a report is refused in one line") {
     for (const char* text : {"", "{}", "[1,2]", R"({"tandem_bench":99})"}) {
         INFO(text);
         CHECK_THROWS_WITH(from_json(text), !Catch::Contains("\n"));

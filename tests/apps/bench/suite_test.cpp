@@ -21,10 +21,10 @@ Case alone(const char* operation, std::function<void(Session&)> run) {
     return entry;
 }
 
-Report measured(std::vector<Case> cases, double bound = 10) {
+Report measured(std::vector<Case> cases, double timeout = 10) {
     Plan plan;
     plan.cases = std::move(cases);
-    plan.budget.timeout_seconds = bound;
+    plan.budget.timeout_seconds = timeout;
     plan.budget.attempts = 1;
     plan.cores.a = plan.cores.b = allowed_cores().front();
     plan.progress = false;
@@ -33,7 +33,7 @@ Report measured(std::vector<Case> cases, double bound = 10) {
 
 } // namespace
 
-TEST_CASE("Every case has a name of its own and the two sides of a ratio are neighbours") {
+TEST_CASE("Every case has a name of its own and the cases of a topic are neighbours") {
     const Registry registry = all_cases();
     std::set<std::string> ids, closed;
     std::string topic;
@@ -57,7 +57,7 @@ TEST_CASE("Cases are selected by any of several parts of their names") {
                entry.id().find("call-queue") != std::string::npos));
 }
 
-TEST_CASE("What a side throws stands in its row") {
+TEST_CASE("The row of a case shows what a side has thrown") {
     const Report report =
         measured({alone("throws", [](Session&) { throw std::runtime_error("it broke here"); })});
     CHECK(report.rows.at(0).skipped == "it broke here");

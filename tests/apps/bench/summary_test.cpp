@@ -30,7 +30,7 @@ TEST_CASE("Percentiles are nearest ranks of the samples in any order") {
     CHECK(s.max == 1000);
 }
 
-TEST_CASE("The percentile curve ends at the last point that a sample stands for") {
+TEST_CASE("The percentile curve ends at the last point that has a sample") {
     const Summary s = summarize(one_to(1000));
     REQUIRE(!s.curve.empty());
     CHECK(s.curve.front().share == 0);
@@ -62,6 +62,6 @@ TEST_CASE("A message gives its number back and a changed word is noticed") {
         CHECK(checked_sequence(words.data(), bytes) == 77);
         if (words.size() == 1) continue;
         words.back() += 1;
-        CHECK_THROWS_WITH(checked_sequence(words.data(), bytes), Catch::Contains("is damaged"));
+        CHECK_THROWS_WITH(checked_sequence(words.data(), bytes), Catch::Contains("is corrupt"));
     }
 }

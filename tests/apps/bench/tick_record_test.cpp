@@ -10,7 +10,7 @@ namespace {
 TickRecord recorded(const Times& ticks) {
     TickRecord record;
     record.prepare(100, 10, 0);
-    for (const std::int64_t at : ticks) record.tick(at);
+    for (const std::int64_t at : ticks) record.record_tick(at);
     return record;
 }
 } // namespace
@@ -24,7 +24,7 @@ TEST_CASE("A tick that is 3.2 periods late is one sample of 3.2 periods") {
     CHECK(record.counts().skipped == 3);
 }
 
-TEST_CASE("A tick within its period is late by what it is late") {
+TEST_CASE("A tick that is late by less than a period counts with its lateness") {
     const TickRecord record = recorded({1000, 1199, 1200, 1350});
     CHECK(record.lateness_ns() == Times{0, 99, 0, 50});
     CHECK(record.counts().overruns == 0);
@@ -34,9 +34,9 @@ TEST_CASE("A tick within its period is late by what it is late") {
 TEST_CASE("Skipped periods are part of the drift and no more samples are kept than there is room for") {
     TickRecord record = recorded({1000, 1500, 1600});
     CHECK(record.mean_drift_ns() == 0);
-    record.tick(1706);
+    record.record_tick(1706);
     CHECK(record.mean_drift_ns() == Approx(6.0 / 7));
-    for (int i = 8; i < 40; ++i) record.tick(1000 + i * 100);
+    for (int i = 8; i < 40; ++i) record.record_tick(1000 + i * 100);
     CHECK(record.lateness_ns().size() <= 10);
     CHECK(record.ticks() == 36);
     CHECK(recorded({1000}).mean_drift_ns() == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The asking side of the bridge's measurement, an OPRoS component.
+// The OPRoS component of the bridge's measurement: sends pings and times the answers (ping.hpp).
 #include <OPRoSInclude.h>
 
 #include "apps/bench/tandem/bridge/ping.hpp"
@@ -11,48 +11,49 @@ using namespace tandem::bench;
 class BenchPing : public Component {
   public:
     BenchPing() {
-        addPort("ask", &ask_);
-        addPort("answer", &answer_);
+        addPort("ping", &ping_);
+        addPort("pong", &pong_);
     }
 
+    // Polls for the most of each period: a latency, not the period, is to be measured.
     ReturnType onExecute() override {
-        asker_->ask_for_a_slice(*this);
+        client_->ping_for_a_slice(*this);
         return OPROS_SUCCESS;
     }
 
+    // The Port that ping.hpp asks for.
     void send(const PingMessage& message) {
         buffer_.assign(message.begin(), message.end());
-        ask_.push(buffer_);
+        ping_.push(buffer_);
     }
     bool receive(PingMessage& message) {
-        const std::unique_ptr<opros_any> any(answer_.pop());
+        // Popped by value and read in place: no copy of the vector.
+        const std::unique_ptr<opros_any> any(pong_.pop());
         if (!any) return false;
-        const auto* values = answer_.getContentPointer(*any);
+        const auto* values = pong_.getContentPointer(*any);
         if (values == nullptr || values->size() != message.size()) return false;
         std::copy(values->begin(), values->end(), message.begin());
         return true;
     }
 
   protected:
+    // The bench sets the properties in the application profile.
     ReturnType onInitialize() override {
         Clock::calibrate();
-        asker_ =
-            std::make_unique<Asker>(getProperty("file"), getProperty("direction") == "opros-to-rtm",
-                                    std::stoul(getProperty("samples")), std::stod(getProperty("seconds")));
+        client_ = std::make_unique<PingClient>(
+            getProperty("file"), getProperty("direction") == "opros-to-rtm",
+            std::stoul(getProperty("samples")), std::stod(getProperty("seconds")));
         return OPROS_SUCCESS;
     }
     ReturnType onStart() override { return OPROS_SUCCESS; }
     ReturnType onStop() override { return OPROS_SUCCESS; }
-    ReturnType onReset() override { return OPROS_SUCCESS; }
-    ReturnType onError() override { return OPROS_SUCCESS; }
-    ReturnType onRecover() override { return OPROS_SUCCESS; }
     ReturnType onDestroy() override { return OPROS_SUCCESS; }
 
   private:
-    OutputDataPort<std::vector<double>> ask_;
-    InputDataPort<std::vector<double>> answer_{OPROS_FIFO, 16};
-    std::vector<double> buffer_;
-    std::unique_ptr<Asker> asker_;
+    OutputDataPort<std::vector<double>> ping_;
+    InputDataPort<std::vector<double>> pong_{OPROS_FIFO, 16};
+    std::vector<double> buffer_; // keeps its capacity: no allocation per message
+    std::unique_ptr<PingClient> client_;
 };
 
 extern "C" {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The answering side of the bridge's measurement, an RT-Component.
+// The RT-Component of the bridge's measurement: answers each ping at once (ping.hpp).
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
@@ -15,62 +15,46 @@ using namespace tandem::bench;
 class BenchPong : public RTC::DataFlowComponentBase {
   public:
     explicit BenchPong(RTC::Manager* manager)
-        : RTC::DataFlowComponentBase(manager), askIn_("ask", ask_), answerOut_("answer", answer_) {}
+        : RTC::DataFlowComponentBase(manager), pingIn_("ping", ping_), pongOut_("pong", pong_) {}
 
     RTC::ReturnCode_t onInitialize() override {
+        // The tick counter is the same in all processes, but its rate is measured in each.
         Clock::calibrate();
-        addInPort("ask", askIn_);
-        addOutPort("answer", answerOut_);
+        addInPort("ping", pingIn_);
+        addOutPort("pong", pongOut_);
         return RTC::RTC_OK;
     }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
-        answer_for_a_slice(*this);
+        answer_pings_for_a_slice(*this);
         return RTC::RTC_OK;
     }
 
+    // The Port that ping.hpp asks for.
     void send(const PingMessage& message) {
-        answer_.data.length(message.size());
-        std::copy(message.begin(), message.end(), answer_.data.get_buffer());
-        answerOut_.write();
+        pong_.data.length(message.size());
+        std::copy(message.begin(), message.end(), pong_.data.get_buffer());
+        pongOut_.write();
     }
     bool receive(PingMessage& message) {
-        if (!askIn_.isNew()) return false;
-        askIn_.read();
-        if (ask_.data.length() != message.size()) return false;
-        std::copy_n(ask_.data.get_buffer(), message.size(), message.begin());
+        // Two calls, as RTCs are written.
+        if (!pingIn_.isNew()) return false;
+        pingIn_.read();
+        if (ping_.data.length() != message.size()) return false;
+        std::copy_n(ping_.data.get_buffer(), message.size(), message.begin());
         return true;
     }
 
   private:
-    RTC::TimedDoubleSeq ask_, answer_;
-    RTC::InPort<RTC::TimedDoubleSeq> askIn_;
-    RTC::OutPort<RTC::TimedDoubleSeq> answerOut_;
+    RTC::TimedDoubleSeq ping_, pong_;
+    RTC::InPort<RTC::TimedDoubleSeq> pingIn_;
+    RTC::OutPort<RTC::TimedDoubleSeq> pongOut_;
 };
 
 extern "C" void BenchPongInit(RTC::Manager* manager) {
-    const char* const spec[] = {"implementation_id",
-                                "BenchPong",
-                                "type_name",
-                                "BenchPong",
-                                "description",
-                                "answers tandem-bench",
-                                "version",
-                                "1.0",
-                                "vendor",
-                                "Tandem",
-                                "category",
-                                "bench",
-                                "activity_type",
-                                "PERIODIC",
-                                "kind",
-                                "DataFlowComponent",
-                                "max_instance",
-                                "0",
-                                "language",
-                                "C++",
-                                "lang_type",
-                                "compile",
-                                ""};
-    coil::Properties profile(spec);
+    // Manager::load() calls this function, whose name is that of the library with "Init" behind it.
+    coil::Properties profile;
+    profile.setProperty("implementation_id", "BenchPong");
+    profile.setProperty("type_name", "BenchPong");
+    profile.setProperty("category", "bench");
     manager->registerFactory(profile, RTC::Create<BenchPong>, RTC::Delete<BenchPong>);
 }

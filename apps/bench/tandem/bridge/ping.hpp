@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the OPRoS and the RTM component of the bridge's measurement share: eight doubles go there and come
-// back, each side polling its port, and carry the clock's readings at their sending and receiving. Both
-// directions are measured by the one clock of the machine, the time-stamp counter (or CLOCK_MONOTONIC_RAW).
+// What BenchPing (OPRoS) and BenchPong (RTM) share: eight doubles go to BenchPong and come back, each side polls
+// its port, and the message carries the clock's readings at sending and receiving. Both processes read the same
+// clock of the machine, so that each direction is measured on its own.
 #pragma once
 #include "apps/bench/harness/clock.hpp"
 
@@ -14,17 +14,19 @@
 
 namespace tandem::bench {
 
-/// sequence, then the readings: asked, arrived, answered; the rest is payload.
+/// [0] the sequence number; [1] BenchPing's clock at sending, [2] BenchPong's at receiving, [3] BenchPong's at
+/// sending, each as the bits of a tick count; the rest is payload.
 using PingMessage = std::array<double, 8>;
 
 inline double as_double(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 inline std::uint64_t as_bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-constexpr double slice_ns = 20e6; ///< of one onExecute(): the host gets its thread back in between
+/// How long one onExecute() polls: the host gets its thread back in between, and can stop the component.
+constexpr double slice_ns = 20e6;
 
-/// The answering side. Port: bool receive(PingMessage&), void send(const PingMessage&).
+/// [tick-thread] BenchPong's onExecute(). Port: bool receive(PingMessage&), void send(const PingMessage&).
 template <class Port>
-void answer_for_a_slice(Port& port) {
+void answer_pings_for_a_slice(Port& port) {
     const std::uint64_t end = ticks() + to_ticks(slice_ns);
     PingMessage message;
     for (std::uint64_t now = ticks(); now < end; now = ticks()) {
@@ -35,25 +37,27 @@ void answer_for_a_slice(Port& port) {
     }
 }
 
-/// The asking side: keeps asking until the link is up, warms up, measures, writes the file, is done.
-class Asker {
+/// [tick-thread] BenchPing's measurement: it sends pings until the link is up, warms up, measures, and writes
+/// the samples of one direction as doubles, in ns, into a file.
+class PingClient {
   public:
-    Asker(std::string file, bool there, std::size_t samples, double seconds)
-        : file_(std::move(file)), there_(there), samples_(samples), seconds_(seconds) {}
+    PingClient(std::string file, bool measures_ping, std::size_t samples, double seconds)
+        : file_(std::move(file)), measures_ping_(measures_ping), samples_(samples), seconds_(seconds) {}
 
+    /// BenchPing's onExecute().
     template <class Port>
-    void ask_for_a_slice(Port& port) {
+    void ping_for_a_slice(Port& port) {
         const std::uint64_t end = ticks() + to_ticks(slice_ns);
         while (!done_ && ticks() < end)
-            if (!ask(port, end)) return; // not answered within the slice: ask anew
-        if (!done_ && times_.size() >= warm_up + samples_) write();
+            if (!ping(port, end)) return; // no answer within the slice: the next one sends a new ping
+        if (!done_ && times_.size() >= warm_up + samples_) write_samples();
     }
 
   private:
     static constexpr std::size_t warm_up = 2000;
 
     template <class Port>
-    bool ask(Port& port, std::uint64_t end) {
+    bool ping(Port& port, std::uint64_t end) {
         PingMessage message{};
         message[0] = static_cast<double>(++sequence_);
         message[1] = as_double(ticks());
@@ -62,27 +66,29 @@ class Asker {
         do {
             while (!port.receive(reply))
                 if (ticks() >= end) return false;
-        } while (reply[0] != message[0]); // one of an earlier slice
+        } while (reply[0] != message[0]); // the answer to a ping of an earlier slice
         const std::uint64_t now = ticks();
-        if (times_.empty()) until_ = now + to_ticks(seconds_ * 1e9);
-        times_.push_back(to_ns(there_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3])));
-        if (times_.size() >= warm_up + samples_ || (now >= until_ && times_.size() > warm_up)) write();
+        if (times_.empty()) deadline_ = now + to_ticks(seconds_ * 1e9);
+        times_.push_back(
+            to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3])));
+        if (times_.size() >= warm_up + samples_ || (now >= deadline_ && times_.size() > warm_up))
+            write_samples();
         return !done_;
     }
-    void write() {
+    void write_samples() {
         done_ = true;
         std::ofstream(file_ + ".part", std::ios::binary)
             .write(reinterpret_cast<const char*>(times_.data() + warm_up),
                    static_cast<std::streamsize>((times_.size() - warm_up) * sizeof(double)));
-        std::rename((file_ + ".part").c_str(), file_.c_str()); // whole, or not there
+        std::rename((file_ + ".part").c_str(), file_.c_str()); // the reader finds the whole file or none
     }
 
     std::string file_;
-    bool there_;
+    bool measures_ping_; // otherwise the way back
     std::size_t samples_;
     double seconds_;
-    std::uint64_t sequence_ = 0, until_ = 0;
-    std::vector<double> times_;
+    std::uint64_t sequence_ = 0, deadline_ = 0;
+    std::vector<double> times_; // ns
     bool done_ = false;
 };
 

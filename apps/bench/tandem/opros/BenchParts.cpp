@@ -18,13 +18,15 @@
 
 namespace {
 
+/// The interface of the service that call() uses.
 class IDoubler {
   public:
     virtual ~IDoubler() {}
     virtual double twice(double value) = 0;
 };
 
-// In the style of generated service code.
+// The two classes below are written as OPRoS's generators write service ports: a component's own code.
+/// The provided side: calls go to the owner.
 class DoublerProvided : public ProvidedServicePort, public IDoubler {
   public:
     explicit DoublerProvided(IDoubler* owner) {
@@ -38,6 +40,7 @@ class DoublerProvided : public ProvidedServicePort, public IDoubler {
     ProvidedMethod<double>* twice_;
 };
 
+/// The required side: calls go to whatever service port is connected.
 class DoublerRequired : public RequiredServicePort {
   public:
     DoublerRequired() {
@@ -51,12 +54,13 @@ class DoublerRequired : public RequiredServicePort {
     RequiredMethod<double>* twice_;
 };
 
-std::int64_t now_ns() {
+std::int64_t monotonic_ns() {
     timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return now.tv_sec * 1000000000LL + now.tv_nsec;
 }
 
+/// Connected to another instance, or (BenchTick.xml) alone and periodic.
 class Parts : public Component, public BenchParts, public IDoubler {
   public:
     Parts() : required_(new DoublerRequired) {
@@ -64,11 +68,12 @@ class Parts : public Component, public BenchParts, public IDoubler {
         addPort("in", &in_);
         addPort("arrays_out", &arrays_out_);
         addPort("arrays_in", &arrays_in_);
-        addPort("news_out", &news_out_);
-        addPort("news_in", &news_in_);
+        addPort("events_out", &events_out_);
+        addPort("events_in", &events_in_);
+        // Service ports are never deleted, as in generated components; the other ports are members.
         addPort("doubler", new DoublerProvided(this));
-        addPort("needed", required_);
-        news_in_.setOwner(this);
+        addPort("doubler_required", required_);
+        events_in_.setOwner(this);
         event_.setId("value");
     }
 
@@ -78,23 +83,24 @@ class Parts : public Component, public BenchParts, public IDoubler {
     virtual double twice(double value) { return 2 * value; }
     virtual void send_event(double value) {
         event_.setContentData(value);
-        news_out_.push(&event_);
+        events_out_.push(&event_);
     }
-    virtual double heard() const { return heard_.load(std::memory_order_acquire); }
+    virtual double last_event() const { return last_event_.load(std::memory_order_acquire); }
     virtual double pop() {
-        opros_any* data = in_.pop();
+        opros_any* data = in_.pop(); // the caller owns it
         if (!data) return -1;
         const double value = in_.getContent(*data);
         delete data;
         return value;
     }
-    virtual const tandem::bench::TickRecord& ticks() const { return ticks_; }
+    virtual const tandem::bench::TickRecord& tick_record() const { return tick_record_; }
 
   protected:
+    // The bench sets these properties in the application profile.
     virtual ReturnType onInitialize() {
-        ticks_.prepare(std::atoll(getProperty("period_ns").c_str()),
-                       static_cast<std::size_t>(std::atoll(getProperty("samples").c_str())),
-                       std::atoll(getProperty("origin_ns").c_str()));
+        tick_record_.prepare(std::atoll(getProperty("period_ns").c_str()),
+                             static_cast<std::size_t>(std::atoll(getProperty("samples").c_str())),
+                             std::atoll(getProperty("origin_ns").c_str()));
         return OPROS_SUCCESS;
     }
     virtual ReturnType onStart() { return OPROS_SUCCESS; }
@@ -102,12 +108,15 @@ class Parts : public Component, public BenchParts, public IDoubler {
     virtual ReturnType onDestroy() { return OPROS_SUCCESS; }
 
   public:
+    /// [worker of the engine]
     virtual ReturnType onEvent(Event* event) {
-        heard_.store(*static_cast<EventData<double>*>(event)->getContentData(), std::memory_order_release);
+        last_event_.store(*static_cast<EventData<double>*>(event)->getContentData(),
+                          std::memory_order_release);
         return OPROS_SUCCESS;
     }
+    /// [tick-thread] Only BenchTick.xml makes it periodic.
     virtual ReturnType onExecute() {
-        ticks_.tick(now_ns());
+        tick_record_.record_tick(monotonic_ns());
         return OPROS_SUCCESS;
     }
 
@@ -116,12 +125,13 @@ class Parts : public Component, public BenchParts, public IDoubler {
     InputDataPort<double> in_;
     OutputDataPort<std::vector<double>> arrays_out_;
     InputDataPort<std::vector<double>> arrays_in_;
-    OutputEventPort<double> news_out_;
-    InputEventPort<double> news_in_;
+    OutputEventPort<double> events_out_;
+    InputEventPort<double> events_in_;
     DoublerRequired* required_;
     EventData<double> event_;
-    std::atomic<double> heard_{0};
-    tandem::bench::TickRecord ticks_;
+    // Written by the engine's worker, polled by the bench.
+    std::atomic<double> last_event_{0};
+    tandem::bench::TickRecord tick_record_;
 };
 
 } // namespace

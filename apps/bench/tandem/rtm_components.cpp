@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What RT-Components of one process cost each other: writes, service calls, allocations, and a 1 ms period,
-// as the manager connects and runs them. Counterparts: opros/... of the other model, cyclictest,
-// floor/hand-loop.
+// What RT-Components of one process cost each other: writes, service calls, allocations, and the lateness of a
+// 1 ms period, as the manager connects and runs them. To be compared with the cases of opros, hand-written and
+// cyclictest.
 #include "apps/bench/harness/allocation_count.hpp"
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
+#include "apps/bench/harness/tick_budget.hpp"
 #include "apps/bench/harness/tick_record.hpp"
-#include "apps/bench/harness/time_each.hpp"
+#include "apps/bench/harness/time_each_call.hpp"
 
 #include "BenchEchoSkel.h"
 #include "host/rt/periodic_tick.hpp"
@@ -25,14 +27,13 @@ namespace tandem::bench {
 
 namespace {
 
-constexpr std::int64_t period_ns = 1'000'000;
-
+/// The servant behind the provided service port.
 class Echo : public POA_Bench::Echo, public PortableServer::RefCountServantBase {
   public:
     CORBA::Double twice(CORBA::Double value) override { return 2 * value; }
 };
 
-/// All kinds of ports, and a record of its ticks.
+/// A component with data ports of two types, a provided and a required service, and a record of its ticks.
 class Parts : public RTC::DataFlowComponentBase {
   public:
     explicit Parts(RTC::Manager* manager) : DataFlowComponentBase(manager) {}
@@ -51,7 +52,7 @@ class Parts : public RTC::DataFlowComponentBase {
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
         timespec now{};
         clock_gettime(CLOCK_MONOTONIC, &now);
-        record.tick(std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec);
+        record.record_tick(std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec);
         return RTC::RTC_OK;
     }
 
@@ -67,17 +68,18 @@ class Parts : public RTC::DataFlowComponentBase {
     TickRecord record;
 };
 
-/// Two of them in this process's manager, From and To, connected by `interface`.
+/// The manager of this process with two components, From and To. Their ports are connected over `interface`
+/// ("direct", "corba_cdr"), and To is activated; if it is empty, they are not.
 class Components {
   public:
-    explicit Components(const std::string& interface, std::chrono::nanoseconds spin = {})
-        : manager_(start(spin)) {
+    explicit Components(const std::string& interface, std::chrono::nanoseconds tick_spin = {})
+        : manager_(start(tick_spin)) {
         coil::Properties profile;
         for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Parts");
         manager_.registerFactory(profile, RTC::Create<Parts>, RTC::Delete<Parts>);
         for (const char* name : {"From", "To"})
             manager_.createOrThrow(fmt::format("Parts?instance_name={}", name));
-        if (interface.empty()) return;
+        if (interface.empty()) return; // the caller activates what it needs
         for (const char* port : {"long", "seq"})
             manager_.connectOrThrow(
                 fmt::format("From.{0}_out?port=To.{0}_in&interface_type={1}", port, interface));
@@ -86,20 +88,23 @@ class Components {
     }
     ~Components() { manager_.shutdown(); }
 
+    /// The component of that instance name.
     Parts& part(const char* name) { return dynamic_cast<Parts&>(*manager_.getComponent(name)); }
     RTC::Manager& manager() { return manager_; }
 
   private:
-    static RTC::Manager& start(std::chrono::nanoseconds spin) {
+    static RTC::Manager& start(std::chrono::nanoseconds tick_spin) {
+        // No configuration file and no name server: nothing outside of this process takes part.
         coil::Argv argv(
             {"bench", "-i", "-f", "/none", "-o", "naming.enable:NO", "-o", "logger.log_level:ERROR"});
         RTC::Manager::Options options;
-        options.tick_spin = spin;
+        options.tick_spin = tick_spin;
         return RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
     }
     RTC::Manager& manager_;
 };
 
+/// From the call of write() until the value is in the other component's buffer.
 void write_long(Session& session) {
     Components components(session.bench_case().detail);
     Parts& from = components.part("From");
@@ -109,9 +114,11 @@ void write_long(Session& session) {
         from.long_out.write();
     });
     while (to.long_in.isNew()) to.long_in.read();
-    if (to.in_long.data != from.out_long.data) throw std::runtime_error("the last value has not come");
+    if (to.in_long.data != from.out_long.data)
+        throw std::runtime_error("the InPort has another value than the last one written");
 }
 
+/// The same with a sequence, whose memory must not be allocated for each value.
 void write_seq(Session& session) {
     Components components(session.bench_case().detail);
     Parts& from = components.part("From");
@@ -121,9 +128,11 @@ void write_seq(Session& session) {
         from.seq_out.write();
     });
     while (to.seq_in.isNew()) to.seq_in.read();
-    if (to.in_seq.data[0] != from.out_seq.data[0]) throw std::runtime_error("the last value has not come");
+    if (to.in_seq.data[0] != from.out_seq.data[0])
+        throw std::runtime_error("the InPort has another value than the last one written");
 }
 
+/// A CORBA call inside one process: omniORB calls the servant without a message.
 void call(Session& session) {
     Components components("direct");
     Parts& from = components.part("From");
@@ -134,7 +143,7 @@ void call(Session& session) {
     });
 }
 
-/// Of 100,000 writes that are read, after 1000 of them.
+/// Of 100,000 writes and reads of both types; the first 1000 do not count, since buffers grow then.
 void count_allocations(Session& session) {
     Components components(session.bench_case().detail);
     Parts& from = components.part("From");
@@ -151,33 +160,35 @@ void count_allocations(Session& session) {
     session.add_result(static_cast<double>(allocation_count() - before));
 }
 
-/// Runs From for so many periods, and stops.
-void tick_for(Components& components, std::uint64_t periods) {
-    components.part("From").record.prepare(period_ns, periods, rt::grid_origin.count());
+/// Lets From tick for so many periods and deactivates it.
+void tick_for(Components& components, int periods) {
+    components.part("From").record.prepare(tick_period_ns, static_cast<std::size_t>(periods),
+                                           rt::grid_origin.count());
     components.manager().activateComponentOrThrow("From");
-    std::this_thread::sleep_for(std::chrono::nanoseconds(period_ns) * periods);
+    std::this_thread::sleep_for(std::chrono::nanoseconds(tick_period_ns) * periods);
     components.part("From").deactivate(0);
     if (components.part("From").record.ticks() == 0) throw std::runtime_error("the component has not ticked");
 }
 
-/// How much later than its time onExecute is called.
+/// How long after its planned time onExecute() is called. With tick-spin (Wake::spin) the context polls the last
+/// 200 us before each tick.
 void lateness(Session& session) {
     const bool spin = session.bench_case().wake == Wake::spin;
     Components components("", std::chrono::microseconds(spin ? 200 : 0));
-    tick_for(components, std::min<std::uint64_t>(session.budget().samples,
-                                                 session.budget().samples >= 50'000 ? 10'000 : 1'000));
+    tick_for(components, lateness_ticks(session.budget()));
     const TickRecord& record = components.part("From").record;
     for (const std::int64_t late : record.lateness_ns()) session.add_result(static_cast<double>(late));
     session.set_tick_counts(record.counts());
 }
 
-/// By how much the mean period differs from 1 ms; each tick is accounted for.
+/// By how much the mean period differs from 1 ms.
 void drift(Session& session) {
     Components components("");
-    tick_for(components, session.budget().samples >= 50'000 ? 100'100 : 1'000);
+    tick_for(components, drift_ticks(session.budget()));
     Parts& parts = components.part("From");
     const auto ticks =
         dynamic_cast<RTC_exp::PeriodicExecutionContext&>(*parts.getOwnContexts().at(0)).tickStatistics();
+    // The context's own counts, so that each period can be accounted for.
     fmt::print(stderr, "rtm: {} cycles, {} overruns, {} periods skipped\n", ticks.cycles, ticks.overruns,
                ticks.skipped);
     session.add_result(std::abs(parts.record.mean_drift_ns()));
@@ -186,35 +197,20 @@ void drift(Session& session) {
 
 } // namespace
 
-void add_tandem_rtm_cases(Registry& registry) {
-    Case entry;
-    entry.subject = "rtm";
-    entry.placement = Placement::alone;
-    const auto add = [&](const char* operation, std::size_t bytes, const char* detail,
-                         void (*run)(Session&)) {
-        entry.operation = operation;
-        entry.bytes = bytes;
-        entry.detail = detail;
-        entry.run = run;
-        registry.cases.push_back(entry);
-    };
-    entry.wake = Wake::none;
+void add_rtm_cases(Registry& registry) {
+    InProcessCases cases(registry, Group::tandem, "rtm");
+    constexpr std::size_t long_bytes = 12, seq_bytes = 36; // as CDR, with the time stamp
     for (const char* interface : {"direct", "corba_cdr"}) {
-        add("write", 12, interface, write_long);
-        add("write", 36, interface, write_seq);
+        cases.add("write", long_bytes, Wake::none, write_long, interface);
+        cases.add("write", seq_bytes, Wake::none, write_seq, interface);
     }
-    add("local-call", sizeof(double), "", call);
-    entry.unit = Unit::count;
+    cases.add("local-call", sizeof(double), Wake::none, call);
     for (const char* interface : {"direct", "corba_cdr"})
-        add("write-allocations", 48, interface, count_allocations);
-    entry.unit = Unit::ns;
-    entry.wake = Wake::blocking;
-    add("tick", sizeof(double), "", lateness);
-    entry.wake = Wake::spin;
-    add("tick", sizeof(double), "", lateness);
-    entry.wake = Wake::blocking;
-    entry.extra_seconds = 110;
-    add("tick-drift", sizeof(double), "", drift);
+        cases.add("write-allocations", long_bytes + seq_bytes, Wake::none, count_allocations, interface,
+                  Unit::count);
+    cases.add("tick", sizeof(double), Wake::blocking, lateness);
+    cases.add("tick", sizeof(double), Wake::spin, lateness);
+    cases.add_tick_drift(drift);
 }
 
 } // namespace tandem::bench

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Component to component: two hosts, the real AdaptorComp and InterceptorComp between them, eight doubles. A
-// runs opros_host, B rtm_host; both components poll.
+// Component to component across the bridge: A runs opros_host with BenchPing and AdaptorComp, B runs rtm_host
+// with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way; both components poll.
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
 
 #include "host/process/child_process.hpp"
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
+/// An element of an OPRoS application profile, for ports of the same name.
 std::string connection(const char* from, const char* to, const char* port) {
     return fmt::format(
         "<port_connection port_type=\"data\"><source component_name=\"{0}\" port_name=\"{2}\"/>"
@@ -26,7 +28,8 @@ std::string connection(const char* from, const char* to, const char* port) {
         from, to, port);
 }
 
-void write_opros(const Session& session, const fs::path& folder) {
+/// The OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
+void write_application_profile(const Session& session, const fs::path& folder) {
     const auto property = [](const char* name, const std::string& value) {
         return fmt::format("<property name=\"{}\">{}</property>", name, value);
     };
@@ -41,11 +44,12 @@ void write_opros(const Session& session, const fs::path& folder) {
            "reference>"
         << "<properties>" << property("link", session.name()) << property("wait", "30")
         << "</properties></subcomponent>\n</subcomponents>\n<port_connections>\n"
-        << connection("Ping", "Adaptor", "ask") << connection("Adaptor", "Ping", "answer")
+        << connection("Ping", "Adaptor", "ping") << connection("Adaptor", "Ping", "pong")
         << "</port_connections></package_profile>\n";
 }
 
-void write_rtm(const Session& session, const fs::path& folder) {
+/// The RTM side: BenchPong, whose ports InterceptorComp shares over the same link.
+void write_rtc_conf(const Session& session, const fs::path& folder) {
     std::ofstream(folder / "rtc.conf")
         << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: 1000\n"
         << "manager.modules.preload: BenchPong.so, InterceptorComp.so\n"
@@ -53,7 +57,8 @@ void write_rtm(const Session& session, const fs::path& folder) {
         << "&rtc=BenchPong0\n";
 }
 
-std::vector<std::string> command(const Session& session, const fs::path& folder) {
+/// The hosts are in the folder of this program. --parent-death: they end if this side is killed.
+std::vector<std::string> host_command(const Session& session, const fs::path& folder) {
     const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
     if (session.is_a())
         return {(programs / "opros_host").string(), (folder / "app.xml").string(), "--strict",
@@ -61,32 +66,34 @@ std::vector<std::string> command(const Session& session, const fs::path& folder)
     return {(programs / "rtm_host").string(), "-f", (folder / "rtc.conf").string(), "--parent-death"};
 }
 
-void record(Session& session, const fs::path& file) {
+/// BenchPing's samples: doubles, in ns.
+void add_samples(Session& session, const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     double value = 0;
     while (in.read(reinterpret_cast<char*>(&value), sizeof value)) session.add_result(value);
 }
 
-void bridge(Session& session) {
-    const fs::path folder = fs::temp_directory_path() / session.name(); // removed with the case's left-overs
+/// Each side starts its host and watches it until BenchPing has written its samples.
+void measure_bridge(Session& session) {
+    const fs::path folder = fs::temp_directory_path() / session.name(); // removed with the case's leftovers
     if (session.is_a()) {
         fs::create_directory(folder);
-        write_opros(session, folder);
-        write_rtm(session, folder);
+        write_application_profile(session, folder);
+        write_rtc_conf(session, folder);
     }
     session.arrive_and_wait();
     const fs::path log = folder / (session.is_a() ? "opros.log" : "rtm.log");
-    const wheelchair::Fd out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
-    wheelchair::ChildProcess host(command(session, folder), {-1, out.get(), out.get(), ""});
+    const process::FileDescriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
+    process::ChildProcess host(host_command(session, folder), {-1, out.get(), out.get(), ""});
     while (!session.stop_requested()) {
-        if (host.poll()) {
+        if (host.poll()) { // the first line of its log says why
             std::string line;
             std::getline(std::ifstream(log), line);
             throw std::runtime_error(fmt::format("{} {}: {}", session.is_a() ? "opros_host" : "rtm_host",
                                                  host.poll()->text(), line));
         }
         if (session.is_a() && fs::exists(folder / "samples")) {
-            record(session, folder / "samples");
+            add_samples(session, folder / "samples");
             session.request_stop();
         }
         std::this_thread::sleep_for(20ms);
@@ -96,15 +103,10 @@ void bridge(Session& session) {
 
 } // namespace
 
-void add_tandem_bridge_cases(Registry& registry) {
-    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"}) {
-        Case entry;
-        entry.subject = "bridge";
-        entry.operation = "one-way";
-        entry.detail = direction;
-        entry.run = bridge;
-        registry.cases.push_back(entry);
-    }
+void add_bridge_cases(Registry& registry) {
+    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
+        registry.add(
+            {.subject = "bridge", .operation = "one-way", .detail = direction, .run = measure_bridge});
 }
 
 } // namespace tandem::bench

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/harness/registry.hpp"
+
+#include "apps/bench/harness/cases.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace tandem::bench {
+
+void Registry::add_with_conditions(const Case& entry) {
+    add(entry);
+    if (entry.wake == Wake::spin) return;
+    Case idle = entry;
+    idle.power_profile = PowerProfile::low_latency_idle;
+    add(idle);
+    Case same_core = entry;
+    same_core.placement = Placement::same_core;
+    add(same_core);
+}
+
+Registry all_cases() {
+    Registry registry;
+    add_cache_line_cases(registry);
+    add_index_ring_cases(registry);
+    add_hand_written_cases(registry);
+    add_memory_cases(registry);
+    add_ring_cases(registry);
+    add_bridge_cases(registry);
+    add_stream_cases(registry);
+    add_call_cases(registry);
+    add_port_cases(registry);
+    add_opros_cases(registry);
+    add_publish_count_cases(registry);
+    add_rtm_cases(registry);
+    add_wheelchair_cases(registry);
+    add_peer_cases(registry);
+    // Topics keep the order in which they first appear above, and so do the cases within a topic.
+    std::map<std::string, std::size_t> order;
+    for (const Case& entry : registry.cases) order.emplace(entry.topic(), order.size());
+    std::stable_sort(registry.cases.begin(), registry.cases.end(),
+                     [&](const Case& a, const Case& b) { return order.at(a.topic()) < order.at(b.topic()); });
+    return registry;
+}
+
+} // namespace tandem::bench
