@@ -8,6 +8,7 @@ namespace CORBA_RTCUtil {
 
 using RTC::RTObject_ptr;
 
+// The parameters of a set. Our components throw SDOPackage::InternalError for an unknown set.
 coil::Properties get_configuration(RTObject_ptr rtc, const std::string& set_name) {
     SDOPackage::Configuration_var configuration = rtc->get_configuration();
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
@@ -27,6 +28,7 @@ coil::Properties get_active_configuration(RTObject_ptr rtc) {
     return NVUtil::toProperties(set->configuration_data);
 }
 
+// Empty: the set has no such parameter.
 std::string get_parameter_by_key(RTObject_ptr rtc, const std::string& set_name,
                                  const std::string& parameter) {
     return get_configuration(rtc, set_name).getProperty(parameter);
@@ -42,6 +44,7 @@ bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
     return configuration->set_configuration_set_values(set);
 }
 
+// Two calls: another tool may activate a different set between them.
 bool set_active_configuration(RTObject_ptr rtc, const std::string& parameter, const std::string& value) {
     return set_configuration(rtc, get_active_configuration_name(rtc), parameter, value);
 }
