@@ -134,7 +134,7 @@ TEST_CASE("tandem rtm list and tree show what answers and fail for a place that 
         const Result result = host.run({command, "--nameserver", "127.0.0.1:9"});
         CHECK(result.says("Counter0"));
         CHECK(result.exit_code == 1);
-        CHECK(result.errors == "tandem: name server 127.0.0.1:9: nobody listens there\n");
+        CHECK(result.errors == "tandem: name server 127.0.0.1:9: no process listens there\n");
     }
 }
 
