@@ -29,7 +29,7 @@ DynamicLib& DynamicLib::operator=(const DynamicLib& rhs) {
 }
 
 int DynamicLib::open(const char* dll_name, int open_mode, int close_handle_on_destruction) {
-    // What was open before stays open when this fails.
+    // A library that is open stays open when this fails.
     void* handle = ::dlopen(dll_name, open_mode);
     if (handle == nullptr) return -1;
     m_handle = handle;

@@ -47,6 +47,7 @@ int PeriodicTask::suspend() {
     return 0;
 }
 
+// The statistics begin anew.
 int PeriodicTask::resume() {
     Lock lock(m_mutex);
     // The pause must not count as a long period.
@@ -69,6 +70,7 @@ void PeriodicTask::setTask(std::function<void()> func) {
     m_func = std::move(func);
 }
 
+// Takes effect after the next call.
 void PeriodicTask::setPeriod(std::chrono::nanoseconds period) {
     Lock lock(m_mutex);
     m_period = period;

@@ -11,7 +11,7 @@ namespace {
 const std::string empty_string; // what getProperty() refers to when there is no such key
 
 // `a.b\.c` -> {a, b.c}. Keys come from files and from other processes, and a tree is copied and deleted by
-// recursion: so the depth is bounded, and what is deeper becomes one name with dots.
+// recursion: so the depth is bounded, and the rest of a longer key becomes one name with dots.
 std::vector<std::string> split_key(const std::string& key) {
     constexpr std::size_t max_depth = 100;
     std::vector<std::string> path;
@@ -60,6 +60,7 @@ Properties::Properties(const Properties& other)
     }
 }
 
+// Name, value, default and children; the place in a tree (the parent) stays.
 Properties& Properties::operator=(const Properties& other) {
     if (this == &other) return *this;
     Properties copy(other); // first: `other` may be a node of this tree, which clear() deletes
@@ -111,6 +112,7 @@ Properties& Properties::getNode(const std::string& key) {
     return *node;
 }
 
+// False for an empty key, and for a node that exists.
 bool Properties::createNode(const std::string& key) {
     if (key.empty() || findNode(key) != nullptr) return false;
     getNode(key);
@@ -138,6 +140,7 @@ const std::string& Properties::getProperty(const std::string& key) const {
     return node->is_set_ || !node->value_.empty() ? node->value_ : node->default_value_;
 }
 
+// An empty value counts as missing here, as in OpenRTM-aist.
 const std::string& Properties::getProperty(const std::string& key, const std::string& def) const {
     const std::string& found = getProperty(key);
     return found.empty() ? def : found;

@@ -40,6 +40,7 @@ int SharedMemory::create(std::string shm_address, unsigned long long memory_size
     return 0;
 }
 
+// The object must have been created, with at least that size.
 int SharedMemory::open(std::string shm_address, unsigned long long memory_size) {
     SharedMemory::close();
     const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CLOEXEC, 0);
@@ -67,6 +68,7 @@ int SharedMemory::read(char* data, unsigned long long pos, unsigned long long si
     return 0;
 }
 
+// Without an open object it does nothing and returns 0.
 int SharedMemory::close() {
     if (m_data == nullptr) return 0;
     const int result = ::munmap(m_data, m_size);

@@ -111,9 +111,11 @@ std::string eraseTailBlank(std::string str) noexcept {
     while (!str.empty() && is_blank(str.back()) && !isEscaped(str, str.size() - 1)) str.pop_back();
     return str;
 }
+// The trimming of all configuration values.
 std::string eraseBothEndsBlank(std::string str) noexcept {
     return eraseTailBlank(eraseHeadBlank(std::move(str)));
 }
+// For comparing words of configuration files: trimmed, in lower case.
 std::string normalize(std::string str) noexcept { return toLower(eraseBothEndsBlank(std::move(str))); }
 
 // The replacement is not searched again, so `a` -> `aa` ends.

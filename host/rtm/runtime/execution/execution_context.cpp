@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all execution contexts share, but for the cycle (execution_cycle.cpp): options, start and stop,
-// participants, profile.
+// The parts common to all execution contexts, but for the cycle (execution_cycle.cpp): options, start and
+// stop, participants, profile.
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <cmath>

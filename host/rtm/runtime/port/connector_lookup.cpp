@@ -7,7 +7,8 @@
 namespace RTC {
 namespace {
 
-/// What `get` returns for each connector. The caller's lists are copies: connectors may go at any time.
+/// Applies `get` to each connector, with the mutex held. The list holds copies, which stay valid when a
+/// connection ends.
 template <class Connectors, class Get>
 auto collect(std::mutex& mutex, Connectors& connectors, Get get) {
     std::lock_guard<std::mutex> lock(mutex);

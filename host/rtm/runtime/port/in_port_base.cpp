@@ -11,7 +11,7 @@
 namespace RTC {
 namespace {
 
-// Who publishes is who is called: the InPort for push, the OutPort for pull.
+// The port that is called publishes its address: the InPort of a push connection, the OutPort of a pull one.
 bool is_pull(const coil::Properties& connector_properties) {
     return coil::normalize(connector_properties.getProperty("dataflow_type", "push")) == "pull";
 }
@@ -20,7 +20,7 @@ bool is_pull(const coil::Properties& connector_properties) {
 
 InPortBase::InPortBase(const char* name, const char* data_type)
     : PortBase(name), m_thebuffer(new CdrRingBuffer) {
-    // What tools and peers read in the port's profile; init() adds the transports of libraries.
+    // Tools and peers read these in the port's profile; init() adds the transports of libraries.
     addProperty("port.port_type", "DataInPort");
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "Any");

@@ -20,7 +20,7 @@ void update_sole_connector(const std::vector<OutPortConnector*>& connectors) {
 } // namespace
 
 OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(name) {
-    // What tools and peers read in the port's profile; init() adds the transports of libraries.
+    // Tools and peers read these in the port's profile; init() adds the transports of libraries.
     addProperty("port.port_type", "DataOutPort");
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "flush, new, periodic");

@@ -13,8 +13,8 @@
 namespace RTC {
 namespace {
 
-/// What decides whether two ports fit. `kind` is the port.port_type; empty properties are those of a foreign
-/// port.
+/// The facts that decide whether two ports fit. `kind` is the port.port_type; empty properties are those of a
+/// foreign port.
 struct PortDescription {
     std::string name, kind, data_type;
 };

@@ -14,7 +14,7 @@ namespace RTC {
 /// `little_endian`: the byte order agreed for the connection; the octets on the wire do not carry it.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PushReceiver> receiver, bool little_endian);
-/// A servant that gives the messages of `buffer` to whoever pulls.
+/// A servant from which a peer pulls the messages of `buffer`.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PullBuffer> buffer);
 

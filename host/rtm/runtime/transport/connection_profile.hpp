@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What data ports and their connectors read from, and write to, the profile of a connection. The keys are
+// Reads and writes the profile of a connection, for data ports and their connectors. The keys are
 // those of OpenRTM-aist. All functions [any-thread].
 #pragma once
 #include <rtm/ConnectorBase.h>

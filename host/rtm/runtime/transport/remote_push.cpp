@@ -10,7 +10,7 @@
 namespace RTC {
 
 /// The receiver, the messages that wait for it and the thread that sends them. Owned by the connector and by
-/// that thread; whoever is last destroys it.
+/// that thread; the last of the two destroys it.
 struct RemotePush::SendQueue {
     std::unique_ptr<RemoteReceiver> receiver; // the writer calls it, or the thread while uses_thread is set
     Limits limits;
