@@ -2,7 +2,7 @@
 // Builds a component from its folder, under the name that its profile gives.
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/text.hpp"
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/profile/component_profile.hpp"
 #include "host/plugin/find_library.hpp"
 
 #include <algorithm>

@@ -102,12 +102,11 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
             entry,
             engine::read_component_profile(
                 entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
-            search);
+            engine::ComponentHostOptions{search, std::nullopt, 1, engine::TaskQueue::Mode::in_caller});
         if (request["initialize"]) initialize(component->component(), entry.name, report);
         components.emplace(entry.name, std::move(component));
     }
-    engine::WorkerPool no_threads(1, false);
-    std::vector<std::unique_ptr<engine::Connection>> links;
+    std::vector<std::unique_ptr<engine::Connection>> connections;
     for (const auto& connection : profile.connections) {
         if (!connection.error.empty()) continue; // told by whoever read the profile
         const auto source = components.find(connection.source.component),
@@ -115,8 +114,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
         if (source == components.end() || target == components.end()) continue;
         report.begin_stage("the connection at line " + std::to_string(connection.location.line));
         try {
-            links.push_back(
-                engine::make_connection(connection, *source->second, *target->second, no_threads));
+            connections.push_back(engine::make_connection(connection, *source->second, *target->second));
         } catch (const engine::SetupError& error) {
             faults.emplace_back(error.what());
         }

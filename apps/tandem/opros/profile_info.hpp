@@ -2,7 +2,7 @@
 #pragma once
 
 #include "apps/tandem/opros/commands.hpp"
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/profile/profile_kind.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>

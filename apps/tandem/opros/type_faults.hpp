@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/profile/component_profile.hpp"
 
 #include <string>
 #include <vector>

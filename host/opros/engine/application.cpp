@@ -12,59 +12,65 @@
 
 namespace tandem::engine {
 
-Application::Application(const ApplicationOptions& options)
-    : options_(options),
-      workers_(std::make_shared<WorkerPool>(options.jobs_per_worker, options.lockstep_socket.empty())) {}
+Application::Application(const ApplicationOptions& options) : options_(options) {}
 
 Application::Application(const std::filesystem::path& file, const ApplicationOptions& options)
     : Application(options) {
     const ApplicationProfile profile =
         flatten_composites(read_application_profile(file), options_.plugin_dirs);
+    // All libraries are loaded before the first component is initialized: a missing one is reported before any
+    // hardware moves. Connections come after, since components may add ports in onInitialize.
     load(profile);
     sort_components(profile);
-    for (ComponentHost* component : order_) {
-        report_setup_step(*component, "onInitialize");
-        component->initialize();
-        require_success_if_strict(*component, "initialize");
-    }
+    initialize_all();
     connect_all(profile);
 }
 
 Application::~Application() {
     unload();
     if (stuck_components_.empty()) return;
-    for (auto& link : connections_) static_cast<void>(link.release());
+    // A thread that has not returned may still use any of these, for as long as the process lives.
+    for (auto& connection : connections_) static_cast<void>(connection.release());
     for (auto& component : components_) static_cast<void>(component.release());
-    static auto* const kept = new std::vector<std::shared_ptr<WorkerPool>>;
-    kept->push_back(workers_);
 }
 
 void Application::load(const ApplicationProfile& profile) {
-    std::vector<std::string> failures;
+    ComponentHostOptions host_options{options_.plugin_dirs, options_.probe, options_.task_queue_capacity,
+                                      options_.lockstep_socket.empty() ? TaskQueue::Mode::own_thread
+                                                                       : TaskQueue::Mode::in_caller};
+    host_options.plugin_dirs.insert(host_options.plugin_dirs.begin(), profile.location.file.parent_path());
+    std::string first_failure;
     for (const Subcomponent& entry : profile.subcomponents) {
-        ComponentProfile component = read_component_profile(entry.file);
-        auto dirs = options_.plugin_dirs;
-        dirs.insert(dirs.begin(), profile.location.file.parent_path());
+        ComponentProfile component = read_component_profile(entry.file); // a wrong profile ends the set-up
         try {
-            components_.push_back(
-                std::make_unique<ComponentHost>(entry, std::move(component), dirs, options_.probe));
+            components_.push_back(std::make_unique<ComponentHost>(entry, std::move(component), host_options));
             libraries_.push_back(components_.back()->library());
         } catch (const SetupError& error) {
+            // Of an application with one component nothing would be left: the error itself says more.
             if (options_.strict || profile.subcomponents.size() == 1) throw;
-            failures.push_back(error.what());
-            spdlog::error("{}; component {} is left out, the others go on", error.what(), entry.name);
+            if (first_failure.empty()) first_failure = error.what();
+            spdlog::error("{}; component {} is left out, the other components continue", error.what(),
+                          entry.name);
         }
     }
-    if (components_.empty()) throw SetupError(failures.front());
+    if (components_.empty()) throw SetupError(first_failure);
 }
 
 void Application::sort_components(const ApplicationProfile& profile) {
     for (const std::string& name : start_order(profile))
-        if (ComponentHost* component = find_component(name)) order_.push_back(component);
+        if (ComponentHost* component = find_component(name)) start_order_.push_back(component);
     for (const Dependency& dependency : profile.dependencies) {
         ComponentHost* source = find_component(dependency.source);
         ComponentHost* target = find_component(dependency.target);
         if (source && target) source->add_dependency(*target);
+    }
+}
+
+void Application::initialize_all() {
+    for (ComponentHost* component : start_order_) {
+        report_setup_step(*component, "onInitialize");
+        component->initialize();
+        require_success_if_strict(*component, "initialize");
     }
 }
 
@@ -83,23 +89,23 @@ void Application::connect_ports(const ConnectionProfile& connection) {
     if (!connection.error.empty()) throw SetupError(connection.location, connection.error);
     ComponentHost* source = find_component(connection.source.component);
     ComponentHost* target = find_component(connection.target.component);
-    const bool from = source && !source->has_failed(), to = target && !target->has_failed();
-    if (from && to)
-        connections_.push_back(make_connection(connection, *source, *target, *workers_));
+    const bool has_source = source && !source->has_failed(), has_target = target && !target->has_failed();
+    if (has_source && has_target)
+        connections_.push_back(make_connection(connection, *source, *target));
     else
         spdlog::warn("{}: connection left out, component {} has failed", connection.location.text(),
-                     (from ? connection.target : connection.source).component);
+                     (has_source ? connection.target : connection.source).component);
 }
 
-void Application::report_setup_step(const ComponentHost& component, const char* call_back) const {
-    if (options_.on_setup_step) options_.on_setup_step(component.name(), call_back);
+void Application::report_setup_step(const ComponentHost& component, const char* callback) const {
+    if (options_.on_setup_step) options_.on_setup_step(component.name(), callback);
 }
 
-void Application::require_success_if_strict(const ComponentHost& component, const char* step) const {
+void Application::require_success_if_strict(const ComponentHost& component, const char* transition) const {
     if (options_.strict && component.has_failed())
-        throw SetupError(
-            "component '" + component.name() + "' did not " + step +
-            ", the line above says why; mend that, or let the others run without it: leave out --strict");
+        throw SetupError("component '" + component.name() + "' did not " + transition +
+                         ", the line above says why; correct that, or leave out --strict to run the other "
+                         "components without it");
 }
 
 ComponentHost* Application::find_component(const std::string& name) {
@@ -111,12 +117,12 @@ ComponentHost* Application::find_component(const std::string& name) {
 void Application::start() {
     if (started_) return;
     started_ = true;
-    for (ComponentHost* component : order_) {
+    for (ComponentHost* component : start_order_) {
         report_setup_step(*component, "onStart");
         component->start();
         require_success_if_strict(*component, "start");
     }
-    if (std::all_of(order_.begin(), order_.end(),
+    if (std::all_of(start_order_.begin(), start_order_.end(),
                     [](const ComponentHost* each) { return each->has_failed(); }))
         throw SetupError("no component has started, the lines above say why");
     if (!options_.lockstep_socket.empty()) {
@@ -124,80 +130,97 @@ void Application::start() {
                                                         [this](const std::string& name) { step(name); });
         return;
     }
-    executors_ = make_executors(order_, options_.executors);
+    executors_ = make_executors(start_order_, options_.executors);
     for (auto& executor : executors_) executor->start();
 }
 
-// One after the other: what started first, hardware as a rule, keeps running, its watchdog with it, until all
-// that use it have stopped. However long one of them takes, or hangs, nobody drives on old commands
-// meanwhile.
+// One component after the other: the ones that have started first, as a rule the hardware, keep running with
+// their watchdogs until all that use them have stopped. However long one takes, the hardware is never left
+// following an old command.
 void Application::stop() {
     if (!started_) return;
     started_ = false;
     for (const auto& executor : executors_) executor_stats_.push_back(executor->stats());
+    // The server's destructor waits for the step under way. The lambda owns the server, so that a destructor
+    // that does not return keeps it.
     if (step_server_ && !process::BoundedCall::returns_within(
                             options_.grace, [server = std::move(step_server_)]() mutable { server.reset(); }))
-        for (ComponentHost* component : order_)
+        for (ComponentHost* component : start_order_)
             if (component->current_callback()) mark_stuck(*component);
-    for (auto component = order_.rbegin(); component != order_.rend(); ++component)
+    for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
         stop_component(**component);
 }
 
-/// A component that hangs in onExecute may come back when it is told to stop.
+// stop() is called even when the executor has not ended: a component that waits in onExecute may return when
+// onStop tells it to. Only one that does not return then, either, is stuck.
 void Application::stop_component(ComponentHost& component) {
-    const auto mine = std::find_if(executors_.begin(), executors_.end(),
-                                   [&](const auto& executor) { return executor->runs(component); });
-    const bool alone = mine == executors_.end() || (*mine)->stop_within(options_.grace);
+    const auto executor = std::find_if(executors_.begin(), executors_.end(),
+                                       [&](const auto& each) { return each->runs(component); });
+    const bool ended = executor == executors_.end() || (*executor)->stop_within(options_.grace);
     run_bounded(component, &ComponentHost::stop);
-    if (!alone && !(*mine)->stop_within(options_.grace)) {
-        for (ComponentHost* each : (*mine)->components())
+    if (!ended && !(*executor)->stop_within(options_.grace)) {
+        for (ComponentHost* each : (*executor)->components())
             if (each->current_callback()) mark_stuck(*each);
-        static_cast<void>(mine->release()); // its thread uses it as long as the process lives
+        static_cast<void>(executor->release()); // leaked: its thread uses it as long as the process lives
     }
-    if (mine != executors_.end()) executors_.erase(mine);
+    if (executor != executors_.end()) executors_.erase(executor);
 }
 
+/// Runs one step of the component's end in a thread of its own, and goes on without it after the grace time.
 void Application::run_bounded(ComponentHost& component, void (ComponentHost::*step)()) {
     if (!process::BoundedCall::returns_within(options_.grace, [&component, step] { (component.*step)(); }))
         mark_stuck(component);
 }
 
+bool Application::is_stuck(const ComponentHost& component) const {
+    return std::find(stuck_components_.begin(), stuck_components_.end(), component.name()) !=
+           stuck_components_.end();
+}
+
 void Application::mark_stuck(const ComponentHost& component) {
-    if (std::find(stuck_components_.begin(), stuck_components_.end(), component.name()) !=
-        stuck_components_.end())
-        return;
+    if (is_stuck(component)) return;
     stuck_components_.push_back(component.name());
-    const char* what = component.current_callback();
-    spdlog::error("component {} does not come back from {} within {} s; the host ends without it",
-                  component.name(), what ? what : "a call-back",
+    const char* callback = component.current_callback();
+    spdlog::error("component {} does not return from {} within {} s; the host exits without it",
+                  component.name(), callback ? callback : "a callback",
                   std::chrono::duration<double>(options_.grace).count());
 }
 
-void Application::stop_workers() {
-    if (process::BoundedCall::returns_within(options_.grace, [pool = workers_] { pool->stop(); })) return;
-    for (ComponentHost* component : order_)
+// All are interrupted before the first is waited for: a task may be in a call to another component.
+void Application::stop_task_queues() {
+    std::vector<std::shared_ptr<TaskQueue>> queues;
+    for (const auto& component : components_) queues.push_back(component->task_queue());
+    const auto stop = [queues] {
+        for (const auto& queue : queues) queue->interrupt();
+        for (const auto& queue : queues) queue->join();
+    };
+    if (process::BoundedCall::returns_within(options_.grace, stop)) return;
+    for (ComponentHost* component : start_order_)
         if (component->current_callback()) mark_stuck(*component);
 }
 
 void Application::shut_down() {
-    if (ended_) return;
-    ended_ = true;
+    if (shut_down_) return;
+    shut_down_ = true;
     stop();
-    stop_workers();
+    stop_task_queues();
     if (stuck_components_.empty()) connections_.clear();
-    for (auto component = order_.rbegin(); component != order_.rend(); ++component)
-        if (std::find(stuck_components_.begin(), stuck_components_.end(), (*component)->name()) ==
-            stuck_components_.end())
-            run_bounded(**component, &ComponentHost::destroy);
+    for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
+        if (!is_stuck(**component)) run_bounded(**component, &ComponentHost::destroy);
 }
 
-// What hangs may use the others, and a static destructor that hangs keeps the dynamic linker from everybody.
+// Nothing is deleted while a component is stuck: it may still call the others. A stuck destructor also ends the
+// unloading: a static destructor that hangs holds the dynamic linker's lock, so that every further dlclose()
+// would hang as well.
 void Application::unload() {
     shut_down();
     if (unloaded_ || !stuck_components_.empty()) return;
     unloaded_ = true;
     for (const auto& component : components_) run_bounded(*component, &ComponentHost::destroy_instance);
-    if (!stuck_components_.empty()) return;
+    if (stuck_components_.empty()) unload_libraries();
+}
+
+void Application::unload_libraries() {
     libraries_.clear();
     std::vector<std::filesystem::path> files;
     for (const auto& component : components_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// opros_host: runs an OPRoS application until it is told to stop.
+// opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) asks it to end.
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
@@ -21,6 +21,7 @@ namespace {
 
 using tandem::engine::ApplicationOptions;
 
+/// The command line.
 struct Options {
     std::filesystem::path application;
     ApplicationOptions host;
@@ -39,7 +40,7 @@ void declare(CLI::App& cli, Options& options) {
     cli.add_flag("--strict", options.host.strict,
                  "Do not run without a component that fails to load, initialize or start, or a connection");
     cli.add_option("--grace", options.grace_s,
-                   "Seconds that the end waits for a component that does not come back")
+                   "Seconds that the end waits for each callback of a component to return")
         ->check(CLI::Range(0.01, 3600.));
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
     tandem::plugin::add_probe_options(cli, options.probe);
@@ -53,19 +54,21 @@ sigset_t shutdown_signals() {
     return signals;
 }
 
+/// Sets up the application, runs it and ends it. The exit code is 1 when a component had to be left behind.
 int run(Options options) {
     const sigset_t signals = shutdown_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
     for (const auto& notice : tandem::rt::apply(options.real_time)) spdlog::warn("{}", notice);
-    tandem::engine::ShutdownWatcher shutdown(signals, options.host.grace);
-    options.host.on_setup_step = [&shutdown](const std::string& component, const char* step) {
-        shutdown.begin_step(component, step);
+    tandem::engine::ShutdownWatcher shutdown_watcher(signals, options.host.grace);
+    options.host.on_setup_step = [&shutdown_watcher](const std::string& component, const char* callback) {
+        shutdown_watcher.begin_step(component, callback);
     };
+    // After the watcher and before any component: a component may call exit() in its set-up.
     const tandem::process::ExitGuard exit_guard;
     tandem::engine::Application application(options.application, options.host);
     application.start();
-    std::cout << "ready" << std::endl;
-    shutdown.wait_for_signal();
+    std::cout << "ready" << std::endl; // supervisors and tests wait for this line
+    shutdown_watcher.wait_for_signal();
     application.shut_down();
     if (options.stats)
         for (const std::string& line : application.executor_stats()) std::cout << line << "\n";
@@ -73,8 +76,8 @@ int run(Options options) {
     if (!application.stuck_components().empty()) tandem::process::exit_process(1);
     if (const auto loaded = application.components_still_loaded(); !loaded.empty())
         tandem::process::set_exit_timeout(
-            options.host.grace, fmt::format("opros_host: component {} does not come back from its static "
-                                            "destructors within {} s; the host ends without it",
+            options.host.grace, fmt::format("opros_host: component {} does not return from its static "
+                                            "destructors within {} s; the host exits without it",
                                             fmt::join(loaded, " or "), options.grace_s));
     return 0;
 }
@@ -82,6 +85,7 @@ int run(Options options) {
 } // namespace
 
 int main(int argc, char** argv) {
+    // First of all: as the child process of a probe this does not return.
     tandem::plugin::serve_probe(argc, argv,
                                 {{tandem::engine::load_probe_task, tandem::engine::run_load_probe}});
     spdlog::set_default_logger(spdlog::stderr_logger_mt("opros_host"));
@@ -101,6 +105,7 @@ int main(int argc, char** argv) {
         return run(options);
     } catch (const std::exception& error) {
         std::cerr << "opros_host: " << error.what() << std::endl;
+        // A thread of a component that hangs would crash in static objects that are being destroyed.
         if (tandem::process::BoundedCall::any_running()) tandem::process::exit_process(1);
         return 1;
     }

@@ -8,24 +8,27 @@
 
 namespace tandem::engine {
 
-/// Waits for one of the signals (which all threads block) in a thread of its own, so that the set-up, too,
-/// can be ended: when it is not over `grace` after a signal, the process ends. What takes long in the set-up
-/// is told. A second signal ends the process at once, for a component that will not stop; what comes within a
-/// second of the first is the same wish, which a terminal, a supervisor or timeout(1) sends to the process
-/// and to its group.
+/// Waits for a signal that asks the host to end, in a thread of its own, so that a set-up in which a component
+/// hangs can be ended as well: when the set-up is not over within the grace time after the signal, the process
+/// exits with code 1. A step of the set-up that takes long is logged.
+///
+/// A second signal ends the process at once, for a component that does not stop. Signals within one second of
+/// the first count as the same request: a terminal, a supervisor and timeout(1) send theirs to the process and to
+/// its group.
 class ShutdownWatcher {
   public:
+    /// [main-thread] The signals must be blocked in all threads of the process.
     ShutdownWatcher(const sigset_t& signals, std::chrono::nanoseconds grace);
-    /// [any-thread] What the set-up is busy with from now on.
-    void begin_step(const std::string& component, const char* step);
-    /// The set-up is over: waits for the signal.
+    /// [any-thread] A callback of the set-up begins.
+    void begin_step(const std::string& component, const char* callback);
+    /// [main-thread] The set-up is over: waits for the signal.
     void wait_for_signal();
 
   private:
     struct State;
     static void watch(State& state, const sigset_t& signals, std::chrono::nanoseconds grace);
     [[noreturn]] static void exit_on_second_signal(const sigset_t& signals);
-    std::shared_ptr<State> state_; // the thread has it, too, and may outlive this
+    std::shared_ptr<State> state_; // shared with the thread, which is detached and may outlive this object
 };
 
 } // namespace tandem::engine

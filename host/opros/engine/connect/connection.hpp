@@ -3,7 +3,9 @@
 
 namespace tandem::engine {
 
-/// A connection of the application: made by its constructor's caller, undone by its destructor.
+/// A connection between two ports, which exists as long as this object: the constructor connects the ports, the
+/// destructor disconnects them. [main-thread] both, and not while a component uses the ports. Both components
+/// must outlive it.
 class Connection {
   public:
     virtual ~Connection() = default;

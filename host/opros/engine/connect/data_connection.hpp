@@ -8,16 +8,19 @@
 
 namespace tandem::engine {
 
-/// From one output data port to one input data port: a push is a push at the destination, in the same thread.
+/// From one output data port to one input data port: a push at the source is a push at the destination, in the
+/// same thread and without a copy of its own. The engine makes one for each <port_connection>, so that the
+/// functions of IDataPortLink for several destinations are not supported.
 class DataConnection : public Connection, public IDataPortLink {
   public:
-    /// The caller has checked the types.
+    /// The caller has checked that the types match.
     DataConnection(OutputDataPortInterface& source, InputDataPortInterface& destination)
         : source_(source), destination_(&destination) {
         source_.addConnection(this);
     }
     ~DataConnection() override { source_.removeConnection(this); }
 
+    /// [any-thread] What the destination returns.
     ReturnType push(opros_any& data) override {
         return destination_ ? destination_->push(data) : OPROS_SUCCESS;
     }
@@ -34,7 +37,7 @@ class DataConnection : public Connection, public IDataPortLink {
 
   private:
     OutputDataPortInterface& source_;
-    DataPort* destination_;
+    DataPort* destination_; // NULL after removeDestination(): values are then dropped
 };
 
 } // namespace tandem::engine

@@ -6,21 +6,23 @@
 namespace tandem::engine {
 
 EventConnection::EventConnection(OutputEventPortInterface& source, InputEventPortInterface& destination,
-                                 ComponentHost& receiver, Worker& worker)
-    : source_(source), destination_(destination), receiver_(receiver), worker_(worker) {
+                                 ComponentHost& receiver)
+    : source_(source), destination_(destination), receiver_(receiver) {
+    receiver_.task_queue()->start();
     source_.addConnection(this);
 }
 
 ReturnType EventConnection::push(Event* data) {
-    const std::shared_ptr<Event> copy(data->clone());
-    const bool taken = worker_.submit([copy, &port = destination_, &receiver = receiver_] {
+    const std::shared_ptr<Event> copy(data->clone()); // shared: std::function wants what can be copied
+    const bool accepted = receiver_.task_queue()->submit([copy, &port = destination_, &receiver = receiver_] {
+        // Looked at here, not when the event was sent: it may have waited while the component failed.
         const LifecycleState state = receiver.component().getStatus();
         if (state == OPROS_CS_ERROR || state == OPROS_CS_DESTROYED) return;
         receiver.run_guarded("onEvent", [&] { port.push(copy.get()); });
         receiver.input_signal().arrived();
     });
-    if (taken) return OPROS_SUCCESS;
-    if (!overflow_reported_.exchange(true))
+    if (accepted) return OPROS_SUCCESS;
+    if (!overflow_logged_.exchange(true))
         spdlog::warn("component {}: events come faster than onEvent takes them, some are lost",
                      receiver_.name());
     return OPROS_OUT_OF_RESOURCES;

@@ -3,21 +3,25 @@
 
 #include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
-#include "host/opros/engine/execute/worker.hpp"
 
 #include <InputEventPortInterface.h>
 #include <OutputEventPortInterface.h>
 
+#include <atomic>
+
 namespace tandem::engine {
 
-/// From one output event port to one input event port: each event is copied and delivered by the receiver's
-/// worker, in order. When that has too many to deliver the newest are lost (OPROS_OUT_OF_RESOURCES).
+/// From one output event port to one input event port. Each event is copied and delivered by the receiver's task
+/// queue, so that a sender never waits for the receiver's onEvent(). When the queue is full the new event is
+/// lost, and the first loss is logged.
 class EventConnection : public Connection, public IEventPortLink {
   public:
+    /// The caller has checked that the types match. Starts the receiver's task queue.
     EventConnection(OutputEventPortInterface& source, InputEventPortInterface& destination,
-                    ComponentHost& receiver, Worker& worker);
+                    ComponentHost& receiver);
     ~EventConnection() override { source_.removeConnection(this); }
 
+    /// [any-thread] Copies the event, which stays the caller's. OPROS_OUT_OF_RESOURCES: it is lost.
     ReturnType push(Event* data) override;
     ReturnType setSource(EventPort*) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType addDestination(EventPort*) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -31,8 +35,7 @@ class EventConnection : public Connection, public IEventPortLink {
     OutputEventPortInterface& source_;
     InputEventPortInterface& destination_;
     ComponentHost& receiver_;
-    Worker& worker_;
-    std::atomic<bool> overflow_reported_{false};
+    std::atomic<bool> overflow_logged_{false};
 };
 
 } // namespace tandem::engine

@@ -4,44 +4,43 @@
 #include "host/opros/engine/connect/data_connection.hpp"
 #include "host/opros/engine/connect/event_connection.hpp"
 #include "host/opros/engine/connect/service_connection.hpp"
+#include "host/opros/engine/profile/port_type.hpp"
 
 namespace tandem::engine {
 namespace {
 
-const char* kind_name(PortType type) {
-    if (type == OPROS_DATA) return "data";
-    return type == OPROS_EVENT ? "event" : "service";
-}
-
+/// Empty is what a port gives that learns its type when it is connected.
 std::string type_name(const Port& port) {
     const opros_any sample = port.sample();
     return sample.empty() ? "of any type" : sample.type();
 }
 
-/// One end of a connection: its port, or an error that says what there is instead.
-class End {
+/// Looks up the port at one side of a connection.
+class PortLookup {
   public:
-    End(const ConnectionProfile& connection, const PortReference& reference, ComponentHost& host)
+    PortLookup(const ConnectionProfile& connection, const PortReference& reference, ComponentHost& host)
         : connection_(connection), reference_(reference), host_(host) {}
 
+    /// `direction` with its article ("an output"), for the message. Throws SetupError.
     template <class PortClass>
     PortClass& port(const char* direction) const {
         Port* found = host_.component().getPort(reference_.port);
-        if (!found) no_such_port();
+        if (!found) throw_no_such_port();
         auto* port = dynamic_cast<PortClass*>(found);
         if (!port)
             throw SetupError(connection_.location, "port " + reference_.text() + " is not " + direction +
-                                                       " " + kind_name(connection_.type) + " port");
+                                                       " " + port_type_name(connection_.type) + " port");
         return *port;
     }
 
   private:
-    [[noreturn]] void no_such_port() const {
+    [[noreturn]] void throw_no_such_port() const {
         std::string known;
         for (const std::string& name : host_.component().getPortNames(connection_.type))
             known += (known.empty() ? "" : ", ") + name;
         throw SetupError(connection_.location, "component '" + reference_.component + "' has no port '" +
-                                                   reference_.port + "', its " + kind_name(connection_.type) +
+                                                   reference_.port + "', its " +
+                                                   port_type_name(connection_.type) +
                                                    " ports are: " + (known.empty() ? "none" : known));
     }
 
@@ -50,21 +49,35 @@ class End {
     ComponentHost& host_;
 };
 
+/// The source decides whether the types match. A bridge's port may know a better reason than the two names.
 template <class Source, class Target>
 void check_types(const ConnectionProfile& connection, Source& source, Target& target) {
     if (source.checkType(&target)) return;
     std::string text = "type mismatch: output " + connection.source.text() + " is " + type_name(source) +
                        ", input " + connection.target.text() + " is " + type_name(target);
-    for (const std::string& more : {source.typeError(), target.typeError()})
-        if (!more.empty()) text += "; " + more;
+    for (const std::string& reason : {source.typeError(), target.typeError()})
+        if (!reason.empty()) text += "; " + reason;
     throw SetupError(connection.location, text);
+}
+
+std::unique_ptr<Connection> connect_services(const ConnectionProfile& connection,
+                                             RequiredServicePort& required, ProvidedServicePort& provided,
+                                             ComponentHost& provider) {
+    try {
+        return std::make_unique<ServiceConnection>(required, provided, provider);
+    } catch (const SetupError&) {
+        throw;
+    } catch (const std::runtime_error& error) {
+        throw SetupError(connection.location, "service " + connection.source.text() + " -> " +
+                                                  connection.target.text() + ": " + error.what());
+    }
 }
 
 } // namespace
 
 std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection, ComponentHost& source,
-                                            ComponentHost& target, WorkerPool& workers) {
-    const End from(connection, connection.source, source), to(connection, connection.target, target);
+                                            ComponentHost& target) {
+    const PortLookup from(connection, connection.source, source), to(connection, connection.target, target);
     if (connection.type == OPROS_DATA) {
         auto& out = from.port<OutputDataPortInterface>("an output");
         auto& in = to.port<InputDataPortInterface>("an input");
@@ -75,18 +88,11 @@ std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection,
         auto& out = from.port<OutputEventPortInterface>("an output");
         auto& in = to.port<InputEventPortInterface>("an input");
         check_types(connection, out, static_cast<EventPort&>(in));
-        return std::make_unique<EventConnection>(out, in, target, workers.of(&target));
+        return std::make_unique<EventConnection>(out, in, target);
     }
     auto& required = from.port<RequiredServicePort>("a required");
     auto& provided = to.port<ProvidedServicePort>("a provided");
-    try {
-        return std::make_unique<ServiceConnection>(required, provided, target, workers);
-    } catch (const SetupError&) {
-        throw;
-    } catch (const std::runtime_error& error) {
-        throw SetupError(connection.location, "service " + connection.source.text() + " -> " +
-                                                  connection.target.text() + ": " + error.what());
-    }
+    return connect_services(connection, required, provided, target);
 }
 
 } // namespace tandem::engine

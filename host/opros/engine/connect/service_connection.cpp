@@ -15,19 +15,20 @@ std::string method_names(ServicePortInterface& port) {
     return names.empty() ? "no methods" : names;
 }
 
-void refuse_if(const std::string& text) {
-    if (!text.empty()) throw std::runtime_error(text);
+/// Dynamic ports answer with the reason for a refusal, or with an empty text.
+void throw_if_refused(const std::string& refusal) {
+    if (!refusal.empty()) throw std::runtime_error(refusal);
 }
 
 } // namespace
 
 ServiceConnection::ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided,
-                                     ComponentHost& provider, WorkerPool& workers, Unconnected)
-    : required_(required), provided_(provided), provider_(provider), workers_(workers) {}
+                                     ComponentHost& provider, Unconnected)
+    : required_(required), provided_(provided), provider_(provider) {}
 
 ServiceConnection::ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided,
-                                     ComponentHost& provider, WorkerPool& workers)
-    : ServiceConnection(required, provided, provider, workers, Unconnected{}) {
+                                     ComponentHost& provider)
+    : ServiceConnection(required, provided, provider, Unconnected{}) {
     connect();
 }
 
@@ -38,7 +39,7 @@ ServiceConnection::~ServiceConnection() {
 
 void ServiceConnection::connect() {
     if (required_.isDynamic()) {
-        refuse_if(required_.bindProvided(&provided_));
+        throw_if_refused(required_.bindProvided(&provided_));
         bound_ = true;
         return;
     }
@@ -56,18 +57,19 @@ void ServiceConnection::connect_method(const std::string& name, Method& method) 
     auto* required = dynamic_cast<RequiredMethodInterface*>(&method);
     if (!required)
         throw std::runtime_error("method " + name + " of the required port is not a required method");
+    // Before it is connected, so that the destructor also undoes a connection that fails half-way.
     connected_.push_back(required);
     if (provided_.isDynamic()) {
-        refuse_if(provided_.bindMethod(&method));
+        throw_if_refused(provided_.bindMethod(&method));
         return connect_through(*required, make_direct_connector(provided_, provider_));
     }
     Method* peer = provided_.getMethod(name);
     if (!peer)
         throw std::runtime_error("the provided port has no method '" + name + "', it has " +
                                  method_names(provided_));
+    // A result would have to be waited for: a non-blocking method that has one is called like the others.
     if (method.getCallType() == METHOD_NONBLOCKING && peer->getReturnType() == "void")
-        return connect_through(*required,
-                               make_queued_connector(provided_, provider_, workers_.of(&provider_)));
+        return connect_through(*required, make_queued_connector(provided_, provider_));
     if (required->Connect(peer) != OPROS_SUCCESS)
         throw std::runtime_error("type mismatch of method " + name + ": required is " + method.signature() +
                                  ", provided is " + peer->signature());

@@ -3,7 +3,6 @@
 
 #include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
-#include "host/opros/engine/execute/worker_pool.hpp"
 
 #include <ProvidedServicePort.h>
 #include <RequiredMethodInterface.h>
@@ -14,20 +13,21 @@
 
 namespace tandem::engine {
 
-/// From a required service port to a provided one: each required method gets the provided one of its name,
-/// called in the caller's thread; a method without result that does not block is called by a worker.
+/// From a required service port to a provided one: each required method is bound to the provided method of its
+/// name. A call runs in the caller's thread, as a function call; a non-blocking method without a result goes
+/// through the provider's task queue. Ports that learn their methods at connection (isDynamic()) are asked first.
 class ServiceConnection : public Connection {
   public:
-    /// Throws std::runtime_error with the reason when the ports do not fit.
-    ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
-                      WorkerPool& workers);
+    /// Throws std::runtime_error with the reason when a method is missing, has another signature, or is refused
+    /// by a dynamic port; methods that were bound before are unbound again.
+    ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider);
     ~ServiceConnection() override;
 
   private:
     struct Unconnected {};
+    /// Delegated to by the other constructor: when the rest of that one throws, the destructor runs.
     ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider,
-                      WorkerPool& workers,
-                      Unconnected); // what has been connected is undone if the rest does not fit
+                      Unconnected);
     void connect();
     void connect_method(const std::string& name, Method& method);
     void connect_through(RequiredMethodInterface& method, std::unique_ptr<ServicePortConnector> connector);
@@ -35,10 +35,9 @@ class ServiceConnection : public Connection {
     RequiredServicePort& required_;
     ProvidedServicePort& provided_;
     ComponentHost& provider_;
-    WorkerPool& workers_;
-    std::vector<RequiredMethodInterface*> connected_;
+    std::vector<RequiredMethodInterface*> connected_; // to be disconnected at the end
     std::vector<std::unique_ptr<ServicePortConnector>> connectors_;
-    bool bound_ = false;
+    bool bound_ = false; // the dynamic required port has accepted the provided one
 };
 
 } // namespace tandem::engine

@@ -6,6 +6,7 @@
 namespace tandem::engine {
 namespace {
 
+/// What the two kinds have in common.
 class Connector : public ServicePortConnector {
   public:
     Connector(ProvidedServicePort& provided, ComponentHost& provider)
@@ -34,25 +35,23 @@ class DirectConnector : public Connector {
 
 class QueuedConnector : public Connector {
   public:
-    QueuedConnector(ProvidedServicePort& provided, ComponentHost& provider, Worker& worker)
-        : Connector(provided, provider), worker_(worker) {}
+    QueuedConnector(ProvidedServicePort& provided, ComponentHost& provider) : Connector(provided, provider) {
+        provider.task_queue()->start();
+    }
 
     ReturnType requestService(const std::string& name, std::vector<opros_params>& params, opros_params&,
                               int) override {
-        const bool taken = worker_.submit([this, method = name, params]() mutable {
+        const bool accepted = provider_.task_queue()->submit([this, method = name, params]() mutable {
             if (!provider_.is_active()) return;
             provider_.run_guarded(method.c_str(), [&] {
                 opros_params none;
                 provided_.callService(method, params, none);
             });
         });
-        if (taken) return OPROS_SUCCESS;
+        if (accepted) return OPROS_SUCCESS;
         throw MethodInvokeException("call of " + provider_.name() + "'s " + name +
                                     ": too many calls are waiting");
     }
-
-  private:
-    Worker& worker_;
 };
 
 } // namespace
@@ -63,8 +62,8 @@ std::unique_ptr<ServicePortConnector> make_direct_connector(ProvidedServicePort&
 }
 
 std::unique_ptr<ServicePortConnector> make_queued_connector(ProvidedServicePort& provided,
-                                                            ComponentHost& provider, Worker& worker) {
-    return std::make_unique<QueuedConnector>(provided, provider, worker);
+                                                            ComponentHost& provider) {
+    return std::make_unique<QueuedConnector>(provided, provider);
 }
 
 } // namespace tandem::engine

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "host/opros/engine/execute/component_host.hpp"
-#include "host/opros/engine/execute/worker.hpp"
 
 #include <ProvidedServicePort.h>
 #include <ServicePortConnector.h>
@@ -11,13 +10,18 @@
 
 namespace tandem::engine {
 
-/// Calls by name and values in the caller's thread. Whatever is not OPROS_SUCCESS becomes a
-/// MethodInvokeException.
+/// Both functions make what a required method calls when it is not bound to a provided method directly. The port
+/// and the provider must outlive the result.
+
+/// Calls the provided port by the method's name, in the caller's thread. Throws MethodInvokeException, from
+/// requestService(), when the port returns anything but OPROS_SUCCESS.
 std::unique_ptr<ServicePortConnector> make_direct_connector(ProvidedServicePort& provided,
                                                             ComponentHost& provider);
 
-/// Hands the call to a worker and returns; it is made if the provider is ACTIVE by then.
+/// Hands each call to the provider's task queue, which it starts, and returns. The call is made if the provider
+/// is ACTIVE when its turn comes; a result is dropped. Throws MethodInvokeException, from requestService(), when
+/// the queue is full.
 std::unique_ptr<ServicePortConnector> make_queued_connector(ProvidedServicePort& provided,
-                                                            ComponentHost& provider, Worker& worker);
+                                                            ComponentHost& provider);
 
 } // namespace tandem::engine

@@ -13,86 +13,89 @@
 namespace tandem::engine {
 namespace {
 
-// The common ones are decimal, those of device components hexadecimal in their definitions.
+/// As ReturnType.h writes it: the common codes are decimal, those of device components hexadecimal.
 std::string code_text(ReturnType code) {
     return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
 }
 
-/// Says for the time of its life what the component is busy with.
+/// Publishes the name of a callback while it runs, for the message about one that does not return. Callbacks
+/// nest (a service call out of onExecute), so that the end of one restores the name of the outer one.
 class CallbackScope {
   public:
-    CallbackScope(std::atomic<const char*>& place, const char* what)
-        : place_(place), before_(place.exchange(what)) {}
-    ~CallbackScope() { place_ = before_; }
+    CallbackScope(std::atomic<const char*>& current, const char* name)
+        : current_(current), outer_(current.exchange(name)) {}
+    ~CallbackScope() { current_ = outer_; }
     CallbackScope(const CallbackScope&) = delete;
     CallbackScope& operator=(const CallbackScope&) = delete;
 
   private:
-    std::atomic<const char*>& place_;
-    const char* before_;
+    std::atomic<const char*>& current_;
+    const char* outer_;
 };
 
 } // namespace
 
 ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
-                             const std::vector<std::filesystem::path>& dirs,
-                             const std::optional<plugin::ProbeOptions>& probe)
-    : name_(entry.name), profile_(std::move(profile)) {
-    auto loaded = load_component(profile_, dirs, probe);
+                             const ComponentHostOptions& options)
+    : name_(entry.name), profile_(std::move(profile)),
+      task_queue_(std::make_shared<TaskQueue>(options.task_queue_capacity, options.task_mode)) {
+    auto loaded = load_component(profile_, options.plugin_dirs, options.probe);
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
     component_->setId(name_);
-    set_component_properties(*component_, profile_, entry.properties, dirs);
+    set_component_properties(*component_, profile_, entry.properties, options.plugin_dirs);
 }
 
-std::string ComponentHost::enter_error(const char* what, const std::string& why) {
-    const std::string text = "component " + name_ + ": " + what + " threw an exception: " + why;
-    spdlog::error("{}; it goes to ERROR, the others go on", text);
-    error_reported_ = true;
+std::string ComponentHost::enter_error(const char* callback, const std::string& why) {
+    const std::string text = "component " + name_ + ": " + callback + " threw an exception: " + why;
+    spdlog::error("{}; it goes to ERROR, the other components continue", text);
+    error_logged_ = true;
     try {
         component_->stopOnError();
     } catch (const std::exception& error) {
-        spdlog::error("component {}: onError threw an exception, too: {}", name_, error.what());
-    } catch (...) {
-        spdlog::error("component {}: onError threw an exception of unknown type, too", name_);
+        spdlog::error("component {}: onError threw an exception as well: {}", name_, error.what());
+    } catch (...) { // a user's code, which may throw any type
+        spdlog::error("component {}: onError threw an exception of unknown type as well", name_);
     }
     return text;
 }
 
-std::string ComponentHost::run_guarded(const char* what, const std::function<void()>& code) {
-    const CallbackScope busy(current_callback_, what);
+std::string ComponentHost::run_guarded(const char* callback, const std::function<void()>& code) {
+    const CallbackScope scope(current_callback_, callback);
     try {
         code();
         return "";
     } catch (const MethodInvokeException& error) {
-        // A service that fails now may work in the next cycle: the real engine, too, leaves the component
-        // ACTIVE.
+        // A service that fails now may work in the next cycle: the component stays ACTIVE, as with the
+        // original engine.
         if (failed_calls_.should_log())
-            spdlog::warn("component {}: {}: {} ({} so far)", name_, what, error.what(),
+            spdlog::warn("component {}: {}: {} ({} so far)", name_, callback, error.what(),
                          failed_calls_.count());
         return "";
     } catch (const std::exception& error) {
-        return enter_error(what, error.what());
+        return enter_error(callback, error.what());
     } catch (...) {
-        return enter_error(what, "of unknown type");
+        return enter_error(callback, "of unknown type");
     }
 }
 
-bool ComponentHost::run_transition(const char* what, ReturnType (LifecycleInterface::*step)()) {
+bool ComponentHost::run_transition(const char* name, ReturnType (LifecycleInterface::*transition)()) {
     ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
-    dlerror(); // device components ask it after their dlsym(), and would take what others have left there for
-               // theirs
+    // Device components call dlerror() after dlsym() without clearing it first, and would take an error that
+    // somebody else has left in this thread for their own.
+    dlerror();
     std::string why;
-    const std::string thrown = run_guarded(what, [&] {
+    const std::string thrown = run_guarded(name, [&] {
         try {
-            result = (component_.get()->*step)();
+            result = (component_.get()->*transition)();
             why = "its callback returned code " + code_text(component_->getErrorInfo());
         } catch (const MethodInvokeException& error) {
+            // In a transition, unlike in a cycle, there is no next time: it counts as a failed callback.
             why = std::string("its callback made a call that failed: ") + error.what();
         }
     });
     if (thrown.empty() && result == OPROS_SUCCESS) return true;
-    if (thrown.empty()) spdlog::error("component {}: {} failed, {}", name_, what, why);
+    if (thrown.empty()) spdlog::error("component {}: {} failed, {}", name_, name, why);
     return false;
 }
 
@@ -109,11 +112,12 @@ void ComponentHost::start() {
 }
 
 void ComponentHost::mark_failed() {
-    failed_ = error_reported_ = true;
+    failed_ = error_logged_ = true;
     run_transition("fail", &LifecycleInterface::fail);
 }
 
-// What the code has chosen counts, and a profile often lists ports that the code does not have.
+// Only ports that the code has added, since profiles list others as well. setQueue() leaves a queue alone that
+// the code has chosen.
 void ComponentHost::configure_input_ports() {
     for (const std::string& name : component_->getPortNames(OPROS_DATA)) {
         auto* input = dynamic_cast<InputDataPortInterface*>(component_->getPort(name));
@@ -146,37 +150,42 @@ void ComponentHost::destroy() {
 }
 
 void ComponentHost::destroy_instance() {
-    const CallbackScope busy(current_callback_, "its destructor");
+    const CallbackScope scope(current_callback_, "its destructor");
     component_.reset();
 }
 
 void ComponentHost::unload_library() {
-    const CallbackScope busy(current_callback_, "its static destructors");
+    const CallbackScope scope(current_callback_, "its static destructors");
     library_.reset();
 }
 
-// Real components return errors for passing conditions such as no input, and the real engine takes no notice:
-// so it is said once, and the component stays ACTIVE.
-void ComponentHost::log_return_code(const char* what, ReturnType code, ReturnType& last) {
+// Real components return error codes for passing conditions such as "no input", and the original engine ignores
+// them: a code is logged when it differs from the one of the cycle before, and the component stays ACTIVE.
+void ComponentHost::log_return_code(const char* callback, ReturnType code, ReturnType& last) {
     if (code != last && code != OPROS_SUCCESS && code != OPROS_SUCCESS_SYNC &&
         code != OPROS_UNSUPPORTED_METHOD)
-        spdlog::warn("component {}: {} returns code {}", name_, what, code_text(code));
+        spdlog::warn("component {}: {} returns code {}", name_, callback, code_text(code));
     last = code;
 }
 
+// A component may call stopOnError() itself; errors that the engine has caused are logged where they happen.
 void ComponentHost::log_own_error() {
-    const bool broken = component_->getStatus() == OPROS_CS_ERROR;
-    if (broken && !error_reported_) spdlog::error("component {} has gone to ERROR by itself", name_);
-    error_reported_ = broken;
+    const bool in_error = component_->getStatus() == OPROS_CS_ERROR;
+    if (in_error && !error_logged_) spdlog::error("component {} has gone to ERROR by itself", name_);
+    error_logged_ = in_error;
 }
 
-std::string ComponentHost::execute(bool warm_up) {
+std::string ComponentHost::execute() { return execute(Pass::real); }
+void ComponentHost::warm_up() { execute(Pass::warm_up); }
+
+// One function for both, since a copy of it for the warm-up would warm up the copy.
+std::string ComponentHost::execute(Pass pass) {
     if (!is_active()) {
-        if (!warm_up) log_own_error();
+        if (pass == Pass::real) log_own_error();
         return "";
     }
-    return run_guarded("onExecute", [this, warm_up] {
-        if (warm_up) return rt::prefetch(*component_);
+    return run_guarded("onExecute", [this, pass] {
+        if (pass == Pass::warm_up) return rt::prefetch(*component_);
         log_return_code("onExecute", component_->onExecute(), last_execute_);
     });
 }
@@ -188,7 +197,8 @@ std::string ComponentHost::update() {
 }
 
 void ComponentHost::add_dependency(ComponentHost& target) {
-    const std::uint64_t bit = dependency_mask_ + 1; // the lowest bit not yet in use
+    // The mask is always 2^n - 1: one more is the next free bit, and overflows to 0 after 64 of them.
+    const std::uint64_t bit = dependency_mask_ + 1;
     if (bit == 0)
         throw SetupError(profile_.location, "component '" + name_ + "' depends on more than 64 others");
     dependency_mask_ |= bit;
@@ -204,8 +214,8 @@ void ComponentHost::notify_dependents() {
 
 bool ComponentHost::consume_dependency_cycles() {
     if (dependency_mask_ == 0) return true;
-    std::uint64_t all = dependency_mask_;
-    return completed_dependencies_.compare_exchange_strong(all, 0, std::memory_order_acq_rel);
+    std::uint64_t all_completed = dependency_mask_;
+    return completed_dependencies_.compare_exchange_strong(all_completed, 0, std::memory_order_acq_rel);
 }
 
 } // namespace tandem::engine

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One component of the application: its library, its instance and its profile. Whatever the component throws
-// ends here.
 #pragma once
 
 #include "host/opros/engine/execute/input_signal.hpp"
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/execute/task_queue.hpp"
+#include "host/opros/engine/profile/application_profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/probe.hpp"
 #include "host/process/log_throttle.hpp"
@@ -22,75 +21,105 @@
 
 namespace tandem::engine {
 
+struct ComponentHostOptions {
+    std::vector<std::filesystem::path> plugin_dirs; ///< where the component's and device libraries may be
+    std::optional<plugin::ProbeOptions> probe;      ///< the library is tried in a child process first
+    std::size_t task_queue_capacity = 1024;
+    TaskQueue::Mode task_mode = TaskQueue::Mode::own_thread;
+};
+
+/// One component of the application: its profile, library and instance, and what the engine needs to run it. All
+/// code of the component is called through this class, which catches whatever it throws: an exception puts this
+/// component in ERROR and goes no further. [main-thread] where nothing else is said.
 class ComponentHost {
   public:
-    /// Loads the library and makes the instance. Throws SetupError.
-    ComponentHost(const Subcomponent& entry, ComponentProfile profile,
-                  const std::vector<std::filesystem::path>& dirs,
-                  const std::optional<plugin::ProbeOptions>& probe = std::nullopt);
+    /// Loads the library, creates the instance and sets its properties. Throws SetupError.
+    ComponentHost(const Subcomponent& entry, ComponentProfile profile, const ComponentHostOptions& options);
 
     const std::string& name() const { return name_; }
     const ComponentProfile& profile() const { return profile_; }
     Component& component() { return *component_; }
     const std::shared_ptr<plugin::Library>& library() const { return library_; }
+    /// [any-thread] Whether the component is in the state in which it is executed.
     bool is_active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
-    /// Initialisation or start has failed: the component takes no part.
+    /// [any-thread] Whether its initialization or start has failed: it is not connected and not executed.
     bool has_failed() const { return failed_; }
 
-    /// Life-cycle steps. A failure is logged in one line and the component goes to ERROR; the others go on.
+    /// Transitions of the life cycle. A callback that fails or throws is logged in one line and the component
+    /// goes to ERROR. stop() and destroy() do nothing in a state that has nothing to stop or destroy.
     void initialize();
     void start();
     void stop();
     void destroy();
-    /// Ends the instance; then lets go of the library. Nothing of the component may be used any more.
+    /// Deletes the instance: nothing of the component may be called any more, but its library stays.
     void destroy_instance();
+    /// Ends this object's use of the library, which is unloaded with the last user.
     void unload_library();
 
-    /// [executor] The two passes of a cycle; nothing happens unless the component is ACTIVE. An exception
-    /// puts it in ERROR and comes back as text, empty otherwise.
-    /// A warm_up (rt::TickOptions) goes the same way, but calls nothing of the component.
-    std::string execute(bool warm_up = false);
+    /// [executor] The two passes of a cycle, onExecute and onUpdated; nothing is called unless the component is
+    /// ACTIVE. Returns the text of an exception, which has put it in ERROR; empty otherwise.
+    std::string execute();
     std::string update();
+    /// [executor] Takes the path of execute(), to bring its code and data into the caches, without calling the
+    /// component (rt::TickOptions).
+    void warm_up();
 
-    /// Runs the component's own code from any thread of the engine, under the same rule.
-    std::string run_guarded(const char* what, const std::function<void()>& code);
+    /// [any-thread] Runs code that calls the component, under the rule above. `callback` is its name, for
+    /// messages and current_callback(); it must live as long as the call.
+    std::string run_guarded(const char* callback, const std::function<void()>& code);
 
-    /// The call-back that the component is in, of a thread that has come in last; NULL when it is in none.
+    /// [any-thread] The callback that the component is in, NULL when it is in none. Of several threads, the one
+    /// that entered last counts.
     const char* current_callback() const { return current_callback_; }
 
-    /// [executor] What has come for the component. Ports count from the time of initialize().
+    /// Events and non-blocking calls for the component.
+    const std::shared_ptr<TaskQueue>& task_queue() const { return task_queue_; }
+
+    /// Set when an input has arrived. Data ports count from initialize() on.
     InputSignal& input_signal() { return input_signal_; }
+    /// [executor] The values in all input ports' queues together; polls their sources.
     std::size_t queued_value_count() const;
+    /// [executor] Whether an input port has a source that must be polled.
     bool has_sources() const;
 
-    /// Cycles of these components must come before each of ours: notify_dependents() is theirs, consume_dependency_cycles() ours.
-    /// Throws SetupError when there are more than 64.
+    /// From now on each cycle of this component needs a cycle of `target` before it. Throws SetupError when it
+    /// depends on more than 64 components.
     void add_dependency(ComponentHost& target);
+    /// [executor of this component] Tells the components that depend on this one that a cycle is over.
     void notify_dependents();
+    /// [executor of this component] Whether each component it depends on has had a cycle since the last time
+    /// this returned true. Always true without dependencies.
     bool consume_dependency_cycles();
 
   private:
-    bool run_transition(const char* what, ReturnType (LifecycleInterface::*step)());
-    std::string enter_error(const char* what, const std::string& why);
-    void log_return_code(const char* what, ReturnType code, ReturnType& last);
-    void log_own_error();
-    void configure_input_ports();
+    bool run_transition(const char* name, ReturnType (LifecycleInterface::*transition)());
+    std::string enter_error(const char* callback, const std::string& why);
     void mark_failed();
+    void configure_input_ports();
+    void log_return_code(const char* callback, ReturnType code, ReturnType& last);
+    void log_own_error();
+
+    enum class Pass { real, warm_up };
+    std::string execute(Pass pass);
 
     std::string name_;
     ComponentProfile profile_;
+    // Declared before the instance, and so destroyed after it: its code is in the library.
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
     InputSignal input_signal_;
+    std::shared_ptr<TaskQueue> task_queue_;
     std::vector<InputDataPortInterface*> input_ports_;
     std::atomic<const char*> current_callback_{nullptr};
     std::atomic<bool> failed_{false};
     bool initialized_ = false;
-    bool error_reported_ = false;
+    bool error_logged_ = false;
     process::LogThrottle failed_calls_;
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
+    // One bit for each component that this one depends on: those needed, and those that have had a cycle.
     std::uint64_t dependency_mask_ = 0;
     std::atomic<std::uint64_t> completed_dependencies_{0};
+    /// The components that depend on this one, each with this one's bit in its masks.
     std::vector<std::pair<ComponentHost*, std::uint64_t>> dependents_;
 };
 

@@ -9,13 +9,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-double ms(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) / 1e6; }
+double to_ms(std::chrono::nanoseconds time) { return static_cast<double>(time.count()) / 1e6; }
 
+/// At each tick of the period's grid, which periodic_tick.hpp keeps.
 class PeriodicTrigger : public CycleTrigger {
   public:
-    PeriodicTrigger(const ComponentProfile& profile, std::chrono::nanoseconds spin,
+    PeriodicTrigger(const ComponentProfile& profile, std::chrono::nanoseconds tick_spin,
                     std::function<void()> warm_up)
-        : period_(profile.period), tick_({profile.period, profile.phase, true, spin, std::move(warm_up)}) {}
+        : period_(profile.period),
+          tick_({profile.period, profile.phase, true, tick_spin, std::move(warm_up)}) {}
     bool wait() override {
         tick_.wait();
         return !tick_.interrupted();
@@ -24,7 +26,7 @@ class PeriodicTrigger : public CycleTrigger {
     std::string stats() const override {
         const rt::TickStats stats = tick_.stats();
         return fmt::format("every {} ms, {} ticks, {} overruns, {} periods skipped, at most {:.1f} us late",
-                           ms(period_), stats.ticks, stats.overruns, stats.skipped,
+                           to_ms(period_), stats.ticks, stats.overruns, stats.skipped,
                            static_cast<double>(stats.lateness_ns_max) / 1e3);
     }
 
@@ -33,28 +35,31 @@ class PeriodicTrigger : public CycleTrigger {
     rt::PeriodicTick tick_;
 };
 
+/// What the triggers without a period have in common: they count cycles.
 class CountingTrigger : public CycleTrigger {
   public:
     bool wait() override {
-        if (stopping_ || !wait_for_next()) return false;
+        if (interrupted_ || !wait_for_next()) return false;
         cycles_.fetch_add(1, std::memory_order_relaxed);
         return true;
     }
-    void interrupt() override { stopping_ = true; }
+    void interrupt() override { interrupted_ = true; }
     std::string stats() const override {
         return fmt::format("{} cycles", cycles_.load(std::memory_order_relaxed));
     }
 
   protected:
+    /// False when interrupted.
     virtual bool wait_for_next() = 0;
-    std::atomic<bool> stopping_{false};
+    std::atomic<bool> interrupted_{false};
 
   private:
     std::atomic<std::uint64_t> cycles_{0};
 };
 
-/// Once at the beginning, then whenever an input has arrived. A component that takes one value per cycle gets
-/// a cycle for each that waits; one that takes none is not asked again before the next arrival.
+/// Once after the start, then whenever an input has arrived. A component that takes one value per cycle gets
+/// further cycles as long as values are left; one that takes none is not executed again before the next
+/// arrival, so that an unread port does not become a busy loop.
 class InputTrigger : public CountingTrigger {
   public:
     explicit InputTrigger(ComponentHost& component) : component_(component) {}
@@ -66,25 +71,26 @@ class InputTrigger : public CountingTrigger {
 
   protected:
     bool wait_for_next() override {
-        const std::size_t left = component_.queued_value_count();
-        bool turn = is_first_cycle_ || (left != 0 && left < queued_at_last_cycle_);
-        while (!turn && !stopping_) {
-            // A source tells nobody that it has something: it is asked.
+        const std::size_t queued = component_.queued_value_count();
+        bool due = is_first_cycle_ || (queued != 0 && queued < queued_at_last_cycle_);
+        while (!due && !interrupted_) {
+            // A source outside the component (DataPortSource) does not notify: it has to be polled.
             const bool has_sources = component_.has_sources();
-            turn = component_.input_signal().wait_for(has_sources ? 1ms : 1s) ||
-                   (has_sources && component_.queued_value_count() > left);
+            due = component_.input_signal().wait_for(has_sources ? 1ms : 1s) ||
+                  (has_sources && component_.queued_value_count() > queued);
         }
         is_first_cycle_ = false;
         queued_at_last_cycle_ = component_.queued_value_count();
-        return !stopping_;
+        return !interrupted_;
     }
 
   private:
     ComponentHost& component_;
     bool is_first_cycle_ = true;
-    std::size_t queued_at_last_cycle_ = 0;
+    std::size_t queued_at_last_cycle_ = 0; // when it began
 };
 
+/// One cycle after the other.
 class LoopTrigger : public CountingTrigger {
   public:
     explicit LoopTrigger(ComponentHost& component) : component_(component) {}
@@ -92,6 +98,7 @@ class LoopTrigger : public CountingTrigger {
 
   protected:
     bool wait_for_next() override {
+        // A component that is stopped or in ERROR has nothing to do in its cycle: do not spin on it.
         if (!component_.is_active()) std::this_thread::sleep_for(1ms);
         return true;
     }
@@ -102,7 +109,7 @@ class LoopTrigger : public CountingTrigger {
 
 } // namespace
 
-std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::chrono::nanoseconds spin,
+std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::chrono::nanoseconds tick_spin,
                                                  std::function<void()> warm_up) {
     switch (component.profile().execution_type) {
     case ExecutionType::aperiodic:
@@ -110,7 +117,7 @@ std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::
     case ExecutionType::aperiodic_loop:
         return std::make_unique<LoopTrigger>(component);
     default:
-        return std::make_unique<PeriodicTrigger>(component.profile(), spin, std::move(warm_up));
+        return std::make_unique<PeriodicTrigger>(component.profile(), tick_spin, std::move(warm_up));
     }
 }
 

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// When an executor gives its components a cycle.
 #pragma once
 
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/rt/periodic_tick.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 
 namespace tandem::engine {
 
+/// Decides when an executor runs the next cycle of its components: one implementation for each ExecutionType
+/// that is executed at all.
 class CycleTrigger {
   public:
     virtual ~CycleTrigger() = default;
-    /// [executor] Waits for the time of the next cycle; false: there is none any more.
+    /// [executor] Waits until the next cycle is due: true. False after interrupt().
     virtual bool wait() = 0;
-    /// [any-thread] Makes wait() return false, soon.
+    /// [any-thread] Makes the wait under way, and all later ones, return false: within 100 ms for a periodic
+    /// trigger, at once for the others.
     virtual void interrupt() = 0;
-    /// [any-thread] What has been counted, in words.
+    /// [any-thread] The trigger's kind and what it has counted, in words.
     virtual std::string stats() const = 0;
 };
 
-/// The pace that the component's profile asks for: at its period, when an input arrives, or without a pause.
-/// A periodic one polls for `spin` before its ticks, and calls `warm_up` (rt::TickOptions) before that.
-std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::chrono::nanoseconds spin,
+/// The trigger that the profile of `component` asks for. A periodic one polls the clock for the last `tick_spin`
+/// before each tick, and calls `warm_up` before that (see rt::TickOptions). `component` must outlive it.
+std::unique_ptr<CycleTrigger> make_cycle_trigger(ComponentHost& component, std::chrono::nanoseconds tick_spin,
                                                  std::function<void()> warm_up);
 
 } // namespace tandem::engine

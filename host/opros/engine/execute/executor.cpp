@@ -10,24 +10,9 @@
 
 namespace tandem::engine {
 
-std::string run_cycle(const std::vector<ComponentHost*>& components) {
-    std::string first;
-    for (ComponentHost* component : components) {
-        const bool active = component->is_active();
-        if (active && !component->consume_dependency_cycles()) continue;
-        if (std::string text = component->execute(); !text.empty() && first.empty()) first = std::move(text);
-        if (active) component->notify_dependents();
-    }
-    for (ComponentHost* component : components)
-        if (std::string text = component->update(); !text.empty() && first.empty()) first = std::move(text);
-    return first;
-}
-
 Executor::Executor(std::vector<ComponentHost*> components, const ExecutorOptions& options)
     : components_(std::move(components)), options_(options),
-      trigger_(make_cycle_trigger(*components_.front(), options.tick_spin, [this] {
-          for (ComponentHost* component : components_) component->execute(true);
-      })) {}
+      trigger_(make_cycle_trigger(*components_.front(), options.tick_spin, [this] { warm_up(); })) {}
 
 Executor::~Executor() {
     trigger_->interrupt();
@@ -41,9 +26,9 @@ void Executor::start() {
     thread_ = std::thread(std::move(task));
 }
 
-bool Executor::stop_within(std::chrono::nanoseconds grace) {
+bool Executor::stop_within(std::chrono::nanoseconds timeout) {
     trigger_->interrupt();
-    return !end_.valid() || end_.wait_for(grace) == std::future_status::ready;
+    return !end_.valid() || end_.wait_for(timeout) == std::future_status::ready;
 }
 
 bool Executor::runs(const ComponentHost& component) const {
@@ -60,19 +45,36 @@ std::string Executor::stats() const {
 void Executor::run() {
     const ComponentProfile& profile = components_.front()->profile();
     rt::ThreadOptions options{components_.front()->name(), 0, options_.cpu, false};
-    // A loop without pauses at a real-time priority would take a processor from everybody else.
+    // Never for a loop without pauses: at a real-time priority it would keep everybody else off its processor.
     if (profile.scheduling_policy != SchedulingPolicy::other &&
         profile.execution_type != ExecutionType::aperiodic_loop) {
         options.fifo_priority = profile.priority;
         options.round_robin = profile.scheduling_policy == SchedulingPolicy::round_robin;
     }
     for (const std::string& notice : rt::configure_this_thread(options)) spdlog::info("{}", notice);
-    while (trigger_->wait()) run_cycle(components_);
+    while (trigger_->wait()) run_cycle();
+}
+
+// onExecute of all comes before onUpdated of the first: what one component has computed from its inputs is
+// published when all have read theirs. An exception is logged by the ComponentHost and ends nobody else's cycle.
+void Executor::run_cycle() {
+    for (ComponentHost* component : components_) {
+        const bool active = component->is_active();
+        if (active && !component->consume_dependency_cycles()) continue;
+        component->execute();
+        if (active) component->notify_dependents();
+    }
+    for (ComponentHost* component : components_) component->update();
+}
+
+void Executor::warm_up() {
+    for (ComponentHost* component : components_) component->warm_up();
 }
 
 std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<ComponentHost*>& components,
                                                       const ExecutorOptions& options) {
     std::vector<std::vector<ComponentHost*>> groups;
+    // The index in `groups` of the periodic-shared components with this period, phase, policy and priority.
     std::map<std::tuple<std::int64_t, std::int64_t, SchedulingPolicy, int>, std::size_t> shared;
     for (ComponentHost* component : components) {
         const ComponentProfile& profile = component->profile();

@@ -4,8 +4,10 @@
 namespace tandem::engine {
 
 void InputSignal::arrived() {
-    if (pending_.exchange(true)) return; // whoever set it wakes the executor
-    { const std::lock_guard<std::mutex> between_look_and_sleep(mutex_); }
+    if (pending_.exchange(true)) return; // whoever has set it before wakes the executor
+    // The empty critical section orders this behind a waiter that has found pending_ false but does not sleep
+    // yet: without it the notification could come in between and be lost.
+    { const std::lock_guard<std::mutex> lock(mutex_); }
     wake_.notify_one();
 }
 

@@ -10,17 +10,18 @@
 
 namespace tandem::engine {
 
-/// That something has come for a component: what an aperiodic executor waits for.
+/// Wakes the executor of an aperiodic component when an input has arrived: a value, an event, or a cycle of a
+/// component it depends on. Any number of arrivals between two waits count as one.
 class InputSignal : public DataPortListener {
   public:
-    /// [any-thread]
+    /// [any-thread] Sets the signal. Called for every pushed value: costs one atomic exchange while it is set.
     void arrived() override;
-    /// True as soon as something has come since the last call; false when the time is over.
+    /// [executor] Waits for the signal and clears it: true. False when it was not set within `timeout`.
     bool wait_for(std::chrono::nanoseconds timeout);
 
   private:
     std::atomic<bool> pending_{false};
-    std::mutex mutex_;
+    std::mutex mutex_; // for the wait only; pending_ is changed without it
     std::condition_variable wake_;
 };
 

@@ -17,38 +17,40 @@
 namespace tandem::engine {
 namespace {
 
-/// Throws plugin::Error unless the library is of that kind and built against our headers.
-void require_ours(const std::filesystem::path& library, plugin::LibraryKind kind) {
+/// Throws plugin::Error unless the library is of that kind and built against headers with our ABI number.
+void require_library(const std::filesystem::path& library, plugin::LibraryKind kind) {
     const auto contents = plugin::read_contents(library);
     plugin::require_kind(library, contents, kind);
     plugin::require_abi(library, contents, plugin::ComponentModel::opros, TANDEM_OPROS_ABI);
 }
 
-// The last field of a version is of no consequence.
-std::string significant(const std::string& version) { return version.substr(0, version.rfind('-')); }
+/// "BRILL-1-0-0-0" -> "BRILL-1-0-0": the last field of an OPRoS version does not count.
+std::string without_last_field(const std::string& version) { return version.substr(0, version.rfind('-')); }
 
+/// Another version is a warning only: the ABI number, not the version, says whether the library fits.
 void check_version(plugin::Library& library) {
     if (!library.has("getVersion")) return; // components of OPRoS v1 have none
     const std::string version = library.symbol<const char*()>("getVersion")();
-    if (significant(version) != significant(get_opros_version()))
+    if (without_last_field(version) != without_last_field(get_opros_version()))
         spdlog::warn("library {} was made for OPRoS {}, this host is {}", library.path().string(), version,
                      get_opros_version());
 }
 
-Component* make(plugin::Library& library) {
+Component* call_factory(plugin::Library& library) {
     const auto factory = library.symbol<Component*()>("getComponent");
     std::string why = "returned NULL";
     try {
         if (Component* made = factory()) return made;
     } catch (const std::exception& error) {
         why = std::string("threw an exception: ") + error.what();
-    } catch (...) {
+    } catch (...) { // the factory is a user's code and may throw any type
         why = "threw an exception of unknown type";
     }
     throw SetupError("getComponent() of " + library.path().string() + " " + why);
 }
 
-bool names_device_library(std::string property) {
+/// By the end of its name, in either case: ApiName, DllName, and prefixed forms such as LaserApiName.
+bool is_device_library_property(std::string property) {
     std::transform(property.begin(), property.end(), property.begin(),
                    [](unsigned char c) { return std::tolower(c); });
     const auto ends_with = [&](const std::string& end) {
@@ -59,34 +61,40 @@ bool names_device_library(std::string property) {
 }
 
 std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
-                                               const std::vector<std::filesystem::path>& dirs) {
-    std::vector<std::filesystem::path> search{profile.location.file.parent_path()};
-    search.insert(search.end(), dirs.begin(), dirs.end());
-    return search;
+                                               const std::vector<std::filesystem::path>& plugin_dirs) {
+    std::vector<std::filesystem::path> dirs{profile.location.file.parent_path()};
+    dirs.insert(dirs.end(), plugin_dirs.begin(), plugin_dirs.end());
+    return dirs;
 }
 
-std::string find_device_library(const ComponentProfile& profile, const std::string& property,
-                                const std::string& value, const std::vector<std::filesystem::path>& dirs) {
-    if (value.empty() || !names_device_library(property)) return value;
-    std::string found = value;
+/// The value to set for a property: the path of the device library if it names one that is there. Components
+/// open it themselves, with dlopen(), which does not know our folders.
+std::string resolve_device_library(const ComponentProfile& profile, const std::string& property,
+                                   const std::string& value,
+                                   const std::vector<std::filesystem::path>& plugin_dirs) {
+    if (value.empty() || !is_device_library_property(property)) return value;
+    std::string path;
     try {
-        found = std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, dirs))).string();
+        path = std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, plugin_dirs)))
+                   .string();
     } catch (const plugin::Error& error) {
-        spdlog::info("{} {}: left to the component to find: {}", property, value, error.what());
+        spdlog::info("{} {}: the component gets the name unchanged: {}", property, value, error.what());
         return value;
     }
-    try { // all that the component could say is that it has no device
-        require_ours(found, plugin::LibraryKind::device_api);
+    try {
+        require_library(path, plugin::LibraryKind::device_api);
     } catch (const plugin::Error& error) {
-        if (error.reason() == plugin::Reason::abi_mismatch) // the component could not tell, and call it
+        // A component notices a library without GetAPI, but calls one with other virtual tables, and crashes.
+        if (error.reason() == plugin::Reason::abi_mismatch)
             throw SetupError(profile.location, property + " " + value + ": " + error.what());
         spdlog::warn("{} {}: {}", property, value, error.what());
     }
-    return found;
+    return path;
 }
 
-// Components of OPRoS v1 ask for APIName, and open DllName on Linux.
-void give_device_library_all_names(std::map<std::string, std::string>& properties) {
+/// Components of OPRoS v1 test whether APIName is set and open what DllName says: each of the three names gets
+/// the value that one of them has.
+void copy_device_library_to_aliases(std::map<std::string, std::string>& properties) {
     const char* const names[] = {"APIName", "ApiName", "DllName"};
     std::string library;
     for (const char* name : names)
@@ -98,42 +106,44 @@ void give_device_library_all_names(std::map<std::string, std::string>& propertie
 } // namespace
 
 void require_opros_component(const std::filesystem::path& library) {
-    require_ours(library, plugin::LibraryKind::opros_component);
+    require_library(library, plugin::LibraryKind::opros_component);
 }
 
 LoadedComponent instantiate_component(const std::filesystem::path& file) {
     const auto library = plugin::Library::load(file);
     plugin::require_abi_of_process(plugin::ComponentModel::opros, TANDEM_OPROS_ABI, library->path());
     check_version(*library);
-    void (*release)(Component*) = [](Component* dying) { delete dying; };
+    void (*release)(Component*) = [](Component* component) { delete component; };
     if (library->has("releaseComponent")) release = library->symbol<void(Component*)>("releaseComponent");
-    return {library, plugin::share_instance(library, make(*library), release)};
+    return {library, plugin::share_instance(library, call_factory(*library), release)};
 }
 
 std::filesystem::path find_component_library(const ComponentProfile& profile,
-                                             const std::vector<std::filesystem::path>& dirs) {
+                                             const std::vector<std::filesystem::path>& plugin_dirs) {
     try {
-        return plugin::find_library(profile.library_name, search_dirs(profile, dirs));
+        return plugin::find_library(profile.library_name, search_dirs(profile, plugin_dirs));
     } catch (const plugin::Error& error) {
         throw SetupError(profile.library_location, error.what());
     }
 }
 
-void set_component_properties(Component& component, const ComponentProfile& profile, const Properties& more,
-                              const std::vector<std::filesystem::path>& dirs) {
+void set_component_properties(Component& component, const ComponentProfile& profile,
+                              const Properties& overrides,
+                              const std::vector<std::filesystem::path>& plugin_dirs) {
+    // The empty last element gives the '/' at the end that components rely on when they append a file's name.
     const auto folder = std::filesystem::absolute(profile.location.file).parent_path();
     component.setProperty(folder_property_names[0], (folder / "res" / "").string());
     component.setProperty(folder_property_names[1], (folder / "").string());
-    for (const Properties* properties : {&profile.properties, &more})
+    for (const Properties* properties : {&profile.properties, &overrides})
         for (const auto& [key, value] : *properties)
-            component.setProperty(key, find_device_library(profile, key, value, dirs));
-    give_device_library_all_names(component.getPropertyMap());
+            component.setProperty(key, resolve_device_library(profile, key, value, plugin_dirs));
+    copy_device_library_to_aliases(component.getPropertyMap());
 }
 
 LoadedComponent load_component(const ComponentProfile& profile,
-                               const std::vector<std::filesystem::path>& dirs,
+                               const std::vector<std::filesystem::path>& plugin_dirs,
                                const std::optional<plugin::ProbeOptions>& probe) {
-    const auto file = find_component_library(profile, dirs);
+    const auto file = find_component_library(profile, plugin_dirs);
     try {
         require_opros_component(file);
         if (probe) plugin::run_probe(*probe, load_probe_task, file);

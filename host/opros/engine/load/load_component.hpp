@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+// From a component profile to a component: finds the library, checks and loads it, calls its factory, and sets
+// the component's properties. [main-thread] all of it: libraries run code of their own while they are loaded.
 #pragma once
 
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/profile/component_profile.hpp"
 #include "host/plugin/library.hpp"
 #include "host/plugin/probe.hpp"
 
@@ -14,35 +16,38 @@ namespace tandem::engine {
 
 struct LoadedComponent {
     std::shared_ptr<plugin::Library> library;
-    std::shared_ptr<Component> component; ///< keeps the library loaded, too
+    std::shared_ptr<Component> component; ///< keeps the library loaded, and is released by its own function
 };
 
-/// Throws plugin::Error unless the library is an OPRoS component built against our headers. Its code does not
-/// run.
+/// Reads the library's symbols and notes without loading it. Throws plugin::Error unless it is an OPRoS
+/// component for this processor, built against headers with our ABI number.
 void require_opros_component(const std::filesystem::path& library);
 
-/// Loads the library and makes a component. Throws plugin::Error, or SetupError if getComponent() fails.
+/// Loads the library and creates one component with getComponent(). Throws plugin::Error: the library cannot
+/// be loaded; SetupError: getComponent() has returned NULL or thrown.
 LoadedComponent instantiate_component(const std::filesystem::path& library);
 
-/// The library of the profile: beside it or in one of the folders. Throws SetupError with the place of its
-/// name.
+/// The library that the profile names, beside the profile or in one of the folders, under any of the names that
+/// plugin::library_file_names() lists. Throws SetupError at the line of <library_name>.
 std::filesystem::path find_component_library(const ComponentProfile& profile,
-                                             const std::vector<std::filesystem::path>& dirs);
+                                             const std::vector<std::filesystem::path>& plugin_dirs);
 
-/// Properties that tell a component where it lies: `<profile's folder>/res/` and that folder.
+/// Properties by which a component learns where its profile lies: the folder `res/` beside the profile, which
+/// GetResourcePath() returns, and the profile's own folder.
 constexpr const char* folder_property_names[] = {"_opros_xx_internal_xx_Component_Path",
                                                  "opros.component.dir"};
 
-/// The component's properties: where it lies, those of its profile, and `more`, which override them. A
-/// property that names a device library (APIName, ApiName, DllName and the like) becomes the path of the
-/// file, found as the component's own library is, or stays as it is if there is none.
-void set_component_properties(Component& component, const ComponentProfile& profile, const Properties& more,
-                              const std::vector<std::filesystem::path>& dirs);
+/// Sets the folder properties, those of the profile, and `overrides`, in this order. A property that names a
+/// device library (ApiName, DllName and the like) gets the file's path, if there is one: it is searched for as
+/// the component's own library is. Throws SetupError: the device library was built against other headers.
+void set_component_properties(Component& component, const ComponentProfile& profile,
+                              const Properties& overrides,
+                              const std::vector<std::filesystem::path>& plugin_dirs);
 
-/// Both, the library tried in a child process first if so wished. Throws SetupError with the place of the
-/// library's name.
+/// Finds and checks the library, tries it in a child process if a probe is given, loads it and creates the
+/// component. Throws SetupError at the line of <library_name>, whatever fails.
 LoadedComponent load_component(const ComponentProfile& profile,
-                               const std::vector<std::filesystem::path>& dirs,
+                               const std::vector<std::filesystem::path>& plugin_dirs,
                                const std::optional<plugin::ProbeOptions>& probe);
 
 } // namespace tandem::engine

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/profile/application_profile.hpp"
+
 #include "host/opros/engine/profile/duplicate_connections.hpp"
+#include "host/opros/engine/profile/port_type.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
 
 #include <set>
@@ -7,130 +10,136 @@
 namespace tandem::engine {
 namespace {
 
-PortReference port_reference(const XmlFile& xml, const pugi::xml_node& connection, const char* end) {
-    const pugi::xml_node node = connection.child(end);
-    if (!node) xml.fail(connection, std::string("<port_connection> lacks its <").append(end).append(">"));
-    return {xml.required_attribute(node, "component_name"), xml.required_attribute(node, "port_name")};
-}
+/// A name becomes part of paths and messages: NAME_MAX of Linux bounds the former, and so both.
+constexpr std::size_t max_name_length = 255;
 
-/// An attribute, or a child element of that name.
-std::string named(const pugi::xml_node& node, const char* name) {
+/// Tools write some values as an attribute and others as a child element of the same name.
+std::string attribute_or_child(const pugi::xml_node& node, const char* name) {
     const std::string value = XmlFile::trim(node.attribute(name).value());
     return value.empty() ? XmlFile::child_text(node, name) : value;
 }
 
-/// Empty if there is none.
+/// Empty when the element names one of the port types.
 std::string port_type_error(const pugi::xml_node& node) {
-    const std::string type = named(node, "port_type"), word = XmlFile::keyword(type);
-    if (word == "data" || word == "event" || word == "service") return "";
-    if (word.empty()) return tag(node.name()) + " lacks its attribute port_type";
+    const std::string type = attribute_or_child(node, "port_type");
+    if (parse_port_type(type)) return "";
+    if (type.empty()) return tag(node.name()) + " lacks its attribute port_type";
     return "port_type is '" + type + "', expected data, event or service";
 }
 
-PortType port_type(const XmlFile& xml, const pugi::xml_node& node) {
-    if (const std::string error = port_type_error(node); !error.empty()) xml.fail(node, error);
-    const std::string type = XmlFile::keyword(named(node, "port_type"));
-    if (type == "data") return OPROS_DATA;
-    return type == "event" ? OPROS_EVENT : OPROS_SERVICE;
+PortType port_type(const pugi::xml_node& node) {
+    return parse_port_type(attribute_or_child(node, "port_type")).value_or(OPROS_DATA);
 }
 
-constexpr std::size_t max_name_length = 255;
+/// Reads one application or composite. What makes the list of components useless is thrown; a connection that
+/// is wrong keeps its error and costs nothing else.
+class AssemblyReader {
+  public:
+    AssemblyReader(const XmlFile& xml, const pugi::xml_node& root) : xml_(xml), root_(root) {
+        profile_.location = xml_.location(root_);
+        profile_.name = xml_.required_child_text(root_, "name");
+        read_subcomponents();
+        read_connections();
+        read_dependencies();
+        if (std::string(root_.name()) == "composite_component_profile") read_exports();
+    }
+    ApplicationProfile take_profile() && { return std::move(profile_); }
 
-using Names = std::set<std::string>;
+  private:
+    void read_subcomponents() {
+        for (const pugi::xml_node& node : root_.child("subcomponents").children("subcomponent"))
+            profile_.subcomponents.push_back(read_subcomponent(node));
+        if (profile_.subcomponents.empty())
+            xml_.fail(root_, tag(root_.name()) +
+                                 " lists no <subcomponent> in <subcomponents>, expected at least one");
+    }
 
-Names read_subcomponents(const XmlFile& xml, const pugi::xml_node& root, ApplicationProfile& profile) {
-    Names names;
-    for (const pugi::xml_node& node : root.child("subcomponents").children("subcomponent")) {
-        Subcomponent component{xml.location(node),
-                               xml.required_child_text(node, "name"),
-                               XmlFile::to_posix_path(xml.required_child_text(node, "reference")),
+    Subcomponent read_subcomponent(const pugi::xml_node& node) {
+        Subcomponent component{xml_.location(node),
+                               xml_.required_child_text(node, "name"),
+                               XmlFile::to_posix_path(xml_.required_child_text(node, "reference")),
                                {},
                                {}};
-        // It becomes part of paths and of messages.
         if (component.name.size() > max_name_length || component.reference.size() > max_name_length)
-            xml.fail(node, "a component's name or reference has more than " +
-                               std::to_string(max_name_length) + " bytes, expected a file's name");
-        if (!names.insert(component.name).second)
-            xml.fail(node, "component '" + component.name + "' is listed twice, expected one of each name");
+            xml_.fail(node, "a component's name or reference has more than " +
+                                std::to_string(max_name_length) + " bytes, expected a file's name");
+        if (!component_names_.insert(component.name).second)
+            xml_.fail(node, "component '" + component.name + "' is listed twice, expected one of each name");
         for (const pugi::xml_node& property : node.child("properties").children("property"))
-            component.properties.emplace_back(xml.required_attribute(property, "name"),
+            component.properties.emplace_back(xml_.required_attribute(property, "name"),
                                               property.child_value());
-        profile.subcomponents.push_back(std::move(component));
+        return component;
     }
-    if (profile.subcomponents.empty())
-        xml.fail(root,
-                 tag(root.name()) + " lists no <subcomponent> in <subcomponents>, expected at least one");
-    return names;
-}
 
-/// Empty if there is such a component.
-std::string unknown_component(const Names& names, const std::string& name) {
-    if (names.count(name) != 0) return "";
-    std::string known;
-    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-    return "unknown component '" + name + "', expected one of " + known;
-}
-
-void require_component(const XmlFile& xml, const pugi::xml_node& node, const Names& names,
-                       const std::string& name) {
-    const std::string error = unknown_component(names, name);
-    if (!error.empty()) xml.fail(node, error);
-}
-
-void read_connections(const XmlFile& xml, const pugi::xml_node& root, const Names& names,
-                      ApplicationProfile& profile) {
-    for (const pugi::xml_node& node : root.child("port_connections").children("port_connection")) {
-        ConnectionProfile connection{xml.location(node), OPROS_DATA, port_reference(xml, node, "source"),
-                                     port_reference(xml, node, "target"), port_type_error(node)};
-        if (connection.error.empty()) connection.type = port_type(xml, node);
-        if (connection.error.empty())
-            connection.error = unknown_component(names, connection.source.component);
-        if (connection.error.empty())
-            connection.error = unknown_component(names, connection.target.component);
-        profile.connections.push_back(std::move(connection));
+    void read_connections() {
+        for (const pugi::xml_node& node : root_.child("port_connections").children("port_connection")) {
+            ConnectionProfile connection{xml_.location(node), port_type(node),
+                                         read_port_reference(node, "source"),
+                                         read_port_reference(node, "target"), port_type_error(node)};
+            for (const PortReference* port : {&connection.source, &connection.target})
+                if (connection.error.empty()) connection.error = unknown_component_error(port->component);
+            profile_.connections.push_back(std::move(connection));
+        }
+        mark_duplicate_connections(profile_.connections);
     }
-    mark_duplicate_connections(profile.connections);
-    for (const pugi::xml_node& node : root.child("coordination").children("depends")) {
-        Dependency dependency{xml.location(node), xml.required_attribute(node, "source"),
-                              xml.required_attribute(node, "target")};
-        require_component(xml, node, names, dependency.source);
-        require_component(xml, node, names, dependency.target);
-        profile.dependencies.push_back(std::move(dependency));
-    }
-}
 
-void read_exports(const XmlFile& xml, const pugi::xml_node& root, const Names& names,
-                  ApplicationProfile& profile) {
-    Names exported;
-    for (const pugi::xml_node& node : root.child("export_ports").children("export_port")) {
-        ExportedPort port{xml.location(node),
-                          named(node, "export_port_name"),
-                          port_type(xml, node),
-                          {named(node, "component_name"), named(node, "port_name")}};
-        if (port.port.component.empty()) xml.fail(node, "<export_port> lacks its component_name");
-        if (port.port.port.empty()) xml.fail(node, "<export_port> lacks its port_name");
-        if (port.name.empty()) port.name = port.port.port;
-        require_component(xml, node, names, port.port.component);
-        if (!exported.insert(port.name).second)
-            xml.fail(node, "port '" + port.name + "' is exported twice, expected one of each name");
-        profile.exports.push_back(std::move(port));
+    PortReference read_port_reference(const pugi::xml_node& connection, const char* element) const {
+        const pugi::xml_node node = connection.child(element);
+        if (!node) xml_.fail(connection, "<port_connection> lacks its " + tag(element));
+        return {xml_.required_attribute(node, "component_name"), xml_.required_attribute(node, "port_name")};
     }
-}
 
-ApplicationProfile read(const XmlFile& xml, const pugi::xml_node& root) {
-    ApplicationProfile profile;
-    profile.location = xml.location(root);
-    profile.name = xml.required_child_text(root, "name");
-    const Names names = read_subcomponents(xml, root, profile);
-    read_connections(xml, root, names, profile);
-    if (std::string(root.name()) == "composite_component_profile") read_exports(xml, root, names, profile);
-    return profile;
-}
+    void read_dependencies() {
+        for (const pugi::xml_node& node : root_.child("coordination").children("depends")) {
+            Dependency dependency{xml_.location(node), xml_.required_attribute(node, "source"),
+                                  xml_.required_attribute(node, "target")};
+            require_known_component(node, dependency.source);
+            require_known_component(node, dependency.target);
+            profile_.dependencies.push_back(std::move(dependency));
+        }
+    }
+
+    void read_exports() {
+        std::set<std::string> exported_names;
+        for (const pugi::xml_node& node : root_.child("export_ports").children("export_port")) {
+            if (const std::string error = port_type_error(node); !error.empty()) xml_.fail(node, error);
+            ExportedPort port{
+                xml_.location(node),
+                attribute_or_child(node, "export_port_name"),
+                port_type(node),
+                {attribute_or_child(node, "component_name"), attribute_or_child(node, "port_name")}};
+            if (port.port.component.empty()) xml_.fail(node, "<export_port> lacks its component_name");
+            if (port.port.port.empty()) xml_.fail(node, "<export_port> lacks its port_name");
+            if (port.name.empty()) port.name = port.port.port;
+            require_known_component(node, port.port.component);
+            if (!exported_names.insert(port.name).second)
+                xml_.fail(node, "port '" + port.name + "' is exported twice, expected one of each name");
+            profile_.exports.push_back(std::move(port));
+        }
+    }
+
+    /// Empty when the profile lists a component of this name.
+    std::string unknown_component_error(const std::string& name) const {
+        if (component_names_.count(name) != 0) return "";
+        std::string known;
+        for (const std::string& each : component_names_) known += (known.empty() ? "" : ", ") + each;
+        return "unknown component '" + name + "', expected one of " + known;
+    }
+
+    void require_known_component(const pugi::xml_node& node, const std::string& name) const {
+        if (const std::string error = unknown_component_error(name); !error.empty()) xml_.fail(node, error);
+    }
+
+    const XmlFile& xml_;
+    const pugi::xml_node root_;
+    std::set<std::string> component_names_;
+    ApplicationProfile profile_;
+};
 
 } // namespace
 
 ApplicationProfile read_application_profile(const XmlFile& xml) {
-    return read(xml, xml.root({"package_profile", "application_profile"}));
+    return AssemblyReader(xml, xml.root({"package_profile", "application_profile"})).take_profile();
 }
 
 ApplicationProfile read_application_profile(const std::filesystem::path& file) {
@@ -138,7 +147,7 @@ ApplicationProfile read_application_profile(const std::filesystem::path& file) {
 }
 
 ApplicationProfile read_composite_profile(const XmlFile& xml) {
-    return read(xml, xml.root({"composite_component_profile"}));
+    return AssemblyReader(xml, xml.root({"composite_component_profile"})).take_profile();
 }
 
 ApplicationProfile read_composite_profile(const std::filesystem::path& file) {
@@ -151,19 +160,19 @@ std::filesystem::path find_component_profile(const ApplicationProfile& applicati
     const auto folder = application.location.file.parent_path();
     std::vector<std::filesystem::path> candidates{
         folder / component.name / component.reference,
-        folder / component.name / "profile" / component.reference, // as OPRoS tools lay out its sources
+        folder / component.name / "profile" / component.reference, // where OPRoS tools put a source's profile
         folder / application.location.file.stem() / component.reference,
         folder / component.reference,
     };
     for (const auto& dir : plugin_dirs) candidates.push_back(dir / component.reference);
-    std::error_code ignored; // what cannot be looked at is not there
-    std::string looked;
+    std::string searched;
     for (const auto& candidate : candidates) {
+        std::error_code ignored; // a candidate without permission to look is one that is not there
         if (std::filesystem::is_regular_file(candidate, ignored)) return candidate;
-        looked += (looked.empty() ? "" : ", ") + candidate.string();
+        searched += (searched.empty() ? "" : ", ") + candidate.string();
     }
     throw SetupError(component.location, "profile '" + component.reference + "' of component '" +
-                                             component.name + "' not found: looked for " + looked);
+                                             component.name + "' not found: looked for " + searched);
 }
 
 } // namespace tandem::engine

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/profile/component_profile.hpp"
+
 #include "host/opros/engine/profile/port_profile.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
 
@@ -8,9 +10,12 @@
 namespace tandem::engine {
 namespace {
 
+/// About 11 days. The bound keeps periods and phases far from the overflow of 64 bits of nanoseconds.
+constexpr double max_time_ms = 1e9;
+
 std::chrono::nanoseconds milliseconds(double ms) { return std::chrono::nanoseconds(std::llround(ms * 1e6)); }
 
-ExecutionType execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
+ExecutionType read_execution_type(const XmlFile& xml, const pugi::xml_node& semantics) {
     const std::string type = XmlFile::keyword(xml.required_child_text(semantics, "type"));
     if (type == "periodic" || type == "periodic-exclusive") return ExecutionType::periodic;
     if (type == "periodic-shared") return ExecutionType::periodic_shared;
@@ -24,8 +29,9 @@ ExecutionType execution_type(const XmlFile& xml, const pugi::xml_node& semantics
                  "aperiodic, aperiodic-loop or passive");
 }
 
-/// Real time only for those who ask for it: nearly all profiles name a priority, and hardly one means it.
-SchedulingPolicy scheduling(const XmlFile& xml, const pugi::xml_node& semantics) {
+/// Real-time scheduling only for a profile that names a policy: tools write a <priority> into every profile,
+/// so that its presence says nothing about what the author wants.
+SchedulingPolicy read_scheduling_policy(const XmlFile& xml, const pugi::xml_node& semantics) {
     const pugi::xml_node node = semantics.child("policy");
     const std::string policy = XmlFile::keyword(node.child_value());
     if (policy == "sched_fifo") return SchedulingPolicy::fifo;
@@ -35,24 +41,39 @@ SchedulingPolicy scheduling(const XmlFile& xml, const pugi::xml_node& semantics)
                        "', expected SCHED_OTHER, SCHED_FIFO or SCHED_RR");
 }
 
-void read_semantics(const XmlFile& xml, const pugi::xml_node& semantics, ComponentProfile& profile) {
-    profile.execution_type = execution_type(xml, semantics);
-    profile.scheduling_policy = scheduling(xml, semantics);
-    profile.priority = static_cast<int>(std::clamp(xml.number(semantics, "priority", 0), 0., 99.));
-    if (profile.execution_type != ExecutionType::periodic &&
-        profile.execution_type != ExecutionType::periodic_shared)
-        return;
+void read_period_and_phase(const XmlFile& xml, const pugi::xml_node& semantics, ComponentProfile& profile) {
     const double period = xml.number(semantics, "period", 0);
-    if (period <= 0 || period > 1e9)
+    if (period <= 0 || period > max_time_ms)
         xml.fail(semantics.child("period") ? semantics.child("period") : semantics,
                  "a periodic component needs a <period> above 0 and of at most 1e9 ms, got '" +
                      XmlFile::child_text(semantics, "period") + "'");
     profile.period = milliseconds(period);
     const double phase = xml.number(semantics, "phase", 0);
-    if (std::abs(phase) > 1e9)
+    if (std::abs(phase) > max_time_ms)
         xml.fail(semantics.child("phase"), "<phase> is '" + XmlFile::child_text(semantics, "phase") +
                                                "', expected a time in ms of at most 1e9");
     profile.phase = milliseconds(phase);
+}
+
+void read_execution_semantics(const XmlFile& xml, const pugi::xml_node& semantics,
+                              ComponentProfile& profile) {
+    profile.execution_type = read_execution_type(xml, semantics);
+    profile.scheduling_policy = read_scheduling_policy(xml, semantics);
+    profile.priority = static_cast<int>(std::clamp(xml.number(semantics, "priority", 0), 0., 99.));
+    // The others have a <period> in their profiles as well, which nobody uses and which may be 0.
+    if (profile.execution_type == ExecutionType::periodic ||
+        profile.execution_type == ExecutionType::periodic_shared)
+        read_period_and_phase(xml, semantics, profile);
+}
+
+/// The files of the type profiles that the component refers to; the names of the lists differ between tools.
+void read_type_references(const pugi::xml_node& root, ComponentProfile& profile) {
+    for (const auto& [list, files] : {std::pair{"data_type_list", &profile.data_types},
+                                      std::pair{"defined_data_types", &profile.data_types},
+                                      std::pair{"defined_service_types", &profile.service_types}})
+        for (const pugi::xml_node& node : root.child(list).children())
+            if (const std::string file = XmlFile::trim(node.child_value()); !file.empty())
+                files->push_back(file);
 }
 
 } // namespace
@@ -72,17 +93,12 @@ ComponentProfile read_component_profile(const XmlFile& xml) {
     profile.library_location = xml.location(environment.child("library_name"));
     const pugi::xml_node semantics = root.child("execution_semantics");
     if (!semantics) xml.fail(root, "<component_profile> lacks its <execution_semantics>");
-    read_semantics(xml, semantics, profile);
+    read_execution_semantics(xml, semantics, profile);
     for (const pugi::xml_node& property : root.child("properties").children("property"))
         if (const std::string name = property.attribute("name").value(); !name.empty())
             profile.properties.emplace_back(name, property.child_value());
-    read_ports(xml, root.child("ports"), profile);
-    for (const auto& [list, files] : {std::pair{"data_type_list", &profile.data_types},
-                                      std::pair{"defined_data_types", &profile.data_types},
-                                      std::pair{"defined_service_types", &profile.service_types}})
-        for (const pugi::xml_node& node : root.child(list).children())
-            if (const std::string file = XmlFile::trim(node.child_value()); !file.empty())
-                files->push_back(file);
+    read_port_profiles(xml, root.child("ports"), profile);
+    read_type_references(root, profile);
     return profile;
 }
 

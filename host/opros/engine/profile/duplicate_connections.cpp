@@ -7,68 +7,99 @@
 namespace tandem::engine {
 namespace {
 
-using Ports = std::tuple<PortType, std::string, std::string, std::string, std::string>;
+/// Connections with equal keys are the same connection: type, source component and port, target likewise.
+using ConnectionKey = std::tuple<PortType, std::string, std::string, std::string, std::string>;
 
-Ports ports(const ConnectionProfile& connection) {
+ConnectionKey key_of(const ConnectionProfile& connection) {
     return {connection.type, connection.source.component, connection.source.port, connection.target.component,
             connection.target.port};
 }
 
-struct Seen {
-    std::size_t first, second = 0; ///< in the list that is kept; second: 0 until there is one
-    std::size_t times = 1;
+/// Where a connection occurs in the list that is kept.
+struct Occurrences {
+    std::size_t first;
+    std::size_t second = 0; ///< valid when count > 1
+    std::size_t count = 1;
 };
 
-/// Takes what is wrong in the same way again off the list: the first of them tells how many.
-std::vector<ConnectionProfile> wrong_once(std::vector<ConnectionProfile> connections) {
-    std::map<std::pair<Ports, std::string>, Seen> seen;
+/// Keeps the first of connections with the same ports and the same error, and adds their number to it.
+std::vector<ConnectionProfile> merge_equal_errors(std::vector<ConnectionProfile> connections) {
+    std::map<std::pair<ConnectionKey, std::string>, Occurrences> seen;
     std::vector<ConnectionProfile> kept;
     for (ConnectionProfile& connection : connections) {
         if (!connection.error.empty()) {
             const auto [entry, is_new] =
-                seen.try_emplace({ports(connection), connection.error}, Seen{kept.size(), 0, 0});
-            if (++entry->second.times > 1) continue;
+                seen.try_emplace({key_of(connection), connection.error}, Occurrences{kept.size(), 0, 0});
+            if (++entry->second.count > 1) continue;
         }
         kept.push_back(std::move(connection));
     }
-    for (const auto& [key, each] : seen)
-        if (each.times > 1)
-            kept[each.first].error +=
-                ", in a connection that is listed " + std::to_string(each.times) + " times";
+    for (const auto& [key, occurrences] : seen)
+        if (occurrences.count > 1)
+            kept[occurrences.first].error +=
+                ", in a connection that is listed " + std::to_string(occurrences.count) + " times";
     return kept;
 }
+
+std::string second_provider_error(const ConnectionProfile& first, const PortReference& required) {
+    return "required port " + required.text() + " is connected to " + first.target.text() + " already, " +
+           first.location.text() + "; expected one provider of a required port, remove one of the two";
+}
+
+std::string duplicate_error(const ConnectionProfile& first, std::size_t count) {
+    return "connection " + first.source.text() + " -> " + first.target.text() + " is listed " +
+           std::to_string(count) + " times, first at " + first.location.text() +
+           "; expected it once, remove the others";
+}
+
+/// Goes through the list once, in its order.
+class DuplicateFinder {
+  public:
+    void add(ConnectionProfile&& connection) {
+        if (connection.error.empty() && !count(connection)) return;
+        kept_.push_back(std::move(connection));
+    }
+
+    std::vector<ConnectionProfile> take_result() && {
+        for (const auto& [key, occurrences] : seen_)
+            if (occurrences.count > 1)
+                kept_[occurrences.second].error =
+                    duplicate_error(kept_[occurrences.first], occurrences.count);
+        return std::move(kept_);
+    }
+
+  private:
+    /// False when the connection is the third of its kind or a later one, and is to be dropped.
+    bool count(ConnectionProfile& connection) {
+        const auto [entry, is_new] = seen_.try_emplace(key_of(connection), Occurrences{kept_.size()});
+        if (!is_new) {
+            if (++entry->second.count > 2) return false;
+            entry->second.second = kept_.size();
+        } else if (connection.type == OPROS_SERVICE) {
+            check_provider(connection);
+        }
+        return true;
+    }
+
+    void check_provider(ConnectionProfile& connection) {
+        const auto [first, is_first] =
+            providers_.try_emplace({connection.source.component, connection.source.port}, kept_.size());
+        if (!is_first) connection.error = second_provider_error(kept_[first->second], connection.source);
+    }
+
+    std::vector<ConnectionProfile> kept_;
+    std::map<ConnectionKey, Occurrences> seen_;
+    /// By component and name of the required port: the index of its first connection in kept_.
+    std::map<std::pair<std::string, std::string>, std::size_t> providers_;
+};
 
 } // namespace
 
 void mark_duplicate_connections(std::vector<ConnectionProfile>& connections) {
-    std::map<Ports, Seen> seen;
-    std::map<std::pair<std::string, std::string>, std::size_t> providers; // of required ports
-    std::vector<ConnectionProfile> kept;
-    connections = wrong_once(std::move(connections));
-    for (ConnectionProfile& connection : connections) {
-        if (connection.error.empty()) {
-            const auto [entry, is_new] = seen.try_emplace(ports(connection), Seen{kept.size()});
-            if (!is_new && ++entry->second.times > 2) continue;
-            if (!is_new) entry->second.second = kept.size();
-            if (is_new && connection.type == OPROS_SERVICE) {
-                const auto [provider, is_first] =
-                    providers.try_emplace({connection.source.component, connection.source.port}, kept.size());
-                if (!is_first)
-                    connection.error = "required port " + connection.source.text() + " is connected to " +
-                                       kept[provider->second].target.text() + " already, " +
-                                       kept[provider->second].location.text() +
-                                       "; expected one provider of a required port, take one of the two away";
-            }
-        }
-        kept.push_back(std::move(connection));
-    }
-    for (const auto& [key, each] : seen)
-        if (each.times > 1)
-            kept[each.second].error =
-                "connection " + kept[each.second].source.text() + " -> " + kept[each.second].target.text() +
-                " is listed " + std::to_string(each.times) + " times, first at " +
-                kept[each.first].location.text() + "; expected it once, take the others away";
-    connections = std::move(kept);
+    DuplicateFinder finder;
+    for (ConnectionProfile& connection : merge_equal_errors(std::move(connections)))
+        finder.add(std::move(connection));
+    connections = std::move(finder).take_result();
 }
 
 } // namespace tandem::engine

@@ -12,41 +12,47 @@ namespace {
 
 using namespace std::string_view_literals;
 
-struct Guess {
-    std::string_view start; ///< the file's first bytes
-    std::size_t mark;       ///< how many of them are no text
+/// How the first bytes of a file show its encoding.
+struct EncodingSignature {
+    std::string_view first_bytes;
+    std::size_t mark_size; ///< bytes of the byte order mark, which is not part of the text
     const char* encoding;
+    std::size_t unit_size; ///< bytes of a code unit
 };
 
-/// Byte order marks, then a '<' of 32 or of 16 bits. The longer ones come first.
-constexpr Guess guesses[] = {
-    {"\xFF\xFE\0\0"sv, 4, "UTF-32LE"}, {"\0\0\xFE\xFF"sv, 4, "UTF-32BE"}, {"<\0\0\0"sv, 0, "UTF-32LE"},
-    {"\0\0\0<"sv, 0, "UTF-32BE"},      {"\xEF\xBB\xBF"sv, 3, "UTF-8"},    {"\xFF\xFE"sv, 2, "UTF-16LE"},
-    {"\xFE\xFF"sv, 2, "UTF-16BE"},     {"<\0"sv, 0, "UTF-16LE"},          {"\0<"sv, 0, "UTF-16BE"},
+/// Byte order marks, and '<' in 16 or 32 bits without one. The first that fits counts: UTF-32LE comes before
+/// UTF-16LE, whose mark is the beginning of its own.
+constexpr EncodingSignature signatures[] = {
+    {"\xFF\xFE\0\0"sv, 4, "UTF-32LE", 4}, {"\0\0\xFE\xFF"sv, 4, "UTF-32BE", 4},
+    {"<\0\0\0"sv, 0, "UTF-32LE", 4},      {"\0\0\0<"sv, 0, "UTF-32BE", 4},
+    {"\xEF\xBB\xBF"sv, 3, "UTF-8", 1},    {"\xFF\xFE"sv, 2, "UTF-16LE", 2},
+    {"\xFE\xFF"sv, 2, "UTF-16BE", 2},     {"<\0"sv, 0, "UTF-16LE", 2},
+    {"\0<"sv, 0, "UTF-16BE", 2},
 };
 
-std::string upper(std::string_view text) {
-    std::string up(text);
-    std::transform(up.begin(), up.end(), up.begin(),
+std::string to_upper(std::string_view text) {
+    std::string upper(text);
+    std::transform(upper.begin(), upper.end(), upper.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return up;
+    return upper;
 }
 
-/// The names of Windows and of Java's tools, which iconv has not: MS932, windows-949, x-euc-kr.
-std::string known_name(std::string name) {
+/// iconv's name for an encoding that Windows or Java tools name otherwise (MS932, WINDOWS-949, X-EUC-KR).
+std::string iconv_name(std::string name) {
     if (name.starts_with("X-")) name.erase(0, 2);
     for (const std::string_view prefix : {"WINDOWS-"sv, "MS"sv, "CP-"sv})
         if (name.size() > prefix.size() && name.starts_with(prefix) && std::isdigit(name[prefix.size()]) != 0)
             name = "CP" + name.substr(prefix.size());
-    // What calls itself EUC-KR comes from Windows, whose code page has some more characters.
+    // Files that declare EUC-KR were written on Windows, whose code page 949 has all of it and more.
     for (const char* korean : {"EUC-KR", "EUC_KR", "EUCKR", "KS_C_5601-1987", "KS_C_5601-1989", "KSC5601",
                                "KSC_5601", "KS_C_5601", "KOREAN"})
         if (name == korean) return "CP949";
     return name;
 }
 
-/// The value of encoding= in the XML declaration, in capitals; empty when there is none.
-std::string declared(std::string_view bytes) {
+/// The value of encoding= in the XML declaration as iconv's name; empty when there is none. The characters are
+/// checked because iconv_open() takes what follows '/' for options.
+std::string declared_encoding(std::string_view bytes) {
     const std::string_view head = bytes.substr(0, std::min<std::size_t>(bytes.find("?>"), 200));
     if (!head.starts_with("<?xml")) return "";
     const auto at = head.find("encoding");
@@ -55,27 +61,30 @@ std::string declared(std::string_view bytes) {
     if (open == std::string_view::npos) return "";
     const auto close = head.find(head[open], open + 1);
     if (close == std::string_view::npos) return "";
-    const std::string name = upper(head.substr(open + 1, close - open - 1));
+    const std::string name = to_upper(head.substr(open + 1, close - open - 1));
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._:-") != std::string::npos) return "";
-    return known_name(name);
+    return iconv_name(name);
 }
 
-class Converter {
+/// One iconv descriptor from an encoding to UTF-8.
+class Utf8Converter {
   public:
-    explicit Converter(const std::string& from) : handle_(iconv_open("UTF-8", from.c_str())) {}
-    ~Converter() {
-        if (known()) iconv_close(handle_);
+    explicit Utf8Converter(const std::string& from) : handle_(iconv_open("UTF-8", from.c_str())) {}
+    ~Utf8Converter() {
+        if (is_open()) iconv_close(handle_);
     }
-    Converter(const Converter&) = delete;
-    Converter& operator=(const Converter&) = delete;
-    bool known() const { return handle_ != iconv_t(-1); }
+    Utf8Converter(const Utf8Converter&) = delete;
+    Utf8Converter& operator=(const Utf8Converter&) = delete;
+    /// False when iconv does not know the encoding.
+    bool is_open() const { return handle_ != iconv_t(-1); }
 
-    /// What cannot be converted becomes '?', unit by unit. `fits` says whether there was such.
-    std::string convert(std::string_view bytes, std::size_t unit, bool& fits) {
+    /// Replaces each code unit of `unit_size` bytes that is not valid by '?'; `all_valid` tells whether there
+    /// was none.
+    std::string convert(std::string_view bytes, std::size_t unit_size, bool& all_valid) {
         std::string out;
-        char* in = const_cast<char*>(bytes.data());
+        char* in = const_cast<char*>(bytes.data()); // iconv's signature; it does not write there
         std::size_t left = bytes.size();
-        fits = true;
+        all_valid = true;
         while (left > 0) {
             char chunk[4096];
             char* to = chunk;
@@ -83,10 +92,11 @@ class Converter {
             const bool failed = iconv(handle_, &in, &left, &to, &room) == std::size_t(-1);
             out.append(chunk, static_cast<std::size_t>(to - chunk));
             if (!failed) break;
+            // A full chunk is no fault. One that is "full" without having taken anything would never end.
             if (errno == E2BIG && to != chunk) continue;
-            fits = false;
+            all_valid = false;
             out += '?';
-            const std::size_t skipped = std::min(unit, left);
+            const std::size_t skipped = std::min(unit_size, left);
             in += skipped;
             left -= skipped;
         }
@@ -98,35 +108,35 @@ class Converter {
 };
 
 bool is_utf8(std::string_view bytes) {
-    bool fits = false;
-    Converter("UTF-8").convert(bytes, 1, fits);
-    return fits;
+    bool all_valid = false;
+    Utf8Converter("UTF-8").convert(bytes, 1, all_valid);
+    return all_valid;
 }
 
-std::string converted(std::string_view bytes, const std::string& from, std::size_t unit) {
-    bool fits = false;
-    Converter converter(from);
-    const std::string text =
-        converter.known() ? converter.convert(bytes, unit, fits) : Converter("UTF-8").convert(bytes, 1, fits);
-    if (fits || unit > 1) return text;
-    // The tools' own language is a better guess than question marks, if it fits.
-    const std::string korean = Converter("CP949").convert(bytes, 1, fits);
-    return fits ? korean : text;
+std::string convert_to_utf8(std::string_view bytes, const std::string& from, std::size_t unit_size) {
+    bool all_valid = false;
+    Utf8Converter converter(from);
+    const std::string text = converter.is_open() ? converter.convert(bytes, unit_size, all_valid)
+                                                 : Utf8Converter("UTF-8").convert(bytes, 1, all_valid);
+    if (all_valid || unit_size > 1) return text;
+    // OPRoS tools are Korean: their code page is a better guess than question marks, if all bytes are valid in
+    // it.
+    const std::string korean = Utf8Converter("CP949").convert(bytes, 1, all_valid);
+    return all_valid ? korean : text;
 }
 
 } // namespace
 
 std::string to_utf8(std::string_view bytes) {
-    for (const Guess& guess : guesses) {
-        if (!bytes.starts_with(guess.start)) continue;
-        const std::string name = guess.encoding;
-        return converted(bytes.substr(guess.mark), name,
-                         name == "UTF-8" ? 1U : (name.starts_with("UTF-16") ? 2U : 4U));
-    }
-    const std::string name = declared(bytes);
-    // A declaration of 16 or 32 bits that can be read as ASCII is wrong about itself.
-    const bool wide = name.starts_with("UTF-16") || name.starts_with("UTF-32") || name.starts_with("UCS");
-    return wide || name.empty() || is_utf8(bytes) ? converted(bytes, "UTF-8", 1) : converted(bytes, name, 1);
+    for (const EncodingSignature& signature : signatures)
+        if (bytes.starts_with(signature.first_bytes))
+            return convert_to_utf8(bytes.substr(signature.mark_size), signature.encoding,
+                                   signature.unit_size);
+    const std::string name = declared_encoding(bytes);
+    // The declaration has just been read as ASCII: one that says 16 or 32 bits is wrong.
+    const bool is_wide = name.starts_with("UTF-16") || name.starts_with("UTF-32") || name.starts_with("UCS");
+    const bool use_utf8 = is_wide || name.empty() || is_utf8(bytes);
+    return convert_to_utf8(bytes, use_utf8 ? "UTF-8" : name, 1);
 }
 
 } // namespace tandem::engine

@@ -6,9 +6,10 @@
 
 namespace tandem::engine {
 
-/// The text of an XML file as UTF-8: by its byte order mark, by how its first bytes lie, or by the encoding
-/// that it declares. Real profiles declare one and are in another: what is UTF-8 already stays as it is, and
-/// what does not fit becomes '?', since the names that matter are ASCII.
+/// Converts the bytes of an XML file to UTF-8. The encoding is taken from the byte order mark, else from the
+/// zero bytes around the first '<' (XML 1.0, appendix F), else from the XML declaration. Real profiles often
+/// declare one encoding and are in another, so bytes that are valid UTF-8 stay as they are, and what is not
+/// valid in any encoding becomes '?' (names of ports and types are ASCII). Never throws for the bytes.
 std::string to_utf8(std::string_view bytes);
 
 } // namespace tandem::engine

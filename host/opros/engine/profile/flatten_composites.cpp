@@ -2,6 +2,8 @@
 #include "host/opros/engine/profile/flatten_composites.hpp"
 
 #include "host/opros/engine/profile/duplicate_connections.hpp"
+#include "host/opros/engine/profile/port_type.hpp"
+#include "host/opros/engine/profile/profile_kind.hpp"
 
 #include <algorithm>
 #include <map>
@@ -9,46 +11,51 @@
 namespace tandem::engine {
 namespace {
 
-constexpr std::size_t max_components = 1000; // composites of composites grow fast
+/// Composites that use each other several times multiply: ten levels of ten are 10^10 components.
+constexpr std::size_t max_components = 1000;
 
-class Expansion {
+/// Builds the flat application depth first. Connections are collected with the names of composites in them and
+/// resolved at the end, when the exports of all composites are known.
+class CompositeFlattener {
   public:
-    Expansion(const ApplicationProfile& application, const std::vector<std::filesystem::path>& dirs)
-        : dirs_(dirs) {
+    CompositeFlattener(const ApplicationProfile& application, const std::vector<std::filesystem::path>& dirs)
+        : plugin_dirs_(dirs) {
         flat_.location = application.location;
         flat_.name = application.name;
-        add(application, "");
+        add_assembly(application, "");
         for (ConnectionProfile& connection : flat_.connections) {
-            behind(connection, connection.source);
-            behind(connection, connection.target);
+            resolve_exported_port(connection, connection.source);
+            resolve_exported_port(connection, connection.target);
         }
-        mark_duplicate_connections(flat_.connections); // a port may be exported under two names
+        // Again, beyond what the reader has marked: two exported names may stand for the same port.
+        mark_duplicate_connections(flat_.connections);
     }
-    ApplicationProfile result() && { return std::move(flat_); }
+    ApplicationProfile take_result() && { return std::move(flat_); }
 
   private:
     struct Composite {
         std::vector<ExportedPort> exports;
-        std::vector<std::string> members; ///< of all depths, no composites
+        std::vector<std::string> members; ///< its components of all depths, without the composites among them
     };
 
-    void add(const ApplicationProfile& assembly, const std::string& prefix) {
-        open_.push_back(std::filesystem::canonical(assembly.location.file));
-        for (const Subcomponent& entry : assembly.subcomponents) add_one(assembly, entry, prefix);
-        open_.pop_back();
+    /// Adds an application or a composite whose components get `prefix` in front of their names.
+    void add_assembly(const ApplicationProfile& assembly, const std::string& prefix) {
+        enclosing_files_.push_back(std::filesystem::canonical(assembly.location.file));
+        for (const Subcomponent& entry : assembly.subcomponents) add_subcomponent(assembly, entry, prefix);
+        enclosing_files_.pop_back();
         for (ConnectionProfile connection : assembly.connections) {
             connection.source.component.insert(0, prefix);
             connection.target.component.insert(0, prefix);
             flat_.connections.push_back(std::move(connection));
         }
         for (const Dependency& dependency : assembly.dependencies)
-            for (const std::string& source : members(prefix + dependency.source))
-                for (const std::string& target : members(prefix + dependency.target))
+            for (const std::string& source : members_of(prefix + dependency.source))
+                for (const std::string& target : members_of(prefix + dependency.target))
                     flat_.dependencies.push_back({dependency.location, source, target});
     }
 
-    void add_one(const ApplicationProfile& assembly, Subcomponent entry, const std::string& prefix) {
-        entry.file = find_component_profile(assembly, entry, dirs_);
+    void add_subcomponent(const ApplicationProfile& assembly, Subcomponent entry, const std::string& prefix) {
+        entry.file = find_component_profile(assembly, entry, plugin_dirs_);
         entry.name.insert(0, prefix);
         if (read_profile_kind(entry.file) == ProfileKind::composite) return add_composite(entry);
         if (flat_.subcomponents.size() == max_components)
@@ -59,7 +66,9 @@ class Expansion {
     }
 
     void add_composite(const Subcomponent& entry) {
-        if (std::find(open_.begin(), open_.end(), std::filesystem::canonical(entry.file)) != open_.end())
+        // By canonical path: the same file may be reached under several names.
+        const auto file = std::filesystem::canonical(entry.file);
+        if (std::find(enclosing_files_.begin(), enclosing_files_.end(), file) != enclosing_files_.end())
             throw SetupError(entry.location, "composite " + entry.file.string() + " contains itself");
         if (!entry.properties.empty())
             throw SetupError(entry.location,
@@ -67,40 +76,44 @@ class Expansion {
                                  "' has no properties of its own, give them to its components in " +
                                  entry.file.string());
         ApplicationProfile composite = read_composite_profile(entry.file);
-        const std::size_t first = flat_.subcomponents.size();
-        add(composite, entry.name + ".");
+        const std::size_t first_member = flat_.subcomponents.size();
+        add_assembly(composite, entry.name + ".");
         Composite& added = composites_[entry.name];
         added.exports = std::move(composite.exports);
-        for (std::size_t i = first; i < flat_.subcomponents.size(); ++i)
+        for (std::size_t i = first_member; i < flat_.subcomponents.size(); ++i)
             added.members.push_back(flat_.subcomponents[i].name);
     }
 
-    std::vector<std::string> members(const std::string& name) const {
+    /// The components that a name stands for: those of a composite, or the component itself.
+    std::vector<std::string> members_of(const std::string& name) const {
         const auto found = composites_.find(name);
         return found == composites_.end() ? std::vector<std::string>{name} : found->second.members;
     }
 
-    /// Goes from an exported port to the component's own.
-    void behind(ConnectionProfile& connection, PortReference& port) const {
+    /// Replaces a composite's exported port by the component's own. In a loop, because a composite may export
+    /// what a composite within it exports.
+    void resolve_exported_port(ConnectionProfile& connection, PortReference& port) const {
         for (auto found = composites_.find(port.component);
              connection.error.empty() && found != composites_.end();
              found = composites_.find(port.component)) {
-            const PortReference* inner = exported(found->second, connection.type, port.port);
+            const PortReference* inner = find_export(found->second, connection.type, port.port);
             if (inner)
                 port = {port.component + "." + inner->component, inner->port};
             else
-                connection.error = not_exported(found->second, connection.type, port);
+                connection.error = missing_export_error(found->second, connection.type, port);
         }
     }
 
-    static const PortReference* exported(const Composite& composite, PortType type, const std::string& name) {
+    static const PortReference* find_export(const Composite& composite, PortType type,
+                                            const std::string& name) {
         for (const ExportedPort& each : composite.exports)
             if (each.type == type && each.name == name) return &each.port;
         return nullptr;
     }
 
-    static std::string not_exported(const Composite& composite, PortType type, const PortReference& port) {
-        const std::string kind = type == OPROS_DATA ? "data" : type == OPROS_EVENT ? "event" : "service";
+    static std::string missing_export_error(const Composite& composite, PortType type,
+                                            const PortReference& port) {
+        const std::string kind = port_type_name(type);
         std::string known;
         for (const ExportedPort& each : composite.exports)
             if (each.type == type) known += (known.empty() ? "" : ", ") + each.name;
@@ -108,17 +121,18 @@ class Expansion {
                kind + " ports are: " + (known.empty() ? "none" : known);
     }
 
-    const std::vector<std::filesystem::path>& dirs_;
+    const std::vector<std::filesystem::path>& plugin_dirs_;
     ApplicationProfile flat_;
-    std::map<std::string, Composite> composites_;
-    std::vector<std::filesystem::path> open_; // those that we are in
+    std::map<std::string, Composite> composites_; // by their names in the flat application
+    std::vector<std::filesystem::path>
+        enclosing_files_; // of the assemblies that are being added, outermost first
 };
 
 } // namespace
 
 ApplicationProfile flatten_composites(const ApplicationProfile& application,
                                       const std::vector<std::filesystem::path>& plugin_dirs) {
-    return Expansion(application, plugin_dirs).result();
+    return CompositeFlattener(application, plugin_dirs).take_result();
 }
 
 bool has_composites(const ApplicationProfile& application,
@@ -127,7 +141,7 @@ bool has_composites(const ApplicationProfile& application,
         try {
             return read_profile_kind(find_component_profile(application, entry, plugin_dirs)) ==
                    ProfileKind::composite;
-        } catch (const SetupError&) { // told by whoever needs the profile
+        } catch (const SetupError&) { // reported when the profile itself is needed
             return false;
         }
     };

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/profile/application_profile.hpp"
 
 namespace tandem::engine {
 
-/// The application with each composite replaced by its components, to any depth: component B of composite A
-/// is named A.B, connections to the composite's exported ports go to the ports behind them, and a dependency
-/// on a composite is one on each of its components. All subcomponents have their files. Throws SetupError.
+/// Replaces each composite of the application by its components, to any depth, so that the rest of the engine
+/// knows components only. Component B of composite A is named A.B, a connection to an exported port goes to the
+/// port behind it, and a dependency on a composite is one on each of its components. Each subcomponent of the
+/// result has its file. Throws SetupError: a profile is missing or wrong, a composite contains itself or has
+/// properties, or there are more than 1000 components.
 ApplicationProfile flatten_composites(const ApplicationProfile& application,
                                       const std::vector<std::filesystem::path>& plugin_dirs);
 
-/// Whether one of the application's own components is a composite; profiles that cannot be read are none.
+/// Whether one of the application's own components is a composite. A profile that is missing or cannot be read
+/// counts as none: this function does not throw for it.
 bool has_composites(const ApplicationProfile& application,
                     const std::vector<std::filesystem::path>& plugin_dirs);
 

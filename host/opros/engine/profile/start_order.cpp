@@ -10,11 +10,11 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Nullptr when all that the component depends on are among the names.
-const Dependency* unmet(const ApplicationProfile& profile, const std::string& name,
-                        const std::vector<std::string>& done) {
+/// A dependency of the component on one that is not in the order yet; nullptr when there is none.
+const Dependency* find_unmet_dependency(const ApplicationProfile& profile, const std::string& name,
+                                        const std::vector<std::string>& order) {
     for (const Dependency& dependency : profile.dependencies)
-        if (dependency.source == name && !contains(done, dependency.target)) return &dependency;
+        if (dependency.source == name && !contains(order, dependency.target)) return &dependency;
     return nullptr;
 }
 
@@ -22,19 +22,20 @@ const Dependency* unmet(const ApplicationProfile& profile, const std::string& na
 
 std::vector<std::string> start_order(const ApplicationProfile& profile) {
     std::vector<std::string> order;
+    // Each pass takes what it can. A pass that takes nothing, while components are left, shows a circle.
     while (order.size() < profile.subcomponents.size()) {
-        const std::size_t before = order.size();
-        const Dependency* missing = nullptr;
+        const std::size_t size_before = order.size();
+        const Dependency* unmet = nullptr;
         for (auto entry = profile.subcomponents.rbegin(); entry != profile.subcomponents.rend(); ++entry) {
             if (contains(order, entry->name)) continue;
-            if (const Dependency* dependency = unmet(profile, entry->name, order))
-                missing = dependency;
+            if (const Dependency* dependency = find_unmet_dependency(profile, entry->name, order))
+                unmet = dependency;
             else
                 order.push_back(entry->name);
         }
-        if (order.size() == before)
-            throw SetupError(missing->location, "component '" + missing->source + "' depends on '" +
-                                                    missing->target + "' in a circle");
+        if (order.size() == size_before)
+            throw SetupError(unmet->location, "component '" + unmet->source + "' depends on '" +
+                                                  unmet->target + "' in a circle");
     }
     return order;
 }

@@ -10,6 +10,16 @@
 namespace tandem::engine {
 namespace {
 
+/// The parameter's index attribute, or `default_index` when there is none.
+std::size_t parameter_index(const XmlFile& xml, const pugi::xml_node& parameter, std::size_t default_index) {
+    const std::string text = XmlFile::trim(parameter.attribute("index").value());
+    std::size_t index = default_index;
+    const char* const end = text.data() + text.size();
+    if (!text.empty() && std::from_chars(text.data(), end, index).ptr != end)
+        xml.fail(parameter, "index of a <param> is '" + text + "', expected a number from 0 on");
+    return index;
+}
+
 MethodProfile read_method(const XmlFile& xml, const pugi::xml_node& node) {
     MethodProfile method{xml.location(node),
                          xml.required_attribute(node, "name"),
@@ -19,17 +29,14 @@ MethodProfile read_method(const XmlFile& xml, const pugi::xml_node& node) {
     if (method.return_type.empty()) method.return_type = "void";
     std::vector<std::pair<std::size_t, ParameterProfile>> indexed;
     for (const pugi::xml_node& parameter : node.children("param")) {
-        const std::string index = XmlFile::trim(parameter.attribute("index").value());
-        std::size_t place = indexed.size() + 1;
-        const char* const last = index.data() + index.size();
-        if (!index.empty() && std::from_chars(index.data(), last, place).ptr != last)
-            xml.fail(parameter, "index of a <param> is '" + index + "', expected a number from 0 on");
-        indexed.emplace_back(place, ParameterProfile{xml.required_child_text(parameter, "type"),
+        const std::size_t index = parameter_index(xml, parameter, indexed.size() + 1);
+        indexed.emplace_back(index, ParameterProfile{xml.required_child_text(parameter, "type"),
                                                      XmlFile::child_text(parameter, "name")});
     }
+    // The elements may be in any order; those without an index, or with the same one, keep theirs.
     std::stable_sort(indexed.begin(), indexed.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto& [place, parameter] : indexed) method.parameters.push_back(std::move(parameter));
+    for (auto& [index, parameter] : indexed) method.parameters.push_back(std::move(parameter));
     return method;
 }
 

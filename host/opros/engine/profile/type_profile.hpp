@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Profiles of service types and of data types. The engine needs neither to run an application: they are what
-// tools and generators know of a component's signatures.
+// Profiles of service types (methods) and of data types (structs). The engine runs an application without them,
+// since a component's code has the types; tools and generators read them.
 #pragma once
 
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/profile/setup_error.hpp"
+
+#include <vector>
 
 namespace tandem::engine {
 
@@ -13,7 +15,7 @@ struct ParameterProfile {
 
 struct MethodProfile {
     SourceLocation location;
-    std::string name, return_type, call_type;
+    std::string name, return_type, call_type; ///< types as written; return_type "void" when there is none
     std::vector<ParameterProfile> parameters; ///< in the order of their index
 };
 
@@ -33,11 +35,13 @@ struct StructProfile {
     std::vector<FieldProfile> fields;
 };
 
-/// Both throw SetupError: no such file, not well-formed, not a profile of this kind, or something missing or
-/// wrong.
+class XmlFile;
+
+/// Both read one or more types from a file. Throw SetupError: the file cannot be read, is not well-formed XML
+/// or not a profile of this kind, or an element is missing or wrong.
 std::vector<ServiceTypeProfile> read_service_type_profile(const std::filesystem::path& file);
-std::vector<StructProfile> read_data_type_profile(const std::filesystem::path& file);
 std::vector<ServiceTypeProfile> read_service_type_profile(const XmlFile& xml);
+std::vector<StructProfile> read_data_type_profile(const std::filesystem::path& file);
 std::vector<StructProfile> read_data_type_profile(const XmlFile& xml);
 
 } // namespace tandem::engine

@@ -117,7 +117,6 @@ TEST_CASE("a service connection that fails half-way leaves no method connected")
     tandem::engine::Application application(folder.application(Folder::sub("P", "P.xml")),
                                             test_options(folder));
     application.start();
-    tandem::engine::WorkerPool workers(1, false);
     Notes owner;
     ProvidedServicePort provided;
     provided.addMethod("note", makeProvidedMethod(&Notes::note, &owner, "note"));
@@ -125,8 +124,7 @@ TEST_CASE("a service connection that fails half-way leaves no method connected")
     Method* note = makeRequiredMethod(&MathRequired::note, "note", METHOD_NONBLOCKING);
     required.addMethod("note", note);
     required.addMethod("turn", makeRequiredMethod(&MathRequired::turn, "turn"));
-    CHECK_THROWS_WITH(
-        tandem::engine::ServiceConnection(required, provided, *application.find_component("P"), workers),
-        Catch::Contains("has no method 'turn'"));
+    CHECK_THROWS_WITH(tandem::engine::ServiceConnection(required, provided, *application.find_component("P")),
+                      Catch::Contains("has no method 'turn'"));
     CHECK_THROWS_AS((*static_cast<RequiredMethod<void>*>(note))(std::string("lost")), MethodInvokeException);
 }

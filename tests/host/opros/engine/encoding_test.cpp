@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/profile/component_profile.hpp"
 #include "host/opros/engine/profile/xml_file.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 

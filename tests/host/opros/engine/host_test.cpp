@@ -135,8 +135,9 @@ TEST_CASE("a device library that is none is told of in one line with what it is"
                               Catch::Contains("libprinter.so is an OPRoS component (exports getComponent), "
                                               "expected a device API, which exports GetAPI (extern \"C\")"));
     CHECK_THAT(host.said, Catch::Contains("warning: DllName Text: ") && Catch::Contains("Text.so"));
-    CHECK_THAT(host.said, Catch::Contains("ArmApiName Nowhere: left to the component to find: library "
-                                          "'Nowhere' not found: looked for Nowhere.so, libNowhere.so"));
+    CHECK_THAT(host.said,
+               Catch::Contains("ArmApiName Nowhere: the component gets the name unchanged: library "
+                               "'Nowhere' not found: looked for Nowhere.so, libNowhere.so"));
 }
 
 TEST_CASE("a component that calls nobody while it starts is told of in one line") {
@@ -155,7 +156,7 @@ TEST_CASE("a host whose component hangs says which and ends") {
     REQUIRE(host.says("M hangs\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("component M does not come back from onExecute within 0.1 s"));
+    CHECK_THAT(host.said, Catch::Contains("component M does not return from onExecute within 0.1 s"));
 }
 
 TEST_CASE("signals that come together are one wish to stop and everything is stopped in order") {
@@ -186,7 +187,7 @@ TEST_CASE("a host whose component hangs in the set-up can be ended") {
     REQUIRE(host.says("M hangs\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("onInitialize of component M does not come back within 0.1 s"));
+    CHECK_THAT(host.said, Catch::Contains("onInitialize of component M does not return within 0.1 s"));
 }
 
 TEST_CASE("a host whose component hangs at its end says which and in what and ends") {
@@ -198,7 +199,7 @@ TEST_CASE("a host whose component hangs at its end says which and in what and en
     REQUIRE(host.says("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("component M does not come back from " +
+    CHECK_THAT(host.said, Catch::Contains("component M does not return from " +
                                           where.substr(0, where.rfind(' ')) + " within 0.1 s"));
 }
 
@@ -210,8 +211,8 @@ TEST_CASE("a library that stays loaded and hangs at the very end is named and th
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
     CHECK_THAT(host.said,
-               Catch::Contains("the library hangs\nopros_host: component M does not come back from "
-                               "its static destructors within 0.1 s; the host ends without it\n"));
+               Catch::Contains("the library hangs\nopros_host: component M does not return from "
+                               "its static destructors within 0.1 s; the host exits without it\n"));
 }
 
 TEST_CASE("a component that hangs in its destructor takes no other one's end from it") {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/profile/profile_kind.hpp"
 #include "host/opros/engine/profile/type_profile.hpp"
 #include "tests/host/opros/engine/folder.hpp"
 

@@ -1,24 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/opros/engine/profile/profile.hpp"
+#include "host/opros/engine/profile/profile_kind.hpp"
 
 #include "host/opros/engine/profile/xml_file.hpp"
 
-#include <algorithm>
-
 namespace tandem::engine {
-namespace {
-
-/// Messages show what stands in files: however it looks there, they stay one line.
-std::string one_line(std::string text) {
-    constexpr std::size_t longest = 2000;
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-    return text.size() > longest ? text.substr(0, longest) + "..." : text;
-}
-
-} // namespace
-
-SetupError::SetupError(const std::string& what) : std::runtime_error(one_line(what)) {}
 
 ProfileKind read_profile_kind(const std::filesystem::path& file) {
     const XmlFile xml(file);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/execute/task_queue.hpp"
+
+#include "host/rt/thread.hpp"
+
+namespace tandem::engine {
+
+TaskQueue::TaskQueue(std::size_t capacity, Mode mode) : capacity_(capacity), mode_(mode) {}
+
+TaskQueue::~TaskQueue() {
+    interrupt();
+    join();
+}
+
+void TaskQueue::start() {
+    if (mode_ == Mode::own_thread && !thread_.joinable()) thread_ = std::thread([this] { run(); });
+}
+
+void TaskQueue::run() {
+    rt::configure_this_thread({"worker", 0, -1});
+    std::unique_lock<std::mutex> lock(mutex_);
+    for (;;) {
+        wake_.wait(lock, [this] { return interrupted_ || !tasks_.empty(); });
+        if (interrupted_) return;
+        Task task = std::move(tasks_.front());
+        tasks_.pop_front();
+        lock.unlock(); // a task may submit another one to the same queue
+        task();
+        task = nullptr; // what it holds may take a while to destroy: not under the lock
+        lock.lock();
+    }
+}
+
+bool TaskQueue::submit(Task task) {
+    const bool run_here = mode_ == Mode::in_caller;
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (interrupted_ || (!run_here && tasks_.size() >= capacity_)) return false;
+        if (!run_here) tasks_.push_back(std::move(task));
+    }
+    if (run_here)
+        task();
+    else
+        wake_.notify_one();
+    return true;
+}
+
+void TaskQueue::interrupt() {
+    std::deque<Task> dropped; // destroyed without the lock: tasks hold values of a component, with its code
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        interrupted_ = true;
+        dropped.swap(tasks_);
+    }
+    wake_.notify_one();
+}
+
+void TaskQueue::join() {
+    if (thread_.joinable()) thread_.join();
+}
+
+} // namespace tandem::engine

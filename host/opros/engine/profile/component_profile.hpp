@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// A component profile (<component_profile>): which library the component is in, when it is executed, with
+// which properties, and which ports its author says it has.
+#pragma once
+
+#include "host/opros/engine/profile/setup_error.hpp"
+
+#include <OPRoSTypes.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tandem::engine {
+
+/// Names and values, in the order of the profile.
+using Properties = std::vector<std::pair<std::string, std::string>>;
+
+/// When a component gets its cycles. periodic: in a thread of its own; periodic_shared: in one thread with
+/// others of the same period; aperiodic: when an input has arrived; aperiodic_loop: without a pause; passive:
+/// never.
+enum class ExecutionType { periodic, periodic_shared, aperiodic, aperiodic_loop, passive };
+
+/// The scheduling policies of sched_setscheduler(2).
+enum class SchedulingPolicy { other, fifo, round_robin };
+
+constexpr unsigned int max_queue_size = 1000000;
+
+/// The queue that a profile asks for. `size` is in values, 1 to max_queue_size.
+struct QueueProfile {
+    DataPortPolicy policy = OPROS_FIFO;
+    unsigned int size = DEFAULT_QUEUE_LIMIT;
+};
+
+struct DataPortProfile {
+    SourceLocation location;
+    std::string name, data_type;
+    bool is_input = false;
+    std::optional<QueueProfile> queue; ///< of an input port whose profile has a queue setting
+};
+
+struct EventPortProfile {
+    SourceLocation location;
+    std::string name, data_type;
+    bool is_input = false;
+};
+
+struct ServicePortProfile {
+    SourceLocation location;
+    std::string name, type, reference; ///< reference: file of the service type's profile
+    bool is_provided = false;
+};
+
+struct ComponentProfile {
+    SourceLocation location, library_location; ///< of the root element; of <library_name>
+    std::string name, library_name;
+    ExecutionType execution_type = ExecutionType::passive;
+    std::chrono::nanoseconds period{0}, phase{0}; ///< of the periodic types
+    int priority = 0;                             ///< 0..99, used with `fifo` and `round_robin` only
+    SchedulingPolicy scheduling_policy = SchedulingPolicy::other;
+    Properties properties;
+    // The ports that the profile lists. The engine connects the ports that the component's code has added, and
+    // takes nothing but queue settings from here; `tandem opros check` compares the two.
+    std::vector<DataPortProfile> data_ports;
+    std::vector<EventPortProfile> event_ports;
+    std::vector<ServicePortProfile> service_ports;
+    std::vector<std::string> port_errors;               ///< one line for each listed port that is not usable
+    std::vector<std::string> data_types, service_types; ///< files of their profiles
+};
+
+class XmlFile;
+
+/// Reads a component profile. Throws SetupError: the file cannot be read, is not well-formed XML or not a
+/// component profile, or an element is missing or has a value out of range.
+ComponentProfile read_component_profile(const std::filesystem::path& file);
+ComponentProfile read_component_profile(const XmlFile& xml);
+
+} // namespace tandem::engine
