@@ -7,6 +7,9 @@
 
 namespace opros::archive {
 
+// The format is that of binary_oarchive.cpp. Each function throws archive_format_exception when the bytes end early,
+// and archive_type_exception when they describe another type than the one asked for.
+
 template <typename T>
 T binary_iarchive::get_bytes() {
     T value;
@@ -19,6 +22,7 @@ void binary_iarchive::expect(char code) {
     if (get_bytes<char>() != code) throw archive_type_exception();
 }
 
+/// A number with its code and size, or within an array of numbers its bytes only.
 template <typename T>
 iarchive& binary_iarchive::get(char code, T& value) {
     if (!m_bare) {
@@ -30,6 +34,7 @@ iarchive& binary_iarchive::get(char code, T& value) {
 }
 
 iarchive& binary_iarchive::load(bool& value) {
+    // Written as a digit; read as any byte first, since a bool with another value is undefined.
     char digit = '0';
     get(BOOL_CODE, digit);
     value = digit != '0';
@@ -55,6 +60,7 @@ OPROS_LOAD_NUMBER(double)
 OPROS_LOAD_NUMBER(long double)
 #undef OPROS_LOAD_NUMBER
 
+/// A block of bytes. Its length is checked before that much is allocated.
 void binary_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
     expect(static_cast<char>(sizeof(long)));
@@ -72,6 +78,7 @@ iarchive& binary_iarchive::load_binary(char** p, long& size) {
 
 iarchive& binary_iarchive::load(std::string& value) {
     read_class_head("std::string");
+    // The length is there twice: once of the string, once of the block that holds it.
     unsigned long length = 0;
     load(length);
     get_blob(value);
@@ -90,7 +97,7 @@ iarchive& binary_iarchive::load(std::wstring& value) {
 }
 
 iarchive& binary_iarchive::read_class_head(const std::string& name) {
-    // The entries of a map are its keys and values, one after the other.
+    // A map's pairs have no head of their own in the format: keys and values follow each other.
     return name.rfind("std::pair<", 0) == 0 ? *this : read_container_name(name);
 }
 
@@ -108,6 +115,7 @@ std::size_t binary_iarchive::read_sequence_head() {
     return check_count(*m_is, static_cast<unsigned long>(count));
 }
 
+// Elements of an array of numbers have no code and size of their own, which the head gives for all of them.
 long binary_iarchive::read_array_head(long size, char code, char bytes) {
     expect(ARRAY_CODE);
     expect(static_cast<char>(sizeof size));

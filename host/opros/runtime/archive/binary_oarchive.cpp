@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+// Examples, numbers in hexadecimal:
+//   double 1.5           'd' 08  00 00 00 00 00 00 f8 3f
+//   class Point {x, y}   'T' 05 00 "Point"  x  y                  the members with their own codes
+//   int[2] {1, 2}        'A' 08 02 00 00 00 00 00 00 00  'I' 04  01 00 00 00  02 00 00 00
+//   "abc"                'T' 0b 00 "std::string"  'L' 08 <3>  'G' 08 <3> "abc"     <3>: 8 bytes
+//   vector<int> {7}      'T' 10 00 "std::vector<int>"  'I' 04 01 00 00 00  'I' 04 07 00 00 00
 #include <archive/opros_binary_oarchive.h>
 
 #include <cstdint>
 
 namespace opros::archive {
 
-// Little endian, as is every machine this is built for; the format has no other order.
+// The format (opros_binary_oarchive.h) is little endian; numbers are copied as they lie in memory.
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 
 template <typename T>
@@ -13,6 +19,7 @@ void binary_oarchive::put_bytes(T value) {
     m_os->write(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
+/// A number: its code, its size and its bytes; within an array of numbers its bytes only.
 template <typename T>
 oarchive& binary_oarchive::put(char code, T value) {
     if (!m_bare) {
@@ -52,12 +59,14 @@ oarchive& binary_oarchive::save_binary(const char* p, long size) {
     return *this;
 }
 
+// A class of two members: the length, and the characters as a block of bytes.
 oarchive& binary_oarchive::save(const std::string& value) {
     write_class_head("std::string");
     save(static_cast<unsigned long>(value.size()));
     return save_binary(value.data(), static_cast<long>(value.size()));
 }
 
+// The characters as they lie in memory, 4 bytes each on Linux: the length counts characters, not bytes.
 oarchive& binary_oarchive::save(const std::wstring& value) {
     write_class_head("std::wstring");
     save(static_cast<unsigned long>(value.size()));
@@ -66,11 +75,12 @@ oarchive& binary_oarchive::save(const std::wstring& value) {
 }
 
 oarchive& binary_oarchive::write_class_head(const std::string& name) {
-    // The entries of a map are its keys and values, one after the other.
+    // A map's pairs have no head of their own in the format: keys and values follow each other.
     return name.rfind("std::pair<", 0) == 0 ? *this : write_container_name(name);
 }
 
 oarchive& binary_oarchive::write_container_name(const std::string& name) {
+    // 16 bits of length: a longer name, of deeply nested templates, is cut to what they can say.
     m_os->put(CLASS_CODE);
     put_bytes(static_cast<std::uint16_t>(name.size()));
     m_os->write(name.data(), static_cast<std::streamsize>(static_cast<std::uint16_t>(name.size())));

@@ -11,7 +11,7 @@ std::size_t remaining_bytes(std::istream& in) {
     const auto here = in.tellg();
     in.seekg(0, std::ios::end);
     const auto end = in.tellg();
-    in.clear();
+    in.clear(); // a stream that cannot seek has failed now, and would refuse to be read
     in.seekg(here);
     return here < 0 || end < here ? 0 : static_cast<std::size_t>(end - here);
 }
@@ -21,6 +21,7 @@ std::size_t check_count(std::istream& in, unsigned long count) {
     return count;
 }
 
+// Users' save() and load() pass memory of their own, or ask for some, through the same function.
 void copy_to_caller(const std::string& bytes, char** p, long& size) {
     if (*p == nullptr)
         *p = new char[bytes.size()];
@@ -31,6 +32,7 @@ void copy_to_caller(const std::string& bytes, char** p, long& size) {
 }
 
 std::wstring bytes_to_wstring(const std::string& bytes, unsigned long length) {
+    // By division: length times the size of a character could overflow.
     if (bytes.size() / sizeof(wchar_t) != length || bytes.size() % sizeof(wchar_t) != 0)
         throw archive_format_exception();
     std::wstring text(length, L'\0');

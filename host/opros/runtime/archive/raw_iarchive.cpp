@@ -8,6 +8,9 @@
 
 namespace opros::archive {
 
+// The format is that of raw_oarchive.cpp. Nothing in it says what a value is: a wrong type is not noticed, only bytes
+// that end early or a count that is more than what is left.
+
 template <typename T>
 iarchive& raw_iarchive::get(T& value) {
     m_is->read(reinterpret_cast<char*>(&value), sizeof value);
@@ -16,6 +19,7 @@ iarchive& raw_iarchive::get(T& value) {
 }
 
 iarchive& raw_iarchive::load(bool& value) {
+    // Read as any byte first, since a bool with another value than 0 or 1 is undefined.
     char byte = 0;
     get(byte);
     value = byte != 0;
@@ -24,6 +28,7 @@ iarchive& raw_iarchive::load(bool& value) {
 iarchive& raw_iarchive::load(char& value) { return get(value); }
 
 iarchive& raw_iarchive::load(wchar_t& value) {
+    // The number of bytes in UTF-8, then these.
     char count = 0;
     get(count);
     if (count < 1 || count > 4) throw archive_format_exception();
@@ -50,6 +55,7 @@ OPROS_LOAD_NUMBER(double)
 OPROS_LOAD_NUMBER(long double)
 #undef OPROS_LOAD_NUMBER
 
+/// A block of bytes. Its length is checked before that much is allocated.
 void raw_iarchive::get_blob(std::string& bytes) {
     unsigned long count = 0;
     get(count);
@@ -83,6 +89,7 @@ iarchive& raw_iarchive::load(std::wstring& value) {
 }
 
 std::size_t raw_iarchive::read_sequence_head() {
+    // A negative count becomes a large one, which the check refuses.
     int count = 0;
     get(count);
     return check_count(*m_is, static_cast<unsigned long>(count));

@@ -12,8 +12,10 @@
 namespace opros::archive {
 namespace {
 
-constexpr std::size_t max_token_length = 4096; // the name of a type; numbers are much shorter
+/// Of a number or the name of a type. The bound ends a search for a ';' that is not there.
+constexpr std::size_t max_token_length = 4096;
 
+/// The whole text must be a number. Independent of the locale, which a component may have set.
 template <typename T>
 T from_decimal(const std::string& text) {
     std::istringstream in(text);
@@ -24,7 +26,8 @@ T from_decimal(const std::string& text) {
     return value;
 }
 
-/// Upstream writes the decimal value behind the bytes: it is not looked at.
+/// 'X' and two digits for each byte in the order of memory, which is little endian. Upstream's archive appends the
+/// decimal value, which is skipped here.
 template <typename T>
 T from_hexadecimal(const std::string& text) {
     if (text.size() < 1 + 2 * sizeof(T)) throw archive_format_exception();
@@ -47,6 +50,7 @@ void string_iarchive::expect(char code) {
     if (given != code) throw archive_type_exception();
 }
 
+/// The characters before `end`, which is taken as well.
 std::string string_iarchive::up_to(char end) {
     std::string text;
     for (char c = 0; text.size() <= max_token_length && m_is->get(c);) {
@@ -72,6 +76,8 @@ iarchive& string_iarchive::load(bool& value) {
     return *this;
 }
 
+// A character is written as itself, whatever it is: only the one behind it tells whether "X" is a character or the
+// beginning of its hexadecimal form.
 #define OPROS_LOAD_CHARACTER(type)                                                                           \
     iarchive& string_iarchive::load(type& value) {                                                           \
         expect(CHAR_CODE);                                                                                   \
@@ -89,7 +95,13 @@ OPROS_LOAD_CHARACTER(unsigned char)
 iarchive& string_iarchive::load(wchar_t& value) {
     expect(WCHAR_T_CODE);
     std::string bytes = up_to(';');
-    value = bytes.empty() ? (expect(';'), L';') : from_utf8(bytes);
+    // No byte before the ';': the character itself is one, and another one ends it.
+    if (bytes.empty()) {
+        expect(';');
+        value = L';';
+    } else {
+        value = from_utf8(bytes);
+    }
     return *this;
 }
 
@@ -147,7 +159,7 @@ iarchive& string_iarchive::read_class_head(const std::string& name) {
     if (is_pair_type(name)) return *this;
     expect(CLASS_CODE);
     expect('[');
-    // Names of types have no brackets but those of arrays, which are none that can be archived.
+    // The name ends at the first ']': names of types that can be archived contain none.
     if (up_to(']') != name) throw archive_type_exception();
     return *this;
 }
@@ -162,6 +174,8 @@ iarchive& string_iarchive::read_container_name(const std::string& name) {
     return read_class_head(name);
 }
 
+// A container's name comes before its sequence and adds a ';' behind it, which a bare sequence does not have: m_inside
+// remembers, for each sequence that is open, whether it had a name.
 std::size_t string_iarchive::read_sequence_head() {
     m_inside.push_back(m_named);
     m_named = false;

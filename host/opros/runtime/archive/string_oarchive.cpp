@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Examples:
+//   double 1.5           d1.5;                          in mode 1: dX000000000000f83f;
+//   class Point {x, y}   T[Point]d1;d2;;
+//   int[2] {1, 2}        A[2]I1;I2;;
+//   "abc"                T[std::string]L3;G[3]abc;;
+//   vector<int> {7}      T[std::vector<int>]I1;I7;;     the count, then the elements
 #include "host/opros/runtime/archive/pair_type.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
@@ -11,15 +17,16 @@
 namespace opros::archive {
 namespace {
 
+/// With as many digits as it takes to read the same value again, and independent of the locale.
 template <typename T>
 std::string in_decimal(T value) {
     std::ostringstream text;
     text.imbue(std::locale::classic());
-    text << std::setprecision(std::numeric_limits<T>::max_digits10)
-         << value; // so that it comes back as it was
+    text << std::setprecision(std::numeric_limits<T>::max_digits10) << value;
     return text.str();
 }
 
+/// 'X' and two digits for each byte in the order of memory: exact for floating point, too.
 template <typename T>
 std::string in_hexadecimal(const T& value) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
@@ -110,6 +117,8 @@ oarchive& string_oarchive::write_container_name(const std::string& name) {
     return write_class_head(name);
 }
 
+// A container's name adds a ';' behind its sequence, which a bare sequence does not have: m_inside remembers, for
+// each sequence that is open, whether it had a name.
 oarchive& string_oarchive::write_sequence_head(std::size_t count) {
     m_inside.push_back(m_named);
     m_named = false;

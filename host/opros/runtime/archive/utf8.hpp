@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+// UTF-8 (RFC 3629) of single characters, for the archives that write wchar_t so.
 #pragma once
 
 #include <string>
 
 namespace opros::archive {
 
-/// The character in UTF-8; throws archive_format_exception when it is none (above 0x10ffff).
+/// 1 to 4 bytes. Throws archive_format_exception for a value above 0x10ffff, which is no character.
 std::string to_utf8(wchar_t character);
-/// The one character that the bytes are; throws archive_format_exception otherwise.
+/// Throws archive_format_exception unless the bytes are exactly one character in its shortest form.
 wchar_t from_utf8(const std::string& bytes);
 
 } // namespace opros::archive

@@ -2,8 +2,9 @@
 #include <LifecycleInterface.h>
 
 namespace {
+/// Held during a transition and its callback. Recursive: a callback may ask for another transition.
 typedef std::lock_guard<std::recursive_mutex> Transition;
-}
+} // namespace
 
 LifecycleInterface::LifecycleInterface() : m_state(OPROS_CS_CREATED), m_error(OPROS_SUCCESS) {}
 LifecycleInterface::~LifecycleInterface() = default;
@@ -11,13 +12,15 @@ LifecycleInterface::~LifecycleInterface() = default;
 LifecycleState LifecycleInterface::getStatus() { return m_state.load(); }
 ReturnType LifecycleInterface::getErrorInfo() { return m_error.load(); }
 
+/// Keeps the code of a callback that has failed for getErrorInfo().
 bool LifecycleInterface::succeeded(ReturnType result) {
     if (result == OPROS_SUCCESS) return true;
     m_error = result;
     return false;
 }
 
-// The state may have become ERROR while the callback ran; then it stays so.
+/// Completes a transition, unless the state has changed while its callback ran: another thread may have put the
+/// component in ERROR with stopOnError(), and a late success must not hide that.
 ReturnType LifecycleInterface::enter(LifecycleState from, LifecycleState to) {
     return m_state.compare_exchange_strong(from, to) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
@@ -47,6 +50,7 @@ ReturnType LifecycleInterface::stop() {
     return result;
 }
 
+// From ERROR as well: what has been initialized must be able to release its device.
 ReturnType LifecycleInterface::destroy() {
     const Transition lock(m_transition);
     const LifecycleState before = m_state;
@@ -56,6 +60,7 @@ ReturnType LifecycleInterface::destroy() {
     return OPROS_SUCCESS;
 }
 
+// The three callbacks in a row, whatever the state, as LifecycleInterface.h defines it.
 ReturnType LifecycleInterface::reset() {
     const Transition lock(m_transition);
     if (!succeeded(onReset()) || !succeeded(onInitialize()) || !succeeded(onStart()))
@@ -64,6 +69,8 @@ ReturnType LifecycleInterface::reset() {
     return OPROS_SUCCESS;
 }
 
+// Without the lock: onStop(), which holds it, may wait for the thread that calls this. The exchange makes sure
+// that of several threads one calls onError().
 ReturnType LifecycleInterface::stopOnError() {
     if (m_state == OPROS_CS_ERROR) return OPROS_SUCCESS;
     if (enter(OPROS_CS_ACTIVE, OPROS_CS_ERROR) != OPROS_SUCCESS) return OPROS_PRECONDITION_NOT_MET;
@@ -71,6 +78,7 @@ ReturnType LifecycleInterface::stopOnError() {
 }
 
 ReturnType LifecycleInterface::fail() {
+    // A component in CREATED has nothing that onError() could switch off, and may not be prepared for it.
     const LifecycleState before = m_state.exchange(OPROS_CS_ERROR);
     if (before == OPROS_CS_ERROR || before == OPROS_CS_CREATED) return OPROS_SUCCESS;
     return succeeded(onError()) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;

@@ -8,9 +8,12 @@
 
 namespace {
 
+/// Tools look for the port under this name.
 constexpr const char* port_name = "opros.symbol";
 
-/// The provided port that shows exported variables: by name, their values encoded.
+/// The provided port that gives tools access to exported variables: their names, and their values encoded as text
+/// or binary. Variables are read and written in the thread of the call, without a lock: a tool may see a value
+/// that the component is changing. Method names are upstream's, "setSymbolvalue" included.
 class SymbolPort : public ProvidedServicePort {
   public:
     SymbolPort() {
@@ -26,7 +29,7 @@ class SymbolPort : public ProvidedServicePort {
 
     /// Takes the object.
     void addSymbol(std::string name, SymbolObject* object) { symbols_[name].reset(object); }
-    /// Any number may come from outside: there are two rules, and others change nothing.
+    /// An encoded call may carry any number for the enumeration: one that is neither rule is ignored.
     void setEncodingRule(SymbolEncodingRule rule) {
         if (rule == OPROS_SYMBOL_ENCODING_STR || rule == OPROS_SYMBOL_ENCODING_BIN) rule_ = rule;
     }
@@ -38,6 +41,7 @@ class SymbolPort : public ProvidedServicePort {
         return names;
     }
 
+    /// The encoded value; empty when there is no such symbol.
     std::string getSymbolValue(std::string name) {
         const auto found = symbols_.find(name);
         if (found == symbols_.end()) return "";
@@ -52,7 +56,7 @@ class SymbolPort : public ProvidedServicePort {
         return bytes.str();
     }
 
-    /// 0, or -1 when there is no such symbol.
+    /// 0, or -1 when there is no such symbol. Throws an archive exception when the value cannot be decoded.
     int setSymbolvalue(std::string name, std::string value) {
         const auto found = symbols_.find(name);
         if (found == symbols_.end()) return -1;

@@ -7,27 +7,33 @@
 
 namespace opros {
 
-/// The links of an output port: pushes go through them one after the other, under one lock.
+/// The connections of an output port (Link: IDataPortLink or IEventPortLink), which others own. [any-thread] all
+/// functions. One lock guards the list and each walk over it, so that after remove() no push is under way in the
+/// removed connection, and several threads that push at the same port deliver one after the other.
 template <class Link>
 class ConnectionList {
   public:
-    void add(Link* link) {
+    /// Does nothing for NULL, and for one that is in the list.
+    void add(Link* connection) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        if (link && std::find(connections_.begin(), connections_.end(), link) == connections_.end())
-            connections_.push_back(link);
+        if (connection &&
+            std::find(connections_.begin(), connections_.end(), connection) == connections_.end())
+            connections_.push_back(connection);
     }
-    void remove(Link* link) {
+    void remove(Link* connection) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        connections_.erase(std::remove(connections_.begin(), connections_.end(), link), connections_.end());
+        connections_.erase(std::remove(connections_.begin(), connections_.end(), connection),
+                           connections_.end());
     }
     void clear() {
         const std::lock_guard<std::mutex> lock(mutex_);
         connections_.clear();
     }
+    /// In the order in which they were added. `visit` must not change the list: the lock is not recursive.
     template <class Visit>
     void for_each(Visit visit) {
         const std::lock_guard<std::mutex> lock(mutex_);
-        for (Link* link : connections_) visit(*link);
+        for (Link* connection : connections_) visit(*connection);
     }
 
   private:

@@ -8,15 +8,17 @@ namespace opros {
 DataQueue::DataQueue(DataPortPolicy policy, std::size_t limit)
     : policy_(policy), slots_(policy == OPROS_LAST ? 1 : std::max<std::size_t>(limit, 1)) {}
 
+// Swaps the values over instead of copying them: they keep their storage.
 void DataQueue::grow() {
-    std::vector<opros_any> wider(slots_.size() * 2);
-    for (std::size_t i = 0; i < count_; ++i) wider[i].swap(slots_[index(i)]);
-    slots_.swap(wider);
+    std::vector<opros_any> larger(slots_.size() * 2);
+    for (std::size_t i = 0; i < count_; ++i) larger[i].swap(slots_[index(i)]);
+    slots_.swap(larger);
     first_ = 0;
 }
 
 opros_any& DataQueue::push() {
     if (count_ == slots_.size()) {
+        // With these two the oldest value gives way; with the others the consumer is owed every value.
         if (policy_ == OPROS_FIFO || policy_ == OPROS_LAST)
             pop();
         else
@@ -26,6 +28,7 @@ opros_any& DataQueue::push() {
 }
 
 void DataQueue::pop() {
+    // A stack loses its newest value, which is the last slot in use: counting it off is enough.
     if (policy_ != OPROS_LIFO) first_ = index(1);
     --count_;
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queue of an input data port.
 #pragma once
 
 #include <OPRoSTypes.h>
@@ -9,21 +8,27 @@
 
 namespace opros {
 
-/// A ring of values. The slots keep their values' storage, so that once warm, putting values in allocates
-/// nothing.
+/// The queue of an input data port: a ring of values under one of the four policies of OPRoS. The slots keep the
+/// storage of the values that were in them, so that storing a value of the usual size allocates nothing once
+/// each slot has been used. Not thread-safe: the port has the lock.
 class DataQueue {
   public:
+    /// `limit`: values that a FIFO holds, and with which the growing policies begin; 0 counts as 1. LAST has
+    /// one slot, whatever the limit.
     DataQueue(DataPortPolicy policy, std::size_t limit);
 
     std::size_t size() const { return count_; }
-    /// Whether values leave in the order in which they came, all of them while there is room.
+    /// Whether values leave in the order in which they were stored.
     bool keeps_order() const { return policy_ == OPROS_FIFO || policy_ == OPROS_UFIFO; }
-    /// Whether one more value would cost an older one that somebody still wants.
+    /// Whether the next push() drops a value that the consumer has not seen and would want. Never for LAST,
+    /// where the new value replaces the old one on purpose, nor for the policies that grow.
     bool full() const { return policy_ == OPROS_FIFO && count_ >= slots_.size(); }
-    /// Makes room as the policy says and returns the slot for the newest value, to be assigned to.
+    /// Makes room as the policy says, and returns the slot of the newest value for the caller to assign. It
+    /// still holds the value that was in it before.
     opros_any& push();
-    /// The value that is next by the policy; there must be one.
+    /// The value that the consumer gets next; there must be one.
     opros_any& front() { return slots_[next_index()]; }
+    /// Removes front(), but leaves its storage in the slot.
     void pop();
     void clear() { count_ = 0; }
 
@@ -34,7 +39,7 @@ class DataQueue {
 
     DataPortPolicy policy_;
     std::vector<opros_any> slots_;
-    std::size_t first_ = 0, count_ = 0;
+    std::size_t first_ = 0, count_ = 0; // slot of the oldest value; values in the queue
 };
 
 } // namespace opros

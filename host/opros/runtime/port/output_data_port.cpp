@@ -3,6 +3,7 @@
 
 #include <OutputDataPortInterface.h>
 
+// Named by the public header, which cannot show opros::ConnectionList.
 class OutputDataPortImpl : public opros::ConnectionList<IDataPortLink> {};
 
 OutputDataPortInterface::OutputDataPortInterface() : OutputDataPortInterface("") {}
@@ -10,6 +11,7 @@ OutputDataPortInterface::OutputDataPortInterface(const std::string& name)
     : DataPort(name), m_impl(new OutputDataPortImpl), m_arc(nullptr) {}
 OutputDataPortInterface::~OutputDataPortInterface() { delete m_impl; }
 
+// An output port has no queue: these two are part of the interface that both directions share.
 opros_any* OutputDataPortInterface::pop() { return nullptr; }
 opros_any* OutputDataPortInterface::peek() { return nullptr; }
 DataPortRole OutputDataPortInterface::getRole() { return OPROS_DATA_PORT_OUTPUT; }
@@ -18,6 +20,8 @@ void OutputDataPortInterface::addConnection(IDataPortLink* connection) { m_impl-
 void OutputDataPortInterface::removeConnection(IDataPortLink* connection) { m_impl->remove(connection); }
 void OutputDataPortInterface::clearConnection() { m_impl->clear(); }
 
+// To all connections, one after the other, in the caller's thread. What they return is dropped: a sender
+// does not depend on how its receivers fare.
 ReturnType OutputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     m_impl->for_each([&](IDataPortLink& link) { link.push(data); });

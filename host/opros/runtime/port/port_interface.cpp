@@ -3,6 +3,7 @@
 
 PortInterface::PortInterface() = default;
 
+// Data and event ports are members of the component and are not deleted here.
 PortInterface::~PortInterface() {
     for (auto& [name, port] : m_service) delete port;
 }
@@ -24,6 +25,7 @@ ReturnType PortInterface::addPort(const std::string& name, Port* port) {
     PortMap* ports = port ? portsOf(port->getType()) : nullptr;
     if (!ports) return OPROS_BAD_INPUT_PARAMETER;
     Port*& slot = (*ports)[name];
+    // A service port that is replaced is owned by this class; adding the same one again must not delete it.
     if (ports == &m_service && slot != port) delete slot;
     slot = port;
     return OPROS_SUCCESS;
@@ -42,6 +44,7 @@ void PortInterface::portReset() {
 
 std::vector<std::string> PortInterface::getPortNames(PortType type) const {
     std::vector<std::string> names;
+    // portsOf() is not const, as the public header declares it, but changes nothing.
     for (const auto& [name, port] : *const_cast<PortInterface*>(this)->portsOf(type)) names.push_back(name);
     return names;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of all ports that do not depend on their kind.
+// Port and the three base classes of ports: what does not depend on a port's direction or data type.
 #include <DataPort.h>
 #include <EventPort.h>
 #include <ServicePort.h>
@@ -9,6 +9,7 @@ Port::Port(const std::string& name, const PortType& type) : m_name(name), m_type
 Port::~Port() = default;
 std::string& Port::getName() { return m_name; }
 PortType Port::getType() { return m_type; }
+// The defaults of our additions: a port without a data type, and without a reason of its own for a refusal.
 opros_any Port::sample() const { return opros_any(); }
 std::string Port::typeError() const { return ""; }
 

@@ -7,10 +7,12 @@ Method::Method() = default;
 Method::Method(const std::string& name) : m_name(name) {}
 Method::~Method() = default;
 std::string& Method::getName() { return m_name; }
+// The defaults for methods that components derive themselves: their types are not known.
 bool Method::describe(opros::archive::iarchive&, opros::archive::iarchive&) { return false; }
 std::vector<const std::type_info*> Method::types() const { return {}; }
 
 std::string Method::signature() {
+    // Without the C++ types, what generated code has given: the result's name and the number of arguments.
     const auto known = types();
     if (known.empty()) return getReturnType() + " (" + std::to_string(getArity()) + " arguments)";
     std::string text = opros::readable_name(*known[0]) + " (";
@@ -29,6 +31,7 @@ ServicePortInterface::service_base::iterator ServicePortInterface::getEnd() { re
 
 ReturnType ServicePortInterface::addMethod(const std::string& name, Method* srv) {
     if (!srv) return OPROS_BAD_INPUT_PARAMETER;
+    // The port owns its methods: one that is replaced is deleted, unless it is the same one again.
     Method*& slot = m_methods[name];
     if (slot != srv) delete slot;
     slot = srv;
@@ -46,6 +49,7 @@ ProvidedServicePort::~ProvidedServicePort() = default;
 ServicePortRole ProvidedServicePort::getRole() { return OPROS_SERVICE_PORT_PROVIDED; }
 std::string ProvidedServicePort::bindMethod(Method*) { return ""; }
 
+// The cast is dynamic because users may add any Method to a provided port.
 ReturnType ProvidedServicePort::callService(std::string& name, opros::archive::iarchive& in,
                                             opros::archive::oarchive& out) {
     auto* method = dynamic_cast<ProvidedMethodInterface*>(getMethod(name));

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <PropertyInterface.h>
+
+PropertyInterface::PropertyInterface() = default;
+PropertyInterface::~PropertyInterface() = default;
+void PropertyInterface::setProperty(const std::string& name, const std::string& value) {
+    m_properties[name] = value;
+}
+// A reference for an absent name, too, as upstream's interface has it: to a member that is emptied each time, in
+// case a component has written to it. Two threads must not ask for absent properties at the same time.
+std::string& PropertyInterface::getProperty(const std::string& name) {
+    const auto found = m_properties.find(name);
+    if (found != m_properties.end()) return found->second;
+    m_absent.clear();
+    return m_absent;
+}
+std::map<std::string, std::string>& PropertyInterface::getPropertyMap() { return m_properties; }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/runtime/port/input_data_port_impl.hpp"
+
+#include <algorithm>
+
+namespace {
+
+/// Values that one poll takes from one source. The bound makes a poll end even when the other side writes as fast
+/// as this side reads.
+constexpr int max_values_per_poll = 4096;
+
+} // namespace
+
+InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit)
+    : port_(port), queue_(policy, limit) {}
+
+void InputDataPortImpl::push(const opros_any& value) {
+    {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        // A new slot gets an object that this port's code has created, then the copy is assigned to it: the
+        // given object may belong to a library that is unloaded before this port.
+        opros_any& slot = queue_.push();
+        if (slot.empty()) slot = port_.sample();
+        slot = value;
+        update_hints();
+    }
+    if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
+}
+
+opros_any* InputDataPortImpl::pop() {
+    if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (queue_.size() == 0 && consumer_waits_ && queue_.keeps_order()) return pop_from_source();
+    poll_sources();
+    consumer_waits_ = queue_.size() == 0;
+    if (consumer_waits_) {
+        allocate_spare();
+        return nullptr;
+    }
+    opros_any* value = give_out(queue_.front());
+    queue_.pop();
+    update_hints();
+    return value;
+}
+
+opros_any* InputDataPortImpl::peek() {
+    if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    poll_sources();
+    return queue_.size() == 0 ? nullptr : new opros_any(queue_.front());
+}
+
+std::size_t InputDataPortImpl::size() {
+    if (!may_have_values_.load(std::memory_order_acquire)) return 0;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    poll_sources();
+    return queue_.size();
+}
+
+void InputDataPortImpl::clear() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (DataPortSource* source : sources_)
+        for (int i = 0; i < max_values_per_poll && source->next(); ++i) source->done();
+    queue_.clear();
+    update_hints();
+}
+
+void InputDataPortImpl::add_source(DataPortSource* source) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sources_.push_back(source);
+    has_sources_ = true;
+    update_hints();
+}
+
+// The lock makes the caller wait for a poll that is using the source.
+void InputDataPortImpl::remove_source(DataPortSource* source) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
+    has_sources_ = !sources_.empty();
+    update_hints();
+}
+
+bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned int limit) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!queue_is_default_) return false;
+    queue_ = opros::DataQueue(policy, limit);
+    update_hints();
+    return true;
+}
+
+// A consumer that polls must not take the lock from those who push when there is nothing for it. Whether a
+// source has a value is not known here: with sources, there may always be one.
+void InputDataPortImpl::update_hints() {
+    may_have_values_.store(queue_.size() != 0 || !sources_.empty(), std::memory_order_release);
+}
+
+/// Moves what waits in the sources into the queue. A full FIFO leaves the rest there: it is the source that then
+/// decides what is dropped.
+void InputDataPortImpl::poll_sources() {
+    for (DataPortSource* source : sources_)
+        for (int i = 0; i < max_values_per_poll && !queue_.full(); ++i) {
+            const ReadResult result = read_one(*source);
+            if (result == ReadResult::no_value) break;
+            // Swapped, so that the storage of an older value is decoded into next.
+            if (result == ReadResult::value) queue_.push().swap(decoded_);
+        }
+}
+
+/// For a consumer that found nothing the last time, and so waits for the next value: it gets the first one,
+/// without a second look at a source that is most likely empty then (in shared memory, such a look costs as much
+/// as the value's own way). The others are moved into the queue by the next pop().
+opros_any* InputDataPortImpl::pop_from_source() {
+    for (DataPortSource* source : sources_)
+        for (int i = 0; i < max_values_per_poll; ++i) {
+            const ReadResult result = read_one(*source);
+            if (result == ReadResult::no_value) break;
+            if (result == ReadResult::undecodable) continue;
+            consumer_waits_ = false;
+            return give_out(decoded_);
+        }
+    allocate_spare();
+    return nullptr;
+}
+
+/// While there is nothing else to do: creates the object for the next value, with as much storage as the last one
+/// had. Not for a large value, whose copy would cost more than the allocation that it saves.
+void InputDataPortImpl::allocate_spare() {
+    if (!spare_ && !decoded_.empty() && !last_was_large_) spare_ = std::make_unique<opros_any>(decoded_);
+}
+
+/// An object with the value, for the consumer to delete. Without a spare a small value is copied, so that its
+/// storage stays here for the next one; a large one is moved out instead.
+opros_any* InputDataPortImpl::give_out(opros_any& value) {
+    if (!spare_ && !last_was_large_) return new opros_any(value);
+    if (!spare_) spare_ = std::make_unique<opros_any>();
+    spare_->swap(value); // the spare's storage takes the value's place
+    return spare_.release();
+}
+
+InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource& source) {
+    opros::archive::iarchive* archive = source.next();
+    if (!archive) return ReadResult::no_value;
+    ReadResult result = ReadResult::undecodable;
+    try {
+        if (decoded_.empty()) decoded_ = port_.sample();
+        decoded_.decode(*archive);
+        result = ReadResult::value;
+    } catch (const std::exception& error) {
+        source.undecodable(error.what());
+    } catch (...) {
+        // A user's load() may throw any type. The source needs its done() all the same, or it would offer this
+        // value for ever.
+        source.undecodable("an exception of unknown type");
+    }
+    last_was_large_ = source.large();
+    source.done();
+    return result;
+}

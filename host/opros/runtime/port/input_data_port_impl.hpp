@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/opros/runtime/port/data_queue.hpp"
+
+#include <InputDataPortInterface.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+/// What an InputDataPortInterface does: one queue, filled by pushes of any thread and by sources, which are
+/// polled when the consumer asks. [any-thread] all functions; one mutex guards all but the atomics.
+///
+/// The consumer's path is kept short, because a control loop polls its ports in every cycle: that an empty port
+/// has no sources either is seen without the lock, and a consumer that keeps up with its source gets the value
+/// without a stop in the queue (FIFO and UFIFO).
+class InputDataPortImpl {
+  public:
+    InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit);
+
+    /// Stores a copy and calls the listener, without the lock.
+    void push(const opros_any& value);
+    /// The consumer gets the next value and deletes it; NULL when there is none.
+    opros_any* pop();
+    /// A copy of the next value, or NULL.
+    opros_any* peek();
+    std::size_t size();
+    /// Drops all values, those that wait in the sources included.
+    void clear();
+
+    /// The source must stay until remove_source() has returned.
+    void add_source(DataPortSource* source);
+    void remove_source(DataPortSource* source);
+    bool has_sources() const { return has_sources_.load(std::memory_order_acquire); }
+    void set_listener(DataPortListener* listener) { listener_.store(listener, std::memory_order_release); }
+
+    /// Before the port is in use: its constructor was given no queue.
+    void mark_queue_as_default() { queue_is_default_ = true; }
+    /// Replaces a queue marked so and empties the port; false otherwise.
+    bool replace_default_queue(DataPortPolicy policy, unsigned int limit);
+
+  private:
+    enum class ReadResult { no_value, undecodable, value };
+
+    // All with mutex_ held.
+    void update_hints();
+    void poll_sources();
+    ReadResult read_one(DataPortSource& source);
+    opros_any* pop_from_source();
+    opros_any* give_out(opros_any& value);
+    void allocate_spare();
+
+    InputDataPortInterface& port_;
+    std::mutex mutex_;
+    opros::DataQueue queue_;
+    std::vector<DataPortSource*> sources_;
+    opros_any decoded_; // where a source's value is decoded: a broken one must not harm the queue
+    std::unique_ptr<opros_any> spare_; // the object for the next value that is given out
+    bool consumer_waits_ = false;      // the last pop() has found nothing
+    bool last_was_large_ = false;      // DataPortSource::large() of the last value
+    bool queue_is_default_ = false;
+    // Both change with the lock held, and are read without it.
+    std::atomic<bool> may_have_values_{false}, has_sources_{false};
+    std::atomic<DataPortListener*> listener_{nullptr};
+};
