@@ -9,6 +9,7 @@
 /// A method was called with another number of arguments than it has.
 class ArgumentNumberException : public std::exception {
   public:
+    /// `arity`: the number of arguments that the method has. The line of upstream's constructor is not used.
     ArgumentNumberException(int /*line*/, int arity) {
         std::ostringstream text;
         text << "function requires " << arity << " arguments";

@@ -5,9 +5,11 @@
 #include <exception>
 #include <iostream>
 
+/// What opros_assert() throws.
 class AssertException : public std::exception {
   public:
     virtual const char* what() const noexcept { return "assertion failed"; }
+    /// Writes what() to standard error.
     void message() const { std::cerr << what() << std::endl; }
 };
 

@@ -3,10 +3,12 @@
 #ifndef DATAPORTLISTENER_H_
 #define DATAPORTLISTENER_H_
 
-/// Is told of each value that comes into an input data port, in the thread that pushes it; must not block.
+/// Notified of each value that is pushed into an input data port, in the thread that pushes it, after the value is in
+/// the queue. Values that wait in a DataPortSource are not notified.
 class DataPortListener {
   public:
     virtual ~DataPortListener() {}
+    /// [any-thread] Must not block, and must not throw.
     virtual void arrived() = 0;
 };
 

@@ -7,18 +7,20 @@
 
 #include <string>
 
-/// Values that wait outside the component until its input port is asked for one: the consumer polls the source
-/// itself, no thread stands between. Called under the port's lock by whoever polls the port; must not block.
+/// Values that wait outside the component, in shared memory for example, until the consumer asks the input port for
+/// one: no thread has to move them. The port calls these functions under its lock, in the consumer's thread; they
+/// must not block, and must not use the port.
 class DataPortSource {
   public:
     virtual ~DataPortSource() {}
-    /// An archive placed on the oldest unread value, valid until done(); NULL when there is none.
+    /// An archive that reads the oldest value not yet taken, valid until done(); NULL when there is none.
     virtual opros::archive::iarchive* next() = 0;
-    /// The value of the last next() has been read, or given up.
+    /// The value of the last next() has been read or dropped. Each next() that gave an archive is followed by one.
     virtual void done() = 0;
-    /// Whether the value of the last next() was so long that the port should not copy what it decoded.
+    /// Whether the value of the last next() is so large that a copy of it costs more than an allocation: the port
+    /// then hands out the decoded object itself.
     virtual bool large() const { return false; }
-    /// Comes before done() when the value could not be decoded and is dropped.
+    /// Called before done() when the value could not be decoded and is dropped; `why` is the exception's text.
     virtual void undecodable(const std::string& /*why*/) {}
 };
 

@@ -12,17 +12,22 @@
 #include <memory>
 #include <string>
 
+/// Takes the events of one input event port, in place of the component's onEvent() and in the same thread. Made with
+/// make_EventCallBack() or SET_EVENT_CALLBACK, and given to InputEventPort::setOwner(), which owns it.
 class EventCallBack {
   public:
     virtual ~EventCallBack() {}
+    /// Decodes an event and handles it. Throws what the archive throws.
     virtual ReturnType onEvent(opros::archive::iarchive& in) = 0;
+    /// The event is of the port's type and lives until the call returns.
     virtual ReturnType onEvent(Event* p) = 0;
 };
 
 namespace opros {
 namespace detail {
 
-// The four forms a handler may have.
+// The four forms that a handler may have: f(Event*), f(EventData<T>*), f(id, content), f(content). The last two are
+// not called for an event without a content.
 template <typename T, typename Call>
 void handle(Event* event, Call call, void (*)(Event*)) {
     call(event);
@@ -41,11 +46,13 @@ void handle(Event* event, Call call, void (*)(const T&)) {
     if (const T* content = static_cast<EventData<T>*>(event)->getContentData()) call(*content);
 }
 
+/// What event_codec::push() takes for a port: hands the decoded event to the callback.
 struct event_relay {
     EventCallBack& callback;
     ReturnType push(Event* event) { return callback.onEvent(event); }
 };
 
+/// For ports with content of type T.
 template <typename T>
 class typed_callback : public EventCallBack {
   public:
@@ -56,6 +63,7 @@ class typed_callback : public EventCallBack {
     virtual ReturnType onEvent(Event* p) = 0;
 };
 
+/// A member function of an object, which must outlive the port.
 template <typename T, typename C, typename... P>
 class member_callback : public typed_callback<T> {
   public:
@@ -92,6 +100,7 @@ class function_callback : public typed_callback<T> {
 } // namespace detail
 } // namespace opros
 
+/// A new callback that calls the member function on the object, or the function. T is the port's type of content.
 template <typename T, typename C, typename... P>
 EventCallBack* make_EventCallBack(void (C::*function)(P...), C* object) {
     return new opros::detail::member_callback<T, C, P...>(function, object);
@@ -134,6 +143,7 @@ class EventCallBackMethod<T, void> : public opros::detail::owned_callback<T> {
         : opros::detail::owned_callback<T>(make_EventCallBack<T>(function)) {}
 };
 
+/// Makes a callback and gives it to the port; a callback that was there is deleted. Not while events arrive.
 template <typename T, int n, typename C, typename D, typename... P>
 void setEventCallBack(InputEventPort<T, n>& port, void (C::*function)(P...), D* object) {
     port.setOwner(make_EventCallBack<T, C, P...>(function, object));
@@ -143,6 +153,7 @@ void setEventCallBack(InputEventPort<T, n>& port, void (*function)(P...)) {
     port.setOwner(make_EventCallBack<T, P...>(function));
 }
 
+// Upstream's names for the above.
 #define MakeEventCallBackClassFunction(func, classPtr, contentType)                                          \
     make_EventCallBack<contentType>(func, classPtr)
 #define MakeEventCallBackFunction(func, contentType) make_EventCallBack<contentType>(func)

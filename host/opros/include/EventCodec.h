@@ -9,14 +9,17 @@
 namespace opros {
 namespace detail {
 
+/// Encodes and decodes events whose content is a T.
 template <typename T, bool serializable = archive::is_serializable<T>::value>
 struct event_codec {
+    /// Decodes an event and pushes it into the port. Throws what the archive throws.
     template <typename Port>
     static ReturnType push(Port& port, archive::iarchive& in) {
         EventData<T> event;
         in >> event;
         return port.push(&event);
     }
+    /// The event must be an EventData<T>.
     static ReturnType marshal(ArchiveFactory& factory, Event* event, std::string& bytes) {
         std::stringstream stream;
         archive::oarchive* archive = factory.getOutputArchive(&stream);
@@ -26,6 +29,7 @@ struct event_codec {
         return OPROS_SUCCESS;
     }
 };
+/// A content that cannot be archived: events stay inside this host.
 template <typename T>
 struct event_codec<T, false> {
     template <typename Port>
@@ -35,6 +39,7 @@ struct event_codec<T, false> {
     static ReturnType marshal(ArchiveFactory&, Event*, std::string&) { return OPROS_UNSUPPORTED_METHOD; }
 };
 
+/// What pushEvent() of a port does.
 template <typename Port>
 ReturnType push_encoded_event(Port& port, ArchiveFactory* factory, unsigned char* data, int size) {
     if (!factory) return OPROS_UNSUPPORTED_METHOD;

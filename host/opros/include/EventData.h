@@ -7,7 +7,7 @@
 #include <cstring>
 #include <ostream>
 
-/// An event with a content of one type.
+/// An event with a content of one type: what typed event ports send.
 template <typename dataType>
 class EventData : public Event {
   public:
@@ -15,6 +15,7 @@ class EventData : public Event {
     /// NULL when no content has been set.
     virtual dataType* getContentData() { return ANY_CASTING(dataType, &m_content); }
     virtual const dataType* getContentData() const { return ANY_CASTING(dataType, &m_content); }
+    /// Copies the content.
     virtual ReturnType setContentData(const dataType& data) {
         opros_any content = data;
         return setContent(content);
@@ -27,6 +28,7 @@ class EventData : public Event {
     }
 };
 
+// On an archive an event is its four names, whether it has a content, and the content.
 template <class T, typename = opros::archive::if_serializable<T>>
 void save_this(opros::archive::oarchive& ar, EventData<T>& t) {
     ar << t.getId() << t.getTopic() << t.getComponentId() << t.getPortId();

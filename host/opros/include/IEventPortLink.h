@@ -6,10 +6,12 @@
 #include <EventPort.h>
 #include <RemoteEventPort.h>
 
-/// From one output event port to any number of input event ports: made by the host.
+/// A connection from an output event port to input event ports, made by the host: components do not call it. A
+/// function that an implementation does not need returns OPROS_UNSUPPORTED_METHOD.
 class IEventPortLink {
   public:
     virtual ~IEventPortLink() {}
+    /// [any-thread] Delivers a clone; OPROS_OUT_OF_RESOURCES: too many wait at the receiver, it is lost.
     virtual ReturnType push(Event* data) = 0;
     virtual ReturnType setSource(EventPort* src) = 0;
     virtual ReturnType addDestination(EventPort* dest) = 0;

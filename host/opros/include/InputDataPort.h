@@ -6,6 +6,8 @@
 
 #include <typeinfo>
 
+/// The input data port of a component: a member, added with addPort(), from whose queue the component takes values in
+/// its cycle. Without a policy and a limit it is a FIFO of 15, which a profile may replace.
 template <typename dataType>
 class InputDataPort : public InputDataPortInterface {
   public:
@@ -16,7 +18,7 @@ class InputDataPort : public InputDataPortInterface {
     InputDataPort(const std::string& name, DataPortPolicy data_policy, unsigned int queue_limit)
         : InputDataPortInterface(name, data_policy, queue_limit) {}
 
-    /// NULL when the data are of another type.
+    /// The value within an opros_any that pop() or peek() has given. NULL when it is of another type.
     dataType* getContentPointer(opros_any& data) { return ANY_CASTING(dataType, &data); }
     /// Throws std::bad_cast when the data are of another type.
     dataType getContent(opros_any& data) {
@@ -26,10 +28,13 @@ class InputDataPort : public InputDataPortInterface {
     }
 
     virtual ReturnType push(opros_any& data) { return push_data(data); }
+    /// [any-thread] Puts a copy of the value into the queue.
     virtual ReturnType push(dataType& data) {
         opros_any_view::of<dataType> view(data);
         return push(static_cast<opros_any&>(view));
     }
+    /// Decodes a value into the queue. OPROS_UNSUPPORTED_METHOD: the type cannot be archived. Throws what the
+    /// archive throws.
     virtual ReturnType push(opros::archive::iarchive& in) {
         opros_any value = sample();
         if (!value.serializable()) return OPROS_UNSUPPORTED_METHOD;

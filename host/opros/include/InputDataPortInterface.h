@@ -9,7 +9,8 @@
 
 class InputDataPortImpl;
 
-/// The queue of an input data port. Any thread may push, pop, peek and ask.
+/// An input data port and its queue, of whatever type. [any-thread] all functions, but setQueue(), addSource() and the
+/// setters belong before the component runs. A consumer polls: pop() returns at once.
 class InputDataPortInterface : public DataPort {
   public:
     InputDataPortInterface();
@@ -21,8 +22,11 @@ class InputDataPortInterface : public DataPort {
     virtual DataPortRole getRole();
     virtual opros_any* peek();
     virtual opros_any* pop();
+    /// The number of values that pop() could take now.
     virtual int getSize();
+    /// For pushData(); must outlive the port. NULL: pushData() is not supported.
     virtual void setArchiveFactory(ArchiveFactory* darc);
+    /// Drops all values, also those that wait in sources. Called when the component stops.
     virtual void reset();
 
     /// Every pop(), peek() and getSize() looks at the sources too, under the port's queue policy: with FIFO as many
@@ -46,6 +50,7 @@ class InputDataPortInterface : public DataPort {
     virtual bool checkType(DataPort* dst) = 0;
 
   protected:
+    /// What push() of a derived port does: checks the type, stores a copy, notifies the listener.
     virtual ReturnType push_data(opros_any& data);
 
     InputDataPortImpl* m_impl;

@@ -7,6 +7,9 @@
 #include <EventData.h>
 #include <InputEventPortInterface.h>
 
+/// The input event port of a component, for events whose content is a dataType. The component calls setOwner(this),
+/// or sets a callback (EventCallBack.h), and adds the port. The second argument is upstream's for other kinds of
+/// event sources: there are none here.
 template <typename dataType, int ModType = EVENT_OPROS>
 class InputEventPort {};
 
@@ -25,6 +28,7 @@ class InputEventPort<dataType, EVENT_OPROS> : public InputEventPortInterface {
         return data && data->checkContentType(content);
     }
     virtual ReturnType push(Event* data) { return data ? push_event(data) : OPROS_BAD_INPUT_PARAMETER; }
+    /// push() of an event that is decoded from the archive. Throws what the archive throws.
     virtual ReturnType push(opros::archive::iarchive& in) {
         return opros::detail::event_codec<dataType>::push(*this, in);
     }

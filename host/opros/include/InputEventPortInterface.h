@@ -8,7 +8,9 @@
 
 class EventCallBack;
 
-/// Hands each event to its owner: a callback if there is one, else a component. No queue.
+/// Hands each event to its owner, in the thread that pushes it: to a callback if there is one, else to a component's
+/// onEvent(). It has no queue; the host delivers the events of other components from a queue of the receiving
+/// component. The owner and topic belong before events arrive.
 class InputEventPortInterface : public EventPort {
   public:
     InputEventPortInterface();
@@ -16,6 +18,7 @@ class InputEventPortInterface : public EventPort {
     virtual ~InputEventPortInterface();
 
     virtual EventPortRole getRole();
+    /// The component whose onEvent() is called; it must outlive the port, of which it usually is the owner in C++, too.
     virtual void setOwner(Component* owner);
     /// The port deletes the callback.
     virtual void setOwner(EventCallBack* owner);
@@ -30,6 +33,7 @@ class InputEventPortInterface : public EventPort {
     virtual ReturnType pushEvent(unsigned char* data, int size) = 0;
 
   protected:
+    /// What push() of a derived port does. OPROS_CALLER_ERROR: the port has no owner.
     virtual ReturnType push_event(Event* data);
 
     ArchiveFactory* m_arc;

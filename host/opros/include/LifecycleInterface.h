@@ -14,6 +14,9 @@
 #include <atomic>
 #include <mutex>
 
+
+/// The transitions are called by the host, and may be called by the component itself and by tools: [any-thread], one
+/// at a time, each with its callback in the calling thread. What a callback throws passes through.
 class LifecycleInterface {
   public:
     LifecycleInterface();
@@ -24,16 +27,17 @@ class LifecycleInterface {
     virtual ReturnType stop();
     virtual ReturnType destroy();
     virtual ReturnType reset();
-    /// [any-thread] The component is in ERROR when this returns, whatever onError() makes of it.
+    /// An ACTIVE component is in ERROR when this returns, even when onError() fails; in any other state but ERROR it
+    /// is OPROS_PRECONDITION_NOT_MET. Does not wait for a transition that is under way.
     virtual ReturnType stopOnError();
     virtual ReturnType recover();
-    /// For the host: ERROR, whatever the state, and onError(), unless there is nothing to stop yet (CREATED): what
-    /// cannot initialize or start takes no part (ours).
+    /// For the host, when the component cannot initialize or start: ERROR from any state, with onError() unless the
+    /// state was CREATED, in which there is nothing to switch off (ours).
     ReturnType fail();
 
-    /// [any-thread]
+    /// The state when this was called; another thread may be changing it.
     virtual LifecycleState getStatus();
-    /// What the last callback that failed has returned. [any-thread]
+    /// The return code of the last callback that has failed; OPROS_SUCCESS when none has.
     virtual ReturnType getErrorInfo();
 
   protected:
@@ -44,7 +48,7 @@ class LifecycleInterface {
     virtual ReturnType onReset() = 0;
     virtual ReturnType onError() = 0;
     virtual ReturnType onRecover() = 0;
-    /// After a successful stop: what waits in the ports is of no use any more.
+    /// Called after a successful stop, when values that wait in the ports are out of date.
     virtual void afterStop() {}
 
   private:

@@ -13,15 +13,19 @@
 #define METHOD_BLOCKING 1
 #define METHOD_NONBLOCKING 2
 
-/// A method of a service port.
+/// A method of a service port, provided or required, which owns it. Its name is the same on both sides.
 class Method {
   public:
     Method();
     explicit Method(const std::string& name);
     virtual ~Method();
     virtual std::string& getName();
+    /// The result's type by its name on ports; "void" for none.
     virtual std::string& getReturnType() = 0;
+    /// The number of arguments.
     virtual int getArity() = 0;
+    /// METHOD_BLOCKING or METHOD_NONBLOCKING. The required side's counts: a non-blocking call of a method without a
+    /// result returns at once, and is made by the provider's own thread for events and such calls.
     virtual int getCallType() = 0;
 
     /// Loads one default-constructed value of each argument type, in order, from the first archive, and one of the

@@ -5,7 +5,9 @@
 #include <exception>
 #include <string>
 
-/// A service call could not be made: no peer, wrong types, or the connection has failed.
+/// A service call could not be made: the method is not connected, the arguments have other types, the connection has
+/// failed, or too many calls wait. A callback may let it pass through: in onExecute and onUpdated it is logged and the
+/// component stays ACTIVE.
 class MethodInvokeException : public std::exception {
   public:
     explicit MethodInvokeException(const std::string& message) : m_message(message) {}

@@ -14,9 +14,11 @@
 namespace opros {
 namespace detail {
 
+/// T without reference and const.
 template <typename T>
 using bare = typename std::remove_cv<typename std::remove_reference<T>::type>::type;
 
+// Whether all of the conditions hold: C++14 has no fold expressions.
 template <bool...>
 struct bools {};
 template <bool... all>
@@ -29,12 +31,14 @@ struct can_cross : std::integral_constant<bool, archive::is_serializable<T>::val
 template <>
 struct can_cross<void> : std::true_type {};
 
+/// What is known of a method R(P...).
 template <typename R, typename... P>
 struct method_types {
     typedef std::tuple<bare<P>...> arguments;
     static const bool can_cross =
         all_true<detail::can_cross<bare<R>>::value, detail::can_cross<bare<P>>::value...>::value;
 
+    /// The result, then the arguments.
     static std::vector<const std::type_info*> list() { return {&typeid(R), &typeid(bare<P>)...}; }
 
     /// Whether a call was made with exactly these argument types.
@@ -47,6 +51,8 @@ struct method_types {
     }
 };
 
+// loader reads one value and drops it; describer does so for each type of a method: an archive that records what it
+// is asked for learns the signature.
 template <typename R, bool crosses>
 struct loader {
     static void load(archive::iarchive& in) {

@@ -10,6 +10,7 @@
 #include <typeinfo>
 #include <utility>
 
+/// Holds a copy of one value of any copyable type, or nothing. A value like any other: not thread-safe.
 class opros_any {
   public:
     /// What an any holds, and all that can be done with it without knowing its type.
@@ -18,8 +19,11 @@ class opros_any {
         virtual ~holder_base() {}
         virtual const std::type_info& rtti() const = 0;
         virtual const std::string type() const = 0;
+        /// The value itself.
         virtual const void* address() const = 0;
+        /// A new holder with a copy of the value.
         virtual holder_base* clone() const = 0;
+        /// Assigns the other's value to this one; false when the types differ.
         virtual bool assign(const holder_base& other) = 0;
         virtual bool serializable() const = 0;
         virtual void encode(opros::archive::oarchive& ar) const = 0;
@@ -32,6 +36,7 @@ class opros_any {
     opros_any(const opros_any& other) : content(other.content ? other.content->clone() : 0) {}
     virtual ~opros_any() { delete content; }
 
+    /// Exchanges the values without copying them.
     opros_any& swap(opros_any& other) {
         std::swap(content, other.content);
         return *this;
@@ -74,6 +79,7 @@ class opros_any {
   protected:
     template <typename dataType>
     class holder;
+    /// Takes ownership of the holder.
     explicit opros_any(holder_base* taken, int) : content(taken) {}
     holder_base* content;
 
@@ -133,7 +139,8 @@ class opros_any::holder : public opros::detail::typed_holder<dataType> {
     dataType m_value;
 };
 
-/// An any that refers to a value of the caller's for the time of one call: pushing costs no copy and no allocation.
+/// An opros_any that refers to a value of the caller's for the time of one call, so that a push needs neither a copy
+/// nor an allocation. Copies of it are ordinary ones, with a value of their own.
 class opros_any_view {
   public:
     template <typename dataType>
@@ -160,6 +167,7 @@ class opros_any_view {
     };
 };
 
+/// The value without a check: the operand must hold a dataType.
 template <typename dataType>
 dataType* unsafe_opros_any_cast(opros_any* operand) {
     return static_cast<dataType*>(const_cast<void*>(operand->content->address()));
@@ -185,6 +193,7 @@ dataType opros_any_cast(opros_any& operand) {
     return *value;
 }
 
+// Upstream's names for the casts.
 #define SAFE_CASTING(a, b) (static_cast<a>(b))
 #define ANY_CASTING(a, b) (opros_any_cast<a>(b))
 #define UNSAFE_ANY_CASTING(a, b) (unsafe_opros_any_cast<a>(b))

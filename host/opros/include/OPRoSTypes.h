@@ -16,8 +16,8 @@
 
 typedef enum { OPROS_MT_PROVIDED, OPROS_MT_REQUIRED, OPROS_MT_REMOTE } MethodType;
 typedef enum { OPROS_SERVICE, OPROS_EVENT, OPROS_DATA, OPROS_REMOTE_DATA } PortType;
-/// What an input data port does when it is full: FIFO drops the oldest, LAST keeps the newest only, LIFO hands out
-/// the newest first, UFIFO grows.
+/// The order in which an input data port gives out its values, and what it does when its queue is full. FIFO: oldest
+/// first, drops the oldest; LAST: keeps the newest only; LIFO: newest first, grows; UFIFO: oldest first, grows.
 typedef enum { OPROS_FIFO, OPROS_LIFO, OPROS_UFIFO, OPROS_LAST } DataPortPolicy;
 typedef enum {
     OPROS_CS_CREATED,
@@ -65,6 +65,7 @@ class opros_params : public opros_any {
     }
 };
 
+// The casts of OPRoSAny.h, for opros_params: NULL or std::bad_cast for another type, no check with the last one.
 template <typename dataType>
 dataType* opros_params_cast(opros_params* operand) {
     return opros_any_cast<dataType>(static_cast<opros_any*>(operand));

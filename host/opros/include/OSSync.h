@@ -4,10 +4,11 @@
 
 #include <OSSetting.h>
 
+/// What locks have in common.
 class OSSync {
   public:
     virtual ~OSSync() {}
-    /// Waits at most this many milliseconds; 0: without bound.
+    /// Waits at most this many milliseconds; 0: without bound. False when it did not get the lock.
     virtual bool lock(unsigned long ms = 0) = 0;
     virtual bool tryLock() = 0;
     virtual bool unlock() = 0;

@@ -4,6 +4,8 @@
 
 #include <OutputDataPortInterface.h>
 
+/// The output data port of a component: a member, added with addPort(). [any-thread] push() delivers a copy to each
+/// connected input port before it returns, and never waits for a consumer.
 template <typename dataType>
 class OutputDataPort : public OutputDataPortInterface {
   public:
@@ -11,10 +13,13 @@ class OutputDataPort : public OutputDataPortInterface {
     OutputDataPort(const std::string& name) : OutputDataPortInterface(name) {}
 
     virtual ReturnType push(opros_any& data) { return push_data(data); }
+    /// The value stays the caller's; no copy is made on the way to the receivers' queues.
     virtual ReturnType push(const dataType& data) {
         opros_any_view::of<dataType> view(data);
         return push(static_cast<opros_any&>(view));
     }
+    /// Decodes a value and sends it. OPROS_UNSUPPORTED_METHOD: the type cannot be archived. Throws what the archive
+    /// throws.
     virtual ReturnType push(opros::archive::iarchive& in) {
         opros_any value = sample();
         if (!value.serializable()) return OPROS_UNSUPPORTED_METHOD;

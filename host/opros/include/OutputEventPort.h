@@ -6,6 +6,9 @@
 #include <EventData.h>
 #include <OutputEventPortInterface.h>
 
+/// The output event port of a component, for events whose content is a dataType: a member, added with addPort().
+/// [any-thread] push() returns at once; receivers handle their copies in their own threads. The second argument is
+/// upstream's for other kinds of event sources: there are none here.
 template <typename dataType, int ModType = EVENT_OPROS>
 class OutputEventPort {};
 
@@ -23,12 +26,14 @@ class OutputEventPort<dataType, EVENT_OPROS> : public OutputEventPortInterface {
         opros_any content = sample();
         return data && data->checkContentType(content);
     }
+    /// Sends an event with this content and the id "event".
     virtual ReturnType push(const dataType& data) {
         EventData<dataType> event;
         event.setContentData(data);
         return push_event(&event);
     }
     virtual ReturnType push(Event* data) { return data ? push_event(data) : OPROS_BAD_INPUT_PARAMETER; }
+    /// Sends an event that is decoded from the archive. Throws what the archive throws.
     virtual ReturnType push(opros::archive::iarchive& in) {
         return opros::detail::event_codec<dataType>::push(*this, in);
     }

@@ -6,6 +6,7 @@
 
 #include <string>
 
+/// What all ports have in common. The name that counts in profiles is the one given to addPort(), not getName().
 class Port {
   public:
     Port();
@@ -13,6 +14,7 @@ class Port {
     virtual ~Port();
     virtual std::string& getName();
     virtual PortType getType();
+    /// Drops what the port has stored. Called when the component stops.
     virtual void reset() = 0;
 
     /// A default-constructed value of the port's data type; empty when it has none or does not know (ours).

@@ -7,13 +7,15 @@
 #include <map>
 #include <string>
 
-/// A component's properties, as its profile gives them: all are strings.
+/// A component's properties: names and values, all strings. The host sets them after the constructor and before
+/// onInitialize(): those of the component profile, then those of the application, which override them. Not
+/// thread-safe.
 class PropertyInterface {
   public:
     PropertyInterface();
     virtual ~PropertyInterface();
     virtual void setProperty(const std::string& name, const std::string& value);
-    /// The property's value; an empty string when there is none of this name.
+    /// The value, which may be changed through the reference; an empty string when there is none of this name.
     virtual std::string& getProperty(const std::string& name);
     virtual std::map<std::string, std::string>& getPropertyMap();
 

@@ -72,12 +72,14 @@ class bound_method : public ProvidedMethod<R> {
   private:
     typedef method_types<R, P...> traits;
 
+    /// `values` are the addresses of the arguments, whose types have been checked.
     template <std::size_t... I>
     R apply(const void* const* values, std::index_sequence<I...>) {
         static_cast<void>(values);
         return m_function(argument<P>(values[I]).get()...);
     }
 
+    // An argument or result that cannot be archived.
     ReturnType call_encoded(archive::iarchive&, archive::oarchive&, std::false_type) {
         return OPROS_UNSUPPORTED_METHOD;
     }
@@ -127,6 +129,7 @@ class bound_method : public ProvidedMethod<R> {
     Function m_function;
 };
 
+// The functions that a bound_method calls.
 template <typename R, typename C, typename Pointer, typename... P>
 struct member_call {
     Pointer function;
@@ -142,6 +145,8 @@ struct free_call {
 } // namespace detail
 } // namespace opros
 
+/// A new method, for ServicePortInterface::addMethod(), that calls the member function on the object, which must
+/// outlive it, or a function. The call type of a provided method has no effect: that of the required one counts.
 template <typename R, typename C, typename D, typename... P>
 Method* makeProvidedMethod(R (C::*function)(P...), D* object, const char* name,
                            const int& callType = METHOD_BLOCKING) {

@@ -4,6 +4,8 @@
 
 #include <ServicePortInterface.h>
 
+/// The side of a service that has the methods. Generated code derives from it and adds them in its constructor. Calls
+/// come in the threads of the callers, several at a time.
 class ProvidedServicePort : public ServicePortInterface {
   public:
     ProvidedServicePort();
@@ -18,7 +20,8 @@ class ProvidedServicePort : public ServicePortInterface {
     /// The same with values. OPROS_BAD_INPUT_PARAMETER: not the method's number or types of arguments.
     virtual ReturnType callService(std::string& name, std::vector<opros_params>& params,
                                    opros_params& result);
-    /// Dynamic ports only: at connection, for each method of the required port. A text is a refusal (ours).
+    /// Dynamic ports only: called at connection for each method of the required port. Returns why it is refused, or an
+    /// empty text (ours).
     virtual std::string bindMethod(Method* required);
 };
 

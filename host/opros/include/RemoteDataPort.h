@@ -4,6 +4,7 @@
 
 #include <ReturnType.h>
 
+/// An input data port of another node, in upstream's own distribution, which this host does not have.
 class RemoteDataPort {
   public:
     virtual ~RemoteDataPort() {}

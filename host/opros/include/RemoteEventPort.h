@@ -4,6 +4,7 @@
 
 #include <ReturnType.h>
 
+/// An input event port of another node, in upstream's own distribution, which this host does not have.
 class RemoteEventPort {
   public:
     virtual ~RemoteEventPort() {}

@@ -10,6 +10,8 @@
 #include <ProvidedMethod.h>
 #include <RequiredMethodInterface.h>
 
+/// A required method of which only the type of the result is known. The host connects it, before the component starts,
+/// to a provided method of the same application (called as a function) or to a connector.
 template <typename RetType>
 class RequiredMethod : public RequiredMethodInterface {
   public:
@@ -25,6 +27,7 @@ class RequiredMethod : public RequiredMethodInterface {
         m_con = 0;
         return OPROS_SUCCESS;
     }
+    // Connecting to one kind of peer disconnects from the other.
     virtual ReturnType Connect(Method* peer) {
         if (!peer || !same_types(*peer)) return OPROS_BAD_INPUT_PARAMETER;
         m_peer = static_cast<ProvidedMethod<RetType>*>(static_cast<ProvidedMethodInterface*>(peer));
@@ -56,6 +59,8 @@ class RequiredMethod : public RequiredMethodInterface {
   private:
     virtual bool accepts(const std::type_info* const*, int count) const { return count == m_arity; }
 
+    /// Whether the peer's result and arguments have the types of this method. When this one does not know its
+    /// argument types, their number counts.
     bool same_types(const Method& peer) const {
         const std::vector<const std::type_info*> mine = types(), theirs = peer.types();
         if (theirs.empty() || *theirs[0] != typeid(RetType)) return false;
@@ -66,6 +71,7 @@ class RequiredMethod : public RequiredMethodInterface {
         return true;
     }
 
+    // The call through a connector: arguments and result cross as values of known types.
     template <typename... P>
     void send(opros_params& result, const P&... arguments) {
         const std::type_info* const types[] = {&typeid(P)..., 0};
@@ -120,6 +126,8 @@ class typed_required_method : public RequiredMethod<R> {
 } // namespace detail
 } // namespace opros
 
+/// A new method, for ServicePortInterface::addMethod(), with the types of the member function, which is not called: it
+/// is the one of the generated port that calls this method.
 template <typename R, typename C, typename... P>
 Method* makeRequiredMethod(R (C::*)(P...), const char* name, const int& callType = METHOD_BLOCKING) {
     return new opros::detail::typed_required_method<R, P...>(name, callType);

@@ -5,6 +5,7 @@
 #include <Method.h>
 #include <ServicePortConnector.h>
 
+/// A method that can be connected without knowing its C++ type. [main-thread] Not while the component calls it.
 class RequiredMethodInterface : public Method {
   public:
     RequiredMethodInterface() {}
@@ -12,6 +13,7 @@ class RequiredMethodInterface : public Method {
     virtual ReturnType Disconnect() = 0;
     /// OPROS_BAD_INPUT_PARAMETER when the peer's types are not those of this method.
     virtual ReturnType Connect(Method* peer) = 0;
+    /// Calls go through the connector, which must outlive the connection.
     virtual ReturnType Connect(ServicePortConnector* peer) = 0;
 };
 

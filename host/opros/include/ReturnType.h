@@ -21,7 +21,8 @@ typedef unsigned int ReturnType;
 #define OPROS_INTERNAL_FAULT 502
 #define OPROS_VERSION_MISMATCH 505
 
-// Of components that drive a device through a device API library.
+// Codes of components that drive a device through a device API library (device/OprosApi.h). The misspelling is
+// upstream's.
 #define OPROS_DESTORY_ERROR 0x10000000
 #define OPROS_FIND_DLL_ERROR 0x10000001
 #define OPROS_LOAD_DLL_ERROR 0x10000002

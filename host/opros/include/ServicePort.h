@@ -6,6 +6,7 @@
 #include <Port.h>
 #include <ReturnType.h>
 
+/// What provided and required service ports have in common.
 class ServicePort : public Port {
   public:
     ServicePort();
@@ -13,7 +14,8 @@ class ServicePort : public Port {
     virtual ~ServicePort();
     virtual ServicePortRole getRole() = 0;
     virtual void reset() {}
-    /// Whether the port learns its methods when it is connected (ours, for bridges).
+    /// Whether the port learns its methods when it is connected, by bindMethod() or bindProvided(), instead of having
+    /// them from the beginning (ours, for bridges).
     virtual bool isDynamic() const { return false; }
 };
 

@@ -9,7 +9,8 @@
 
 class ServicePortConnector;
 
-/// A service port and its methods, which it owns.
+/// A service port and its methods by their names. It owns them: made with new, deleted with the port or when another
+/// one of the same name is added. [main-thread] Methods are added before the port is connected.
 class ServicePortInterface : public ServicePort {
   public:
     typedef std::map<std::string, Method*> service_base;
@@ -17,8 +18,10 @@ class ServicePortInterface : public ServicePort {
     ServicePortInterface();
     explicit ServicePortInterface(const std::string& name);
     virtual ~ServicePortInterface();
+    /// All methods, in alphabetical order.
     virtual service_base::iterator getFirst();
     virtual service_base::iterator getEnd();
+    /// OPROS_BAD_INPUT_PARAMETER: NULL.
     virtual ReturnType addMethod(const std::string& name, Method* srv);
     /// NULL when there is no method of this name.
     virtual Method* getMethod(const std::string& name);

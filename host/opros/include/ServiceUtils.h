@@ -7,6 +7,7 @@
 #include <PackageUtil.h>
 #include <SymbolService.h>
 
+/// The version of the API that this library was built with, for getVersion().
 const char* get_opros_version();
 
 #ifndef MAKE_STATIC_COMPONENT

@@ -17,6 +17,8 @@
 
 enum SymbolEncodingRule : int { OPROS_SYMBOL_ENCODING_STR = 0, OPROS_SYMBOL_ENCODING_BIN = 1 };
 
+/// Access to one variable, whatever its type. In the thread of the call, without a lock: the variable may be changed by
+/// the component at the same time.
 class SymbolObject {
   public:
     virtual ~SymbolObject() {}
@@ -35,15 +37,17 @@ class SymbolAccessObject : public SymbolObject {
     T* m_p;
 };
 
+/// A new object for the variable, which must outlive the component's ports.
 template <typename T>
 SymbolObject* makeSymbolObject(T* p) {
     return new SymbolAccessObject<T>(p);
 }
 
-/// Shows the variable under this name on the component's provided port "opros.symbol", which the first one creates.
-/// Takes the object.
+/// Shows the variable under this name on the component's provided port "opros.symbol", which the first call creates.
+/// Takes ownership of the object. [main-thread] In the constructor or onInitialize(). OPROS_BAD_INPUT_PARAMETER: NULL.
 ReturnType symbolservice_exportSymbol(Component* comp, const std::string& name, SymbolObject* p);
 
+/// In a member function of the component: shows the variable b under the name a.
 #define EXPORT_VARIABLE(a, b) (symbolservice_exportSymbol(this, a, makeSymbolObject(&b)))
 
 #endif

@@ -16,6 +16,7 @@
 
 namespace opros {
 
+/// Counts as std::shared_ptr does, with upstream's interface. [any-thread] copies; the object itself is not protected.
 template <typename T>
 class smart_ptr {
   public:
@@ -38,9 +39,11 @@ class smart_ptr {
     }
 
     void swap(smart_ptr& other) { m_shared.swap(other.m_shared); }
+    /// Takes ownership.
     void reset(T* p) { m_shared.reset(p); }
     T* get() const { return m_shared.get(); }
     bool isNULL() const { return !m_shared; }
+    // Both throw std::exception when there is no object.
     T* operator->() const {
         smart_ptr_assert(m_shared.get() != 0);
         return m_shared.get();

@@ -8,6 +8,7 @@
 namespace opros {
 namespace archive {
 
+/// Calls the members of a user's type, which may be private. [any-thread]
 class access {
   public:
     template <typename T>

@@ -10,6 +10,7 @@
 #include <exception>
 #include <string>
 
+// The codes of types in the binary and the text format. Signed and unsigned types have the same one.
 #define BOOL_CODE 'Z'
 #define SHORT_CODE 'i'
 #define UNSIGNED_SHORT_CODE 'i'
@@ -31,7 +32,9 @@
 #define BINARY_CODE 'G'
 #define SIZE_CODE_MAX 16
 
+// The version that every save() and load() is called with: there is one only.
 #define OPROS_SERIALIZATION_VERSION 1
+// A member with its name, for a save() or load(): ar << OPROS_SERIALIZATION_NVP(x).
 #define OPROS_SERIALIZATION_NVP(a) opros::makenvp(#a, a)
 #define OPROS_SERIALIZATION_MAKE_NVP(a, b) opros::makenvp(#a, b)
 
@@ -41,28 +44,34 @@ namespace archive {
 class oarchive;
 class iarchive;
 
+/// What archives of both directions have in common.
 class archive {
   public:
     virtual ~archive() {}
 };
 
+/// The bytes hold another type than the one asked for; or the type cannot be archived at all.
 class archive_type_exception : public std::exception {
   public:
     virtual const char* what() const noexcept { return "archive type mismatch error"; }
 };
+/// Another number of elements than the caller has room for, or than the bytes can hold.
 class archive_array_size_exception : public std::exception {
   public:
     virtual const char* what() const noexcept { return "array size mismatch"; }
 };
+/// Upstream's; not thrown by this implementation.
 class archive_system_exception : public std::exception {
   public:
     virtual const char* what() const noexcept { return "system error"; }
 };
+/// The bytes are not of this format, or end early.
 class archive_format_exception : public std::exception {
   public:
     virtual const char* what() const noexcept { return "archive format error"; }
 };
 
+/// The code of a pointer's type; CLASS_CODE for all that is not a primitive.
 template <typename T>
 inline char type_code(T*) {
     return CLASS_CODE;

@@ -6,7 +6,7 @@
 
 namespace opros {
 
-/// A block of bytes.
+/// A block of bytes, for components that archive some: OPRoS v1.
 class binary {
   public:
     virtual ~binary() {}

@@ -10,6 +10,7 @@
 namespace opros {
 namespace archive {
 
+/// Not thread-safe, and used for one value after the other. After an exception the position in the bytes is not known.
 class iarchive : public archive {
   public:
     virtual ~iarchive() {}
@@ -27,6 +28,8 @@ class iarchive : public archive {
     OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_ELEMENTS)
 #undef OPROS_LOAD_ELEMENTS
 
+    // The structure of the value that follows, as the functions of oarchive have written it. Archives without names or
+    // marks in their format leave these as they are.
     virtual iarchive& read_class_head(const std::string&) { return *this; }
     virtual iarchive& read_class_end(const std::string&) { return *this; }
     virtual iarchive& read_container_name(const std::string&) { return *this; }
@@ -40,12 +43,14 @@ class iarchive : public archive {
     virtual iarchive& read_end_tag(const std::string&) { return *this; }
     virtual bool keeps_names() const { return false; }
 
+    /// A value of any type that can be archived (opros_serializable.h), in place; others do not compile.
     template <typename T>
     iarchive& load(T& value);
     template <typename T>
     iarchive& load(const opros::nvp<T>& pair);
     template <typename T, std::size_t N>
     iarchive& load(T (&values)[N]);
+    /// A sequence of T: as load_binary(), with elements instead of bytes.
     template <typename T>
     iarchive& load(T** p, long& size);
     template <typename T>
@@ -58,6 +63,7 @@ class iarchive : public archive {
     iarchive& load(signed char** p, long& size) { return load_binary(reinterpret_cast<char**>(p), size); }
 };
 
+// How the types of each kind are read; the last argument chooses among the overloads.
 namespace detail {
 
 template <typename T>

@@ -17,6 +17,7 @@ void load_this(iarchive& ar, std::basic_string<wchar_t, Traits, A>& t) {
 
 namespace detail {
 
+/// Reads a sequence, and gives each element to `take`.
 template <typename T, typename Take>
 void load_each(iarchive& ar, Take take) {
     const std::size_t count = ar.read_sequence_head();
@@ -85,6 +86,7 @@ void load_this(iarchive& ar, std::queue<T, C>& t) {
     t = std::queue<T, C>();
     detail::load_each<T>(ar, [&t](T&& element) { t.push(std::move(element)); });
 }
+// Written from the top on: pushed in the reverse order.
 template <typename T, typename C, typename = if_serializable<T>>
 void load_this(iarchive& ar, std::stack<T, C>& t) {
     std::vector<T> from_top;
@@ -121,6 +123,7 @@ void load_this(iarchive& ar, std::multimap<K, T, C, A>& t) {
     detail::load_map<K, T>(ar, t);
 }
 
+// An element of std::vector<bool> is no bool&.
 inline iarchive& operator>>(iarchive& ar, std::vector<bool>::reference bit) {
     bool value = false;
     ar.load(value);

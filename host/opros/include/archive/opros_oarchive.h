@@ -11,6 +11,7 @@
 #include <iostream>
 #include <string>
 
+/// apply(TYPE) for each of the types that archives know by themselves.
 #define OPROS_FOR_EACH_PRIMITIVE(apply)                                                                      \
     apply(bool) apply(char) apply(signed char) apply(unsigned char) apply(wchar_t) apply(short)              \
         apply(unsigned short) apply(int) apply(unsigned int) apply(long) apply(unsigned long)                \
@@ -19,6 +20,7 @@
 namespace opros {
 namespace archive {
 
+/// Not thread-safe. What a user's save() throws passes through.
 class oarchive : public archive {
   public:
     virtual ~oarchive() {}
@@ -54,12 +56,14 @@ class oarchive : public archive {
     /// Names of classes and members are made and handed over only if this says so.
     virtual bool keeps_names() const { return false; }
 
+    /// A value of any type that can be archived (opros_serializable.h); others do not compile.
     template <typename T>
     oarchive& save(const T& value);
     template <typename T>
     oarchive& save(const opros::nvp<T>& pair);
     template <typename T, std::size_t N>
     oarchive& save(const T (&values)[N]);
+    /// A sequence of `size` elements.
     template <typename T>
     oarchive& save(const T* p, long size);
     oarchive& save(const char* p, long size) { return save_binary(p, size); }
@@ -71,6 +75,7 @@ class oarchive : public archive {
     }
 };
 
+// How the types of each kind are written; the last argument chooses among the overloads.
 namespace detail {
 
 template <typename T>

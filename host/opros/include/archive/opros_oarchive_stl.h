@@ -8,6 +8,7 @@
 namespace opros {
 namespace archive {
 
+/// Takes an overload away for types that cannot be archived, so that is_serializable<> says so for their containers.
 template <typename T>
 using if_serializable = typename std::enable_if<is_serializable<T>::value>::type;
 
@@ -48,6 +49,7 @@ void save_this(oarchive& ar, const std::vector<T, A>& t) {
     detail::save_elements(ar, t.data(), static_cast<long>(t.size()), typename detail::way<T>::type());
     ar.write_sequence_end();
 }
+// Its elements are bits without an address: not as an array.
 template <typename A>
 void save_this(oarchive& ar, const std::vector<bool, A>& t) {
     ar.write_sequence_head(t.size());

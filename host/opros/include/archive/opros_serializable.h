@@ -48,6 +48,7 @@ struct is_container<std::map<K, T, C, A>> : std::true_type {};
 template <typename K, typename T, typename C, typename A>
 struct is_container<std::multimap<K, T, C, A>> : std::true_type {};
 
+/// Whether T has save() and load() that `access` may call.
 template <typename T>
 struct has_members {
     template <typename U>
@@ -59,6 +60,7 @@ struct has_members {
     static const bool value = decltype(test<T>(0))::value;
 };
 
+/// Whether save_this() and load_this() are found for T, by its namespace or among those of the archives.
 template <typename T>
 struct has_free_functions {
     template <typename U>
@@ -70,6 +72,7 @@ struct has_free_functions {
     static const bool value = decltype(test<T>(0))::value;
 };
 
+// Tags of the ways, for overloads.
 struct by_primitive {};
 struct by_enumeration {};
 struct by_array {};
@@ -92,6 +95,7 @@ struct class_way<T, false> {
                           choose<has_private_serialize<T>::value, by_private_serialize, by_nothing>>>
         type;
 };
+/// way<T>::type is the tag of the way by which T crosses an archive.
 template <typename T>
 struct way {
     typedef choose<

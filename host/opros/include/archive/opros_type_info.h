@@ -21,6 +21,7 @@
 #include <valarray>
 #include <vector>
 
+/// The name of T on ports: its typeName(), "Enum" for an enumeration, else its C++ name.
 template <typename T>
 std::string getTypeName(T* unused = 0);
 
@@ -52,6 +53,7 @@ std::string typeName(std::basic_string<wchar_t, Traits, A>*) {
     return "std::wstring";
 }
 
+// Containers, by the names of their elements; comparison, hash and allocator are not part of the name.
 #define OPROS_TYPE_NAME_OF_1(container)                                                                      \
     template <typename T>                                                                                    \
     std::string typeName(std::container<T>*) {                                                               \
@@ -83,6 +85,7 @@ std::string typeName(T**) {
     return getTypeName<T>() + "*";
 }
 
+/// Gives a user's class its own name on ports.
 #define DEFINE_CLASS_TYPE_NAME(a)                                                                            \
     inline std::string typeName(a*) { return std::string(#a); }
 
@@ -99,6 +102,7 @@ std::string name_of(T*, long) {
     return readable_name(typeid(T));
 }
 
+// void has no pointer to ask typeName() with, and enumerations share one name, which upstream gives them.
 template <typename T, bool is_enumeration>
 struct name_selector {
     static std::string name() { return name_of(static_cast<T*>(0), 0); }

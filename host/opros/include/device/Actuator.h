@@ -11,7 +11,7 @@ class ActuatorProfile {
     double maximumPower;
 };
 
-/// A drive that takes power; times in milliseconds.
+/// A drive that takes power. `time` is how long it may take to get there, in milliseconds; 0: at once.
 class Actuator : public Device {
   public:
     Actuator() {}

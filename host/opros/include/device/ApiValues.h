@@ -17,6 +17,8 @@ typedef double float64_t;
 
 namespace OPRoS {
 
+/// A class NAME with a `status` (OPROS_SUCCESS unless set) and `data` of the type, and a conversion from it.
+
 #define OPROS_API_VALUE(name, type)                                                                          \
     class name {                                                                                             \
       public:                                                                                                \

@@ -5,7 +5,7 @@
 #include "Device.h"
 #include "OprosLock.h"
 
-/// A line that several devices share: its user holds the lock while it talks.
+/// A line that several devices share. Who uses it holds the lock during an exchange, and may take it again.
 class Bus : public Device {
   public:
     Bus() {}

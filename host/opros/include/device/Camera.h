@@ -4,7 +4,7 @@
 
 #include "OprosApi.h"
 
-/// A camera: the caller has the room for an image of the size in its properties.
+/// A camera. `image` is memory of the caller's for one image of the size in the device's properties.
 class Camera : public OprosApi {
   public:
     Camera() {}

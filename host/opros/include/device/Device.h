@@ -4,6 +4,7 @@
 
 #include "OprosApi.h"
 
+/// What a device says of itself; nothing in this host reads it.
 enum DEVICE_STATUS { DEVICE_CREATED = 0x01, DEVICE_READY = 0x02, DEVICE_ACTIVE = 0x03, DEVICE_ERROR = 0x04 };
 
 /// What the classes of devices have in common.

@@ -4,7 +4,7 @@
 
 #include "Manipulator.h"
 
-/// A hand.
+/// A hand, which holds something from StartGripping() to StopGripping().
 class Gripper : public Manipulator {
   public:
     Gripper() {}

@@ -4,7 +4,7 @@
 
 #include "Sensor.h"
 
-/// Distances over one sweep.
+/// Distances over one sweep, in the order of the beams.
 class LaserScanner : public Sensor {
   public:
     LaserScanner() {}

@@ -6,12 +6,13 @@
 
 class ManipulatorProfile : public ServoActuatorProfile {};
 
-/// An arm: one value per joint.
+/// An arm: one value per joint in each vector. `time`, in milliseconds, is how long each joint may take.
 class Manipulator : public Device {
   public:
     Manipulator() {}
     virtual ~Manipulator() {}
     virtual int Stop() { return API_NOT_SUPPORTED; }
+    /// Moves the joints to their reference positions.
     virtual int RunHoming() { return API_NOT_SUPPORTED; }
     virtual int SetPower(std::vector<double>, std::vector<unsigned long> /*time*/) {
         return API_NOT_SUPPORTED;

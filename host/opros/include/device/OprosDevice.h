@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same for devices of OPRoS v2.
+// OprosApi.h for devices of OPRoS v2, whose properties and codes are of that version.
 #ifndef DEVICE_OPROSDEVICE_H_
 #define DEVICE_OPROSDEVICE_H_
 

@@ -56,7 +56,7 @@ inline void Swap(T& v1, T& v2) {
     v2 = first;
 }
 
-/// Turns the first two coordinates about the third axis.
+/// Turns the first two coordinates about the third axis; the third one of the result is left as it is.
 inline void Rotate(double result[3], const double src[3], double rad) {
     const double x = src[0] * std::cos(rad) - src[1] * std::sin(rad);
     const double y = src[0] * std::sin(rad) + src[1] * std::cos(rad);
@@ -99,11 +99,13 @@ inline int Distance(int x1, int y1, int x2, int y2) {
 }
 
 inline bool IsNum(double num) { return !std::isnan(num); }
+/// How many of the values are not NaN.
 inline int CountNum(std::valarray<double>& v) {
     int count = 0;
     for (std::size_t i = 0; i < v.size(); ++i) count += IsNum(v[i]) ? 1 : 0;
     return count;
 }
+/// Replaces NaN by 0, in the argument as well.
 inline std::valarray<double> FilterNaN(std::valarray<double>& v) {
     for (std::size_t i = 0; i < v.size(); ++i)
         if (!IsNum(v[i])) v[i] = 0.;

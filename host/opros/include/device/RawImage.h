@@ -62,6 +62,7 @@ inline void load_this(opros::archive::iarchive& ar, RawImageData& image) {
     unsigned long size = 0;
     ar >> OPROS_SERIALIZATION_NVP(raw) >> OPROS_SERIALIZATION_NVP(width) >> OPROS_SERIALIZATION_NVP(height) >>
         OPROS_SERIALIZATION_NVP(pixelByte) >> OPROS_SERIALIZATION_NVP(size);
+    // The bytes may come from another process: no more than 1 GiB is allocated for what they say.
     const unsigned long most = 1ul << 30;
     if (width < 0 || height < 0 || pixelByte < 0 || pixelByte > 64 || size > most ||
         static_cast<unsigned long>(width) * static_cast<unsigned long>(height) * pixelByte != size)
@@ -73,6 +74,7 @@ inline void load_this(opros::archive::iarchive& ar, RawImageData& image) {
     if (size == 0) delete[] pixels; // given no room, the archive has made its own
 }
 
+/// What a component has on its port: a counted reference to the pixels.
 class RawImage {
   public:
     RawImage() : m_image(new RawImageData) {}
@@ -82,7 +84,7 @@ class RawImage {
     RawImage& operator=(const RawImage&) = default;
 
     RawImageData* getImage() { return m_image.get(); }
-    /// Takes it.
+    /// Takes ownership.
     void setImage(RawImageData* image) { m_image.reset(image); }
 
     void save(opros::archive::oarchive& ar, const unsigned int) { ar << OPROS_SERIALIZATION_NVP(m_image); }

@@ -12,7 +12,8 @@ class SensorProfile {
     double x, y, z, roll, pitch, yaw;
 };
 
-/// A device that is read.
+/// A device that is read: the derived classes' Get functions fill in the last measurement, one element per sensor, axis
+/// or beam. Units are the device's own; the simulated ones (plugins/devices) measure in m, rad, s, N and V.
 class Sensor : public Device {
   public:
     Sensor() {}

@@ -14,7 +14,8 @@ class WheelControllerProfile {
     double safeRadius, maximumVelocity, acceleration;
 };
 
-/// A base on two driven wheels.
+/// A base on two driven wheels, in m and rad: DriveWheel() sets velocities, MoveWheel() and RotateWheel() begin a
+/// motion whose end IsWheelRunning() shows.
 class WheelController : public Device {
   public:
     WheelController() {}

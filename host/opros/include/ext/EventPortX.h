@@ -9,6 +9,7 @@
 /// Polls event sources outside OPRoS: there are none.
 inline void eventFetch() {}
 
+/// setEventCallBack(), and the port's topic, which has no effect in this host.
 template <typename T, int n, typename C, typename D, typename... P>
 void setTopicCallBack(InputEventPort<T, n>& port, void (C::*function)(P...), D* object,
                       const std::string& topic) {
