@@ -56,7 +56,7 @@ TEST_CASE("an aperiodic component is executed once at the start and then when da
     CHECK_THAT(application.executor_stats().at(0), Catch::Contains("S: on arrival, 2 cycles"));
 }
 
-TEST_CASE("an aperiodic component that takes one value per cycle gets all that have come") {
+TEST_CASE("an aperiodic component that takes one value per cycle gets all values") {
     const Folder folder;
     Application application(sink(folder), test_options(folder, false));
     for (int i = 1; i <= 10; ++i) push(application, "numbers", i);
@@ -66,7 +66,7 @@ TEST_CASE("an aperiodic component that takes one value per cycle gets all that h
     CHECK(s.last_number == 10);
 }
 
-TEST_CASE("an aperiodic component that does not take its values is asked again only when more come") {
+TEST_CASE("an aperiodic component that does not take its values is executed again only when more arrive") {
     const Folder folder;
     Application application(sink(folder), test_options(folder, false));
     application.start();
@@ -91,7 +91,7 @@ TEST_CASE("an aperiodic component is executed after each event") {
     CHECK(eventually([&] { return s.events > 3 && s.executions > 3; }));
 }
 
-TEST_CASE("an aperiodic component is executed when a value waits in a source outside") {
+TEST_CASE("an aperiodic component is executed when a value waits in a source") {
     const Folder folder;
     Source source;
     Application application(sink(folder), test_options(folder, false));
@@ -117,7 +117,7 @@ TEST_CASE("an aperiodic component that depends on another one is executed after 
     CHECK(recorder(application, "S").executions <= recorder(application, "M").executions);
 }
 
-TEST_CASE("the profile's queue counts for a port whose code has chosen none") {
+TEST_CASE("the profile's queue is used for a port whose code has chosen none") {
     const std::string kind = GENERATE("<queueing_policy>last</queueing_policy>",
                                       "<queuing_policy>LAST</queuing_policy><queue_size>1</queue_size>",
                                       "<policy>FIFO</policy><policy_param name=\"size\">1</policy_param>",

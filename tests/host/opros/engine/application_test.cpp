@@ -30,8 +30,8 @@ std::string library_error(const std::string& library) {
 }
 } // namespace
 
-TEST_CASE(
-    "components get their names and properties, those of the application first, before they initialise") {
+TEST_CASE("components get their names and properties before they initialize, and the application's "
+          "properties override the profile's") {
     const Folder folder;
     folder.component("M", "maker.dll", "<type>passive</type>",
                      "<property name=\"a\">1</property><property name=\"b\">2</property>");
@@ -45,7 +45,7 @@ TEST_CASE(
     CHECK(state(application, "Name") == OPROS_CS_READY);
 }
 
-TEST_CASE("a device library is found where a component library is and the rest is left as it is") {
+TEST_CASE("a property that names a device library becomes its path and other properties are unchanged") {
     const Folder folder;
     folder.write("libLaserApi.so", "");
     folder.component(
@@ -61,7 +61,7 @@ TEST_CASE("a device library is found where a component library is and the rest i
     CHECK(component.getProperty("opros.component.dir") == (folder.path() / "").string());
 }
 
-TEST_CASE("what the last call of the loader has left is not told to a component") {
+TEST_CASE("a component does not see a dlerror() of somebody else") {
     const Folder folder;
     folder.component("M", "maker.dll");
     Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));
@@ -104,7 +104,7 @@ TEST_CASE("data, events and service calls cross between components") {
     CHECK(recorder(application, "M").calls.back() == "turned turned hand");
 }
 
-TEST_CASE("a component that throws goes to ERROR and the others go on") {
+TEST_CASE("a component that throws goes to ERROR and the others continue") {
     const std::string kind = GENERATE("execute throws", "execute throws a number");
     const Folder folder;
     Application application(maker_and_printer(folder, trouble(kind)), test_options(folder));
@@ -148,7 +148,7 @@ TEST_CASE("a component in ERROR that is recovered or reset is executed again, wi
     CHECK(recorder(application, "M").calls == expected);
 }
 
-TEST_CASE("a component that cannot initialise or start is left out, with its connections") {
+TEST_CASE("a component that cannot initialize or start is left out, with its connections") {
     const std::string kind = GENERATE("initialize fails", "initialize throws", "start fails");
     const Folder folder;
     Application application(
@@ -192,7 +192,7 @@ TEST_CASE("a connection that cannot be made is left out and the others are made"
     CHECK_THAT(setup_error(file, test_options(folder)), Catch::Contains("app.xml:7: "));
 }
 
-TEST_CASE("a connection of a component that is not there is named") {
+TEST_CASE("a connection of an unknown component is an error that lists the known ones") {
     const Folder folder;
     CHECK_THAT(setup_error(maker_and_printer(folder, "", Folder::connect("data", "M", "o", "X", "i")),
                            test_options(folder)),
@@ -211,14 +211,14 @@ TEST_CASE("with strict a component that fails ends the application") {
     CHECK_THROWS_WITH(run(), Catch::Contains("M.xml:3: library 'missing.dll' not found"));
 }
 
-TEST_CASE("an application of which nothing can start ends") {
+TEST_CASE("an application of which no component can start ends") {
     const Folder folder;
     folder.component("M", "maker", "<type>passive</type>", trouble("start fails"));
     Application application(folder.application(Folder::sub("M", "M.xml")), test_options(folder));
     CHECK_THROWS_WITH(application.start(), Catch::Contains("no component has started"));
 }
 
-TEST_CASE("a component that does not come back is named and the others are stopped") {
+TEST_CASE("a component that does not return is named and the others are stopped") {
     const std::string kind = GENERATE("execute hangs", "stop hangs");
     const LeftBehind with_all_it_holds;
     const Folder folder;
@@ -233,7 +233,7 @@ TEST_CASE("a component that does not come back is named and the others are stopp
     CHECK(state(application, "P") == OPROS_CS_DESTROYED);
 }
 
-TEST_CASE("a component that comes back from onExecute only when it is stopped is no trouble") {
+TEST_CASE("a component that returns from onExecute only when it is stopped is not stuck") {
     const Folder folder;
     auto options = test_options(folder, false);
     options.grace = std::chrono::milliseconds(50);
@@ -256,7 +256,7 @@ TEST_CASE("a failing service call and a returned error leave the component ACTIV
     CHECK(recorder(application, "M").executions == 2);
 }
 
-TEST_CASE("a library that cannot be used is one line at the place of its name") {
+TEST_CASE("a library that cannot be used is an error at the line of its name") {
     CHECK_THAT(library_error("missing.dll"), Catch::Contains("C.xml:3: library 'missing.dll' not found") &&
                                                  Catch::Contains("libmissing.dll.so"));
     CHECK_THAT(library_error("no_factory"),

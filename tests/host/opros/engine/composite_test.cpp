@@ -46,7 +46,7 @@ std::filesystem::path arm(const Folder& folder) {
 
 } // namespace
 
-TEST_CASE("the exported ports of a composite behave as its own, to any depth") {
+TEST_CASE("exported ports of nested composites are connected to the components' own ports") {
     const Folder folder;
     Application application(arm(folder), test_options(folder));
     application.start();
@@ -73,7 +73,7 @@ TEST_CASE("the same composite may be used twice") {
     CHECK(recorder(application, "A.P").last_number == -1);
 }
 
-TEST_CASE("a port that is exported under two names and connected by both is connected twice: an error") {
+TEST_CASE("a port that is connected under two exported names is an error") {
     const Folder folder;
     arm(folder);
     composite(folder, "Two",
@@ -98,7 +98,7 @@ TEST_CASE("a dependency on a composite is one on each of its components") {
     CHECK(flat.dependencies[1].target == "P");
 }
 
-TEST_CASE("a composite that does not fit is one line with file and line") {
+TEST_CASE("a wrong composite is one line with file and line") {
     const Folder folder;
     arm(folder);
     const auto connected = [&](const std::string& type, const std::string& port) {
@@ -130,7 +130,7 @@ TEST_CASE("a composite that contains itself is refused") {
                Catch::Contains("B.xml:3: composite") && Catch::Contains("contains itself"));
 }
 
-TEST_CASE("composites that grow without end are refused") {
+TEST_CASE("composites with too many components are refused") {
     const Folder folder;
     folder.component("P", "printer");
     std::string last = "P.xml";

@@ -51,7 +51,7 @@ TEST_CASE("a method that the provided port lacks is an error") {
     CHECK_THAT(message, Catch::Contains("app.xml:7: component 'M' has no port 'opros.symbol'"));
 }
 
-TEST_CASE("a connection of no known type is left out alone") {
+TEST_CASE("a connection of an unknown type is left out and the others are made") {
     const Folder folder;
     folder.component("M", "maker");
     folder.component("P", "printer");
@@ -69,7 +69,8 @@ TEST_CASE("a connection of no known type is left out alone") {
     CHECK(recorder(application, "P").events == 0);
 }
 
-TEST_CASE("a connection that is listed again is one error that says where it stood first; values come once") {
+TEST_CASE(
+    "a connection that is listed again is one error with the line of the first; values are delivered once") {
     const Folder folder;
     folder.component("M", "maker");
     folder.component("P", "printer");
@@ -86,7 +87,7 @@ TEST_CASE("a connection that is listed again is one error that says where it sto
     CHECK(recorder(application, "P").events == 5);
 }
 
-TEST_CASE("a required port has one provider; who would be the second is an error") {
+TEST_CASE("a second provider of a required port is an error") {
     const Folder folder;
     folder.component("M", "maker", "<type>passive</type>", "<property name=\"calls\">yes</property>");
     folder.component("P", "printer");

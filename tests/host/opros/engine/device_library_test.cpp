@@ -13,7 +13,7 @@ std::filesystem::path sensing(const Folder& folder, const std::string& device) {
 }
 } // namespace
 
-TEST_CASE("a component runs with a device library of its user's own from the places of components") {
+TEST_CASE("a component opens a user's device library that lies where component libraries may lie") {
     const Folder folder;
     // The first is beside the profile, the others are on the plugin path.
     const std::string device = GENERATE("Beside.dll", "own_device", "own_device.dll", "libown_device.so");
@@ -28,7 +28,7 @@ TEST_CASE("a component runs with a device library of its user's own from the pla
     CHECK(state(application, "S") == OPROS_CS_DESTROYED);
 }
 
-TEST_CASE("a device library that is missing or none leaves its component out with the code that it gave") {
+TEST_CASE("a missing or wrong device library makes its component fail with the component's own return code") {
     const Folder folder;
     const std::string device = GENERATE("nowhere", "maker");
     Application application(sensing(folder, device), test_options(folder));

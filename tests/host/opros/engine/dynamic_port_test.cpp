@@ -41,7 +41,7 @@ TEST_CASE("a bridge's output learns the type of the port it is connected to and 
     CHECK(recorder(application, "P").last_number == 7);
 }
 
-TEST_CASE("a bridge that refuses a type has its say in the error") {
+TEST_CASE("the reason of a bridge that refuses a type is part of the error") {
     const Folder folder;
     const auto file = with_bridge(folder, Folder::connect("data", "B", "out", "P", "numbers"),
                                   "<property name=\"only\">float</property>");
@@ -62,7 +62,7 @@ TEST_CASE("a dynamic provided port gets the required methods and then the calls,
     CHECK(recorder(application, "M").last_number == 10);
 }
 
-TEST_CASE("a dynamic required port gets the provided port, and is told when it goes") {
+TEST_CASE("a dynamic required port gets the provided port at connection") {
     const Folder folder;
     Application application(with_bridge(folder, Folder::connect("service", "B", "required", "P", "math")),
                             test_options(folder));

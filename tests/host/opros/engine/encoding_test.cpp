@@ -49,7 +49,7 @@ std::string error_in(const std::string& bytes) {
 
 } // namespace
 
-TEST_CASE("a profile may declare any encoding and is read as such") {
+TEST_CASE("a profile is read in the encoding that it declares") {
     CHECK(name_in(profile(declaring("EUC-KR"), "\xB7\xCE\xBA\xBF")) == "로봇");
     CHECK(name_in(profile(declaring("euc-kr"), "\x8C\xC1")) == "뙾"); // in the code page, not in the standard
     for (const char* name :
@@ -75,7 +75,7 @@ TEST_CASE("a profile in 16 or 32 bits is read with or without a byte order mark"
     CHECK(name_in("\xEF\xBB\xBF" + text) == "C");
 }
 
-TEST_CASE("a declaration that is wrong about its file does no harm") {
+TEST_CASE("a profile that declares a wrong encoding is read all the same") {
     CHECK(name_in(profile(declaring("euc-kr"), "é")) == "é");
     CHECK(name_in(profile(declaring("UTF-16"))) == "C");
     CHECK(name_in(profile(declaring("no-such-encoding"), "C\xFF")) == "C?");
@@ -99,7 +99,7 @@ TEST_CASE("an entity bomb is refused in one line") {
     CHECK(name_in("<!DOCTYPE component_profile>\n" + profile("")) == "C");
 }
 
-TEST_CASE("a file that is no profile by its size is refused without being read") {
+TEST_CASE("a file that is too large for a profile is refused without being read to its end") {
     const Folder folder;
     const auto file = folder.write("c.xml", profile(""));
     std::filesystem::resize_file(file, 100'000'000);
@@ -108,7 +108,7 @@ TEST_CASE("a file that is no profile by its size is refused without being read")
     CHECK_THROWS_WITH(read_component_profile("/dev/zero"), Catch::Contains("/dev/zero"));
 }
 
-TEST_CASE("bytes that are no text are refused in one line") {
+TEST_CASE("bytes that are not text are refused in one line") {
     CHECK_THAT(error_in("<component_profile>\n\0</component_profile>"s),
                Catch::Contains("c.xml:2: not well-formed"));
     CHECK_THAT(error_in("\x01\x02\x03"), Catch::Contains("c.xml:1:"));

@@ -12,7 +12,7 @@ std::filesystem::path maker_with(const Folder& folder, const std::string& semant
 }
 } // namespace
 
-TEST_CASE("executors give cycles until the application is stopped, and none after") {
+TEST_CASE("executors run cycles until the application is stopped, and none afterwards") {
     const std::string semantics =
         GENERATE("<type>periodic</type><period>1</period>", "<type>periodic-shared</type><period>1</period>",
                  "<type>periodic-exclusive</type><period>1</period><phase>0.5</phase><priority>5</priority>",
@@ -31,7 +31,7 @@ TEST_CASE("executors give cycles until the application is stopped, and none afte
     CHECK(a.calls.back() == "stop");
 }
 
-TEST_CASE("executors count what they did") {
+TEST_CASE("executors count their ticks, overruns and skipped periods") {
     const Folder folder;
     Application application(maker_with(folder, "<type>periodic-shared</type><period>1</period>"),
                             test_options(folder, false));
@@ -54,7 +54,7 @@ TEST_CASE("a passive component is started and stopped but never executed") {
     CHECK(recorder(application, "A").executions == 0);
 }
 
-TEST_CASE("a component that breaks on its executor leaves the other of the same executor running") {
+TEST_CASE("a component in ERROR does not stop the other component of its executor") {
     const std::string trouble = GENERATE("execute throws", "stops itself");
     const Folder folder;
     Application application(maker_with(folder, "<type>periodic-shared</type><period>1</period>", "",
@@ -79,7 +79,7 @@ TEST_CASE("a component that depends on another one gets a cycle for each cycle o
     CHECK(a.executions <= b.executions);
 }
 
-TEST_CASE("events are delivered by workers, in their order") {
+TEST_CASE("events are delivered by the receiver's task queue") {
     const Folder folder;
     folder.component("M", "maker", "<type>periodic</type><period>1</period>");
     folder.component("P", "printer");

@@ -90,7 +90,7 @@ std::filesystem::path one_component(const Folder& folder, const std::string& lib
 
 } // namespace
 
-TEST_CASE("the host says ready when all is started and stops in order on a signal") {
+TEST_CASE("the host prints ready when all components have started and stops them in order on a signal") {
     const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker.dll")});
@@ -99,7 +99,7 @@ TEST_CASE("the host says ready when all is started and stops in order on a signa
     CHECK(host.exit_code() == 0);
 }
 
-TEST_CASE("the host takes all its options") {
+TEST_CASE("the host accepts all its options") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", "/nowhere", "--plugin-path", FIXTURES, "--cpu", "0",
                   "--tick-spin", "50", "--wait-mode", "same-core", "--low-latency-idle", "--parent-death",
@@ -121,7 +121,7 @@ TEST_CASE("bad input is one line on standard error and exit code 1") {
     CHECK_THAT(missing.said, Catch::Contains("/nowhere/app.xml"));
 }
 
-TEST_CASE("a device library that is none is told of in one line with what it is") {
+TEST_CASE("a wrong device library is reported in one line that says what the file is") {
     const Folder folder;
     folder.component("M", "maker", "<type>passive</type>",
                      "<property name=\"ApiName\">printer</property><property name=\"DllName\">Text</property>"
@@ -140,7 +140,7 @@ TEST_CASE("a device library that is none is told of in one line with what it is"
                                "'Nowhere' not found: looked for Nowhere.so, libNowhere.so"));
 }
 
-TEST_CASE("a component that calls nobody while it starts is told of in one line") {
+TEST_CASE("a call of an unconnected method in onStart is reported in one line") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start calls")});
     CHECK(host.exit_code() == 1);
@@ -148,7 +148,7 @@ TEST_CASE("a component that calls nobody while it starts is told of in one line"
                                           "required method add is not connected\n"));
 }
 
-TEST_CASE("a host whose component hangs says which and ends") {
+TEST_CASE("a host whose component hangs in onExecute names it and exits") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
                   one_component(folder, "maker", "execute hangs")});
@@ -159,7 +159,7 @@ TEST_CASE("a host whose component hangs says which and ends") {
     CHECK_THAT(host.said, Catch::Contains("component M does not return from onExecute within 0.1 s"));
 }
 
-TEST_CASE("signals that come together are one wish to stop and everything is stopped in order") {
+TEST_CASE("signals within one second are one request to stop and everything is stopped in order") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker")});
     REQUIRE(host.says("ready\n"));
@@ -170,7 +170,7 @@ TEST_CASE("signals that come together are one wish to stop and everything is sto
     CHECK_THAT(host.said, Catch::Contains("M is gone\n"));
 }
 
-TEST_CASE("another signal later ends a host whose component will not stop") {
+TEST_CASE("a second signal ends a host whose component does not stop") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "3600",
                   one_component(folder, "maker", "stop hangs")});
@@ -190,7 +190,7 @@ TEST_CASE("a host whose component hangs in the set-up can be ended") {
     CHECK_THAT(host.said, Catch::Contains("onInitialize of component M does not return within 0.1 s"));
 }
 
-TEST_CASE("a host whose component hangs at its end says which and in what and ends") {
+TEST_CASE("a host whose component hangs during shutdown names it and the callback and exits") {
     const std::string where =
         GENERATE("stop hangs", "destroy hangs", "its destructor hangs", "its static destructors hang");
     const Folder folder;
@@ -203,7 +203,7 @@ TEST_CASE("a host whose component hangs at its end says which and in what and en
                                           where.substr(0, where.rfind(' ')) + " within 0.1 s"));
 }
 
-TEST_CASE("a library that stays loaded and hangs at the very end is named and the host ends") {
+TEST_CASE("a library that stays loaded and hangs after main() is named and the host exits") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
                   one_component(folder, "lasting_maker", "its static destructors hang")});
@@ -215,7 +215,7 @@ TEST_CASE("a library that stays loaded and hangs at the very end is named and th
                                "its static destructors within 0.1 s; the host exits without it\n"));
 }
 
-TEST_CASE("a component that hangs in its destructor takes no other one's end from it") {
+TEST_CASE("a component that hangs in its destructor does not keep others from being destroyed") {
     const Folder folder;
     folder.component("M", "maker", "<type>passive</type>",
                      "<property name=\"trouble\">its destructor hangs</property>");
@@ -228,7 +228,7 @@ TEST_CASE("a component that hangs in its destructor takes no other one's end fro
     CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("Hardware is gone\n"));
 }
 
-TEST_CASE("a set-up that fails ends also when a component hangs in its destructor") {
+TEST_CASE("a failed set-up ends the host even when a component hangs in its destructor") {
     const Folder folder;
     folder.component("M", "maker", "<type>passive</type>",
                      "<property name=\"trouble\">its destructor hangs</property>");
@@ -239,7 +239,7 @@ TEST_CASE("a set-up that fails ends also when a component hangs in its destructo
     CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("'none'"));
 }
 
-TEST_CASE("the host prints what its executors have counted when asked to") {
+TEST_CASE("the host prints what its executors have counted with --stats") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--stats", one_component(folder, "maker")});
     REQUIRE(host.says("ready\n"));

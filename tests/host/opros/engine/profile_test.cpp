@@ -47,7 +47,7 @@ TEST_CASE("a component profile gives library, execution and properties") {
     CHECK(profile.properties == Properties{{"a", "1"}});
 }
 
-TEST_CASE("real time is only for a profile that asks for it") {
+TEST_CASE("real-time scheduling is only for a profile that names a policy") {
     const Folder folder;
     const auto scheduling = [&](const std::string& policy) {
         folder.component("C", "C.dll", "<type>passive</type><period/><priority>7</priority>" + policy);
@@ -72,7 +72,7 @@ TEST_CASE("a wrong component profile gets one line with file, line, what is wron
     CHECK_THAT(error_of([] { read_component_profile("/nowhere.xml"); }), Catch::Contains("/nowhere.xml"));
 }
 
-TEST_CASE("wrong execution semantics are named") {
+TEST_CASE("wrong execution semantics are an error that quotes them") {
     CHECK_THAT(semantics_error("<type>sometimes</type>"),
                Catch::Contains("c.xml:4: execution type 'sometimes'"));
     CHECK_THAT(semantics_error("<type>periodic</type>"),
@@ -120,7 +120,7 @@ TEST_CASE("a component profile lists ports and the files of types") {
     CHECK(profile.service_types == std::vector<std::string>{"Arm.xml"});
 }
 
-TEST_CASE("the words that a profile chooses may be in either case") {
+TEST_CASE("values that a profile chooses from a list may be in either case") {
     const Folder folder;
     const auto component = read_component_profile(folder.write(
         "C.xml",
@@ -149,7 +149,7 @@ TEST_CASE("the words that a profile chooses may be in either case") {
     CHECK(application.connections[0].type == OPROS_SERVICE);
 }
 
-TEST_CASE("wrong queue settings are named") {
+TEST_CASE("wrong queue settings are an error that quotes them") {
     const auto queue_error = [](const std::string& queue) {
         return component_error("<component_profile><name>C</name><execution_environment><library_name>C"
                                "</library_name></execution_environment><execution_semantics>"
@@ -198,7 +198,7 @@ TEST_CASE("a wrong application profile gets one line with file and line") {
                Catch::Contains("app.xml:7: <port_connection> lacks its <source>"));
 }
 
-TEST_CASE("folders are separated as in Windows, too") {
+TEST_CASE("backslashes separate folders in profiles") {
     const Folder folder;
     folder.component("A", ".\\lib\\A.dll");
     CHECK(read_component_profile(folder.path() / "A.xml").library_name == "./lib/A.dll");
@@ -231,7 +231,7 @@ TEST_CASE("a component profile that is nowhere is an error in the line that asks
                Catch::Contains("app.xml:4") && Catch::Contains("/plugins/A.xml"));
 }
 
-TEST_CASE("a profile that is no file is told of as what it is") {
+TEST_CASE("a profile that is not a readable file is an error that says why") {
     const Folder folder;
     const auto read = [](const std::filesystem::path& file) {
         return error_of([&] { read_component_profile(file); });

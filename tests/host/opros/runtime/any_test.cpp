@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-TEST_CASE("an any says what it holds and gives it back under that type only") {
+TEST_CASE("an opros_any tells its type and gives its value as that type only") {
     opros_any any = std::string("text");
     CHECK(any.type() == "std::string");
     CHECK(any.holds<std::string>());
@@ -15,7 +15,7 @@ TEST_CASE("an any says what it holds and gives it back under that type only") {
     CHECK(opros_any().type() == "void");
 }
 
-TEST_CASE("copies of an any are independent") {
+TEST_CASE("copies of an opros_any are independent") {
     opros_any first = std::vector<int>{1};
     opros_any second = first;
     opros_any_cast<std::vector<int>>(&second)->push_back(2);
@@ -26,7 +26,7 @@ TEST_CASE("copies of an any are independent") {
     CHECK(first.type() == "double");
 }
 
-TEST_CASE("an any is encoded and decoded without knowing its type") {
+TEST_CASE("an opros_any is encoded and decoded without knowing its type") {
     Pose pose;
     pose.frame = "tool";
     const opros_any source = pose;
@@ -38,7 +38,7 @@ TEST_CASE("an any is encoded and decoded without knowing its type") {
     CHECK(opros_any_cast<Pose>(&target)->frame == "tool");
 }
 
-TEST_CASE("an any of a type without serialization works, but does not cross") {
+TEST_CASE("an opros_any of a type without serialization works, but cannot be archived") {
     struct Local {
         int n = 0;
     };
@@ -49,7 +49,7 @@ TEST_CASE("an any of a type without serialization works, but does not cross") {
     CHECK(opros_any(any).holds<Local>());
 }
 
-TEST_CASE("parameters take the type they are told, unless they have one") {
+TEST_CASE("setType gives opros_params a type, unless they have a value") {
     opros_params result;
     result.setType(static_cast<double*>(nullptr));
     CHECK(result.type() == "double");

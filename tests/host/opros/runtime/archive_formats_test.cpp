@@ -73,16 +73,16 @@ void check_all_kinds(Mode... mode) {
 
 } // namespace
 
-TEST_CASE("every kind of value comes back from text, in decimal and in hexadecimal") {
+TEST_CASE("every kind of value is read back from the text archive, in decimal and in hexadecimal") {
     check_all_kinds<string_oarchive, string_iarchive>();
     check_all_kinds<string_oarchive, string_iarchive>(1);
 }
 
-TEST_CASE("every kind of value comes back from the raw archive") {
+TEST_CASE("every kind of value is read back from the raw archive") {
     check_all_kinds<raw_oarchive, raw_iarchive>();
 }
 
-TEST_CASE("the text archive writes what people can read") {
+TEST_CASE("the text archive writes readable text") {
     CHECK(saved<string_oarchive>(-5) == "I-5;");
     CHECK(saved<string_oarchive>(true) == "ZT;");
     CHECK(saved<string_oarchive>(std::string("ab")) == "T[std::string]L2;G[2]ab;;");
@@ -90,7 +90,7 @@ TEST_CASE("the text archive writes what people can read") {
     CHECK(saved<string_oarchive>(Point{1, 2}) == "T[Point]d1;d2;;");
 }
 
-TEST_CASE("the raw archive writes the bytes of numbers and nothing else") {
+TEST_CASE("the raw archive writes the bytes of numbers without type codes") {
     CHECK(saved<raw_oarchive>(static_cast<short>(258)) == "\2\1");
     CHECK(saved<raw_oarchive>(Point{0, 0}).size() == 16);
     CHECK(saved<raw_oarchive>(std::vector<short>{1}).size() == sizeof(int) + 2);
@@ -111,7 +111,7 @@ TEST_CASE("malformed text ends in an archive exception") {
     CHECK_THROWS_AS((loaded<string_iarchive, Point>("T[Pose]d1;d2;;")), archive_type_exception);
 }
 
-TEST_CASE("raw bytes that are too few end in an archive exception") {
+TEST_CASE("too few raw bytes end in an archive exception") {
     CHECK_THROWS_AS((loaded<raw_iarchive, double>("abc")), archive_format_exception);
     CHECK_THROWS_AS((loaded<raw_iarchive, std::vector<double>>(std::string("\xff\xff\xff\x7f", 4))),
                     archive_array_size_exception);

@@ -23,7 +23,7 @@ std::string structure() {
 }
 } // namespace
 
-TEST_CASE("types have the names by which ports know them") {
+TEST_CASE("each type has its name on ports") {
     CHECK(getTypeName<double>() == "double");
     CHECK(getTypeName<std::vector<std::vector<unsigned char>>>() ==
           "std::vector<std::vector<unsigned char>>");
@@ -35,7 +35,7 @@ TEST_CASE("types have the names by which ports know them") {
     CHECK(getTypeName<Opaque>().find("Opaque") != std::string::npos);
 }
 
-TEST_CASE("what can cross an archive is known at compile time") {
+TEST_CASE("is_serializable tells at compile time which types can be archived") {
     CHECK(is_serializable<Pose>::value);
     CHECK(is_serializable<std::map<std::string, std::vector<Point>>>::value);
     CHECK(is_serializable<opros::smart_ptr<Pose>>::value);
@@ -47,7 +47,7 @@ TEST_CASE("what can cross an archive is known at compile time") {
     CHECK_FALSE(has_opros_serialization<Point>::value);
 }
 
-TEST_CASE("values come back from the binary archive as they went in") {
+TEST_CASE("values are read back from the binary archive unchanged") {
     CHECK(through_archive(std::string("a\0b", 3)) == std::string("a\0b", 3));
     CHECK(through_archive(std::wstring(L"w")) == L"w");
     CHECK(through_archive(std::vector<double>{1, 2.5}) == std::vector<double>{1, 2.5});
@@ -65,7 +65,7 @@ TEST_CASE("values come back from the binary archive as they went in") {
     CHECK(through_archive(property).GetValue("k") == "v");
 }
 
-TEST_CASE("user types come back, whichever way they are saved") {
+TEST_CASE("user types are read back, whichever way they are saved") {
     Pose pose;
     pose.frame = "base";
     pose.path.resize(2);
@@ -116,7 +116,7 @@ TEST_CASE("an archive of a bridge sees the structure of every type") {
     CHECK(structure<Color>() == "i");
 }
 
-TEST_CASE("blocks of bytes are handed over with their length, and never written past the room given") {
+TEST_CASE("a block of bytes is loaded with its length, and never beyond the caller's memory") {
     BinaryPipe pipe;
     pipe.out.save("abc", 3).save("defg", 4);
     char* made = nullptr;

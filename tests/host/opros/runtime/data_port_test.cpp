@@ -31,7 +31,7 @@ struct DirectLink : IDataPortLink {
 };
 } // namespace
 
-TEST_CASE("FIFO, the default, hands out the oldest and drops the oldest when it is full") {
+TEST_CASE("FIFO, the default, gives out the oldest value first and drops the oldest when it is full") {
     InputDataPort<int> port;
     for (int i = 1; i <= 17; ++i) port.push(i);
     CHECK(port.getSize() == 15);
@@ -46,7 +46,7 @@ TEST_CASE("LAST keeps the newest only") {
     CHECK(drain(port) == std::vector<int>{3});
 }
 
-TEST_CASE("LIFO hands out the newest first and loses nothing") {
+TEST_CASE("LIFO gives out the newest value first and loses none") {
     InputDataPort<int> port(OPROS_LIFO, 1);
     for (int i = 1; i <= 3; ++i) port.push(i);
     CHECK(drain(port) == std::vector<int>{3, 2, 1});
@@ -61,7 +61,7 @@ TEST_CASE("UFIFO grows, also when it has wrapped around") {
     CHECK(drain(port) == std::vector<int>{2, 3, 4, 5, 6, 7, 8, 9, 10});
 }
 
-TEST_CASE("a value is seen by peek and taken by pop") {
+TEST_CASE("peek leaves a value in the queue and pop removes it") {
     InputDataPort<std::string> port;
     CHECK(port.peek() == nullptr);
     CHECK(port.pop() == nullptr);
@@ -122,7 +122,7 @@ TEST_CASE("reset empties the queue") {
     CHECK(port.pop() == nullptr);
 }
 
-TEST_CASE("once warm, a push allocates nothing, and a pop only what it hands out") {
+TEST_CASE("after a first value, a push allocates nothing, and a pop only the object it returns") {
     OutputDataPort<std::vector<double>> out;
     InputDataPort<std::vector<double>> in(OPROS_LAST, 1);
     DirectLink link(in);
@@ -149,7 +149,7 @@ TEST_CASE("many threads may push while one pops") {
     CHECK(seen == 4000);
 }
 
-TEST_CASE("a queue can be set from outside unless the code has chosen one") {
+TEST_CASE("setQueue replaces a default queue but not one that the code has chosen") {
     InputDataPort<int> open, named("name"), chosen(OPROS_FIFO, 3);
     CHECK(open.setQueue(OPROS_LAST, 1) == OPROS_SUCCESS);
     CHECK(named.setQueue(OPROS_FIFO, 2) == OPROS_SUCCESS);
@@ -161,7 +161,7 @@ TEST_CASE("a queue can be set from outside unless the code has chosen one") {
     CHECK(drain(chosen) == std::vector<int>{3, 4, 5});
 }
 
-TEST_CASE("a listener is told of each value that comes in") {
+TEST_CASE("a listener is notified of each pushed value") {
     struct Count : DataPortListener {
         int arrivals = 0;
         void arrived() override { ++arrivals; }

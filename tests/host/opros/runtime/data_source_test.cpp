@@ -109,7 +109,7 @@ double pop(InputDataPort<double>& port) {
 
 } // namespace
 
-TEST_CASE("with LAST the consumer gets the newest value of a source, and the others are used up") {
+TEST_CASE("with LAST the consumer gets the newest value of a source, and the others are dropped") {
     InputDataPort<double> port(OPROS_LAST, 1);
     Outside outside;
     REQUIRE(port.addSource(&outside) == OPROS_SUCCESS);
@@ -120,7 +120,8 @@ TEST_CASE("with LAST the consumer gets the newest value of a source, and the oth
     CHECK(port.pop() == nullptr);
 }
 
-TEST_CASE("with FIFO the consumer gets every value in order, and a full queue leaves the rest outside") {
+TEST_CASE(
+    "with FIFO the consumer gets every value in order, and a full queue leaves the rest in the source") {
     InputDataPort<double> port(OPROS_FIFO, 2);
     Outside outside;
     port.addSource(&outside);
@@ -132,7 +133,7 @@ TEST_CASE("with FIFO the consumer gets every value in order, and a full queue le
     CHECK(pop(port) == 3);
 }
 
-TEST_CASE("a consumer that waits gets the next value with one look at the source and the rest in order") {
+TEST_CASE("a waiting consumer gets the next value with one call of next() and the rest in order") {
     InputDataPort<double> port(OPROS_FIFO, 4);
     Outside outside;
     port.addSource(&outside);
@@ -147,7 +148,7 @@ TEST_CASE("a consumer that waits gets the next value with one look at the source
     CHECK(port.pop() == nullptr);
 }
 
-TEST_CASE("a consumer that waits gets the values of all its sources and what is pushed") {
+TEST_CASE("a waiting consumer gets the values of all its sources and those that are pushed") {
     InputDataPort<double> port;
     Outside one, other;
     port.addSource(&one);
@@ -166,7 +167,7 @@ TEST_CASE("a consumer that waits gets the values of all its sources and what is 
     CHECK(one.finished == 2);
 }
 
-TEST_CASE("a value that was popped stays as it is when others come") {
+TEST_CASE("a popped value does not change when others arrive") {
     InputDataPort<double> port;
     Outside outside;
     port.addSource(&outside);
@@ -180,7 +181,7 @@ TEST_CASE("a value that was popped stays as it is when others come") {
         CHECK(port.getContent(*kept[i]) == static_cast<double>(i + 1));
 }
 
-TEST_CASE("once warm, a waiting consumer gets a value without an allocation but those of decoding") {
+TEST_CASE("after a first value, a waiting consumer gets a value without an allocation except for decoding") {
     InputDataPort<std::vector<double>> port;
     const std::vector<double> values(100, 1.5);
     std::vector<double> decoded = values;
@@ -199,7 +200,7 @@ TEST_CASE("once warm, a waiting consumer gets a value without an allocation but 
     }
 }
 
-TEST_CASE("a large value is decoded into what the consumer gets and never copied") {
+TEST_CASE("a large value is decoded into the object that the consumer gets and never copied") {
     const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO, OPROS_UFIFO);
     InputDataPort<Picture> port(policy, 4);
     Camera camera;
@@ -220,7 +221,7 @@ TEST_CASE("a large value is decoded into what the consumer gets and never copied
     CHECK(Picture::copies == 0);
 }
 
-TEST_CASE("pushed values and those of a source meet in one queue") {
+TEST_CASE("pushed values and those of a source share one queue") {
     InputDataPort<double> port;
     Outside outside;
     port.addSource(&outside);
@@ -231,7 +232,7 @@ TEST_CASE("pushed values and those of a source meet in one queue") {
     CHECK(pop(port) == 8);
 }
 
-TEST_CASE("a value that cannot be decoded is dropped, reported and costs no other value") {
+TEST_CASE("a value that cannot be decoded is dropped and reported, and no other value is lost") {
     InputDataPort<double> port(OPROS_LAST, 1);
     Outside outside;
     port.addSource(&outside);
@@ -242,7 +243,7 @@ TEST_CASE("a value that cannot be decoded is dropped, reported and costs no othe
     CHECK(outside.finished == 2);
 }
 
-TEST_CASE("a removed source is not asked any more") {
+TEST_CASE("a removed source is not used any more") {
     InputDataPort<double> port;
     Outside outside;
     port.addSource(&outside);
@@ -252,7 +253,7 @@ TEST_CASE("a removed source is not asked any more") {
     CHECK(outside.waiting.size() == 1);
 }
 
-TEST_CASE("reset discards what waits in the sources, too") {
+TEST_CASE("reset drops the values that wait in the sources") {
     InputDataPort<double> port;
     Outside outside;
     port.addSource(&outside);
@@ -261,7 +262,7 @@ TEST_CASE("reset discards what waits in the sources, too") {
     CHECK(outside.waiting.empty());
 }
 
-TEST_CASE("a port whose type cannot be archived takes no source") {
+TEST_CASE("a port whose type cannot be archived refuses a source") {
     struct Local {
         int n = 0;
     };
@@ -292,7 +293,7 @@ struct Moody {
 inline std::string typeName(Moody*) { return "Moody"; }
 } // namespace
 
-TEST_CASE("a value whose reading throws anything at all is dropped and its source goes on") {
+TEST_CASE("a value whose load() throws any type is dropped and the next value of its source is read") {
     class Moods : public Outside {
       public:
         void send(int mood) {

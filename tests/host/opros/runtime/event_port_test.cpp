@@ -42,7 +42,7 @@ TEST_CASE("an event goes to the component that owns the port") {
     CHECK(listener.heard == std::vector<std::string>{"component greeting"});
 }
 
-TEST_CASE("a callback of any of its forms takes the event instead") {
+TEST_CASE("a callback in any of its four forms gets the event instead of the component") {
     Listener listener;
     InputEventPort<std::string> port;
     port.setOwner(&listener);
@@ -62,7 +62,7 @@ TEST_CASE("a callback of any of its forms takes the event instead") {
     CHECK(heard_by_function == "hello");
 }
 
-TEST_CASE("a callback object is made by its class name, of a member function or of a function") {
+TEST_CASE("EventCallBackMethod makes a callback from a member function or from a function") {
     Listener listener;
     InputEventPort<std::string> port;
     auto hello = event("hi");
@@ -88,7 +88,7 @@ TEST_CASE("an event of another content type is refused") {
     CHECK(port.sample().type() == "std::string");
 }
 
-TEST_CASE("events are copied with all they say, and without content have none") {
+TEST_CASE("a cloned event has the id, names and content of the original, or no content") {
     EventData<std::string> first = event("text");
     first.setTopic("topic");
     std::unique_ptr<Event> copy(first.clone());

@@ -43,7 +43,7 @@ TEST_CASE("a component lives from CREATED to DESTROYED") {
     CHECK(subject.calls == "ispsd");
 }
 
-TEST_CASE("asking for the present state does nothing and succeeds") {
+TEST_CASE("a transition to the present state succeeds without a callback") {
     Subject subject;
     subject.initialize();
     CHECK(subject.initialize() == OPROS_SUCCESS);
@@ -62,7 +62,7 @@ TEST_CASE("a transition that the state does not allow is refused without a callb
     CHECK(subject.calls.empty());
 }
 
-TEST_CASE("a callback that fails leaves the state and its code can be asked for") {
+TEST_CASE("a callback that fails leaves the state unchanged and its code is in getErrorInfo") {
     Subject subject;
     subject.answer = OPROS_FIND_DLL_ERROR;
     CHECK(subject.initialize() == OPROS_PRECONDITION_NOT_MET);
@@ -70,7 +70,7 @@ TEST_CASE("a callback that fails leaves the state and its code can be asked for"
     CHECK(subject.getErrorInfo() == OPROS_FIND_DLL_ERROR);
 }
 
-TEST_CASE("an error is left by recover, and reset starts afresh from any state") {
+TEST_CASE("recover leads out of ERROR, and reset starts again from any state") {
     Subject subject;
     subject.initialize();
     subject.start();
@@ -115,13 +115,13 @@ TEST_CASE("a thread that onStop waits for may report an error meanwhile") {
     CHECK(subject.getStatus() == OPROS_CS_ERROR);
 }
 
-TEST_CASE("a component that overrides nothing does not initialise") {
+TEST_CASE("a component that overrides nothing does not initialize") {
     Component bare;
     CHECK(bare.initialize() == OPROS_PRECONDITION_NOT_MET);
     CHECK(bare.getErrorInfo() == OPROS_UNSUPPORTED_METHOD);
 }
 
-TEST_CASE("what fails is in ERROR whatever its state and is told unless there is nothing to stop yet") {
+TEST_CASE("fail leads to ERROR from any state, and calls onError unless the state was CREATED") {
     Subject created;
     CHECK(created.fail() == OPROS_SUCCESS);
     CHECK(created.getStatus() == OPROS_CS_ERROR);

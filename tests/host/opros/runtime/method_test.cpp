@@ -61,12 +61,12 @@ TEST_CASE("a call through generated service headers reaches the component") {
     CHECK(provided.add(2, 2) == 4);
 }
 
-TEST_CASE("a call without a peer says which method is not connected") {
+TEST_CASE("a call of a method that is not connected names the method") {
     MathRequired required;
     CHECK(message_of([&] { required.add(1, 2); }).find("add") != std::string::npos);
 }
 
-TEST_CASE("methods of other types are not connected, and say what they are") {
+TEST_CASE("methods of different types are not connected, and the signatures tell the types") {
     MathRequired required;
     Math math;
     const std::unique_ptr<Method> other(makeProvidedMethod(&twice, "add"));
@@ -76,13 +76,13 @@ TEST_CASE("methods of other types are not connected, and say what they are") {
     CHECK(other->signature() == "int (int)");
 }
 
-TEST_CASE("a signature names standard types as people write them") {
+TEST_CASE("a signature names standard types without their default arguments") {
     const std::unique_ptr<Method> method(makeProvidedMethod(&names_and_points, "f"));
     CHECK(method->signature() ==
           "std::vector<std::string> (std::map<std::string, std::vector<Point>>, std::wstring)");
 }
 
-TEST_CASE("a call with another number or other types of arguments is refused, not made") {
+TEST_CASE("a call with a wrong number or wrong types of arguments is refused") {
     Math math;
     const std::unique_ptr<Method> method(makeProvidedMethod(&Math::add, &math, "add"));
     auto& add = *reinterpret_cast<ProvidedMethod<double>*>(method.get());
@@ -148,7 +148,7 @@ TEST_CASE("a bridge learns a method's signature from both sides") {
     }
 }
 
-TEST_CASE("a method with a type that cannot be archived is callable, but not describable") {
+TEST_CASE("a method with a type that cannot be archived can be called but not described") {
     struct Local {
         int size(int* p) { return p ? 1 : 0; }
     } local;

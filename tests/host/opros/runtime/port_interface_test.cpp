@@ -39,7 +39,7 @@ TEST_CASE("a component finds its ports by name and owns only service ports") {
     CHECK(deaths == 2);
 }
 
-TEST_CASE("a property that is not set is empty, whatever was done to the last one that was not set") {
+TEST_CASE("an absent property is empty, even after another absent one was written to") {
     Component component;
     component.setProperty("a", "1");
     CHECK(component.getProperty("a") == "1");

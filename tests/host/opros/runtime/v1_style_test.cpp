@@ -52,7 +52,7 @@ TEST_CASE("a type with one serialize for both directions crosses an archive") {
     CHECK(copy.values == std::vector<double>{1, 2.5});
 }
 
-TEST_CASE("the value of a port goes by the name it had in Boost") {
+TEST_CASE("the value of a port can be used under the name boost::any") {
     InputDataPort<std::vector<bool>> in;
     const opros_any pushed(std::vector<bool>{true, false});
     opros_any value(pushed);
@@ -65,7 +65,7 @@ TEST_CASE("the value of a port goes by the name it had in Boost") {
     delete popped;
 }
 
-TEST_CASE("sources export their factory without being told") {
+TEST_CASE("a source of v1 exports its factory without a macro of its makefile") {
 #ifdef MAKE_COMPONENT_DLL
     SUCCEED();
 #else
@@ -100,7 +100,7 @@ TEST_CASE("an image whose sizes do not fit each other is refused") {
     CHECK(image.getSize() == 0);
 }
 
-TEST_CASE("data types of v1 have the names that its ports have") {
+TEST_CASE("data types of v1 have the type names that its ports use") {
     CHECK(getTypeName<GPSData>() == "GPSData");
     CHECK(getTypeName<CANObject>() == "CANObject");
     CHECK(getTypeName<WheelControlVelocity>() == "WheelControlVelocity");
@@ -110,7 +110,8 @@ TEST_CASE("data types of v1 have the names that its ports have") {
     CHECK(sum.theta == 4);
 }
 
-TEST_CASE("a box of v1 knows its corners by either way of giving it and what lies in it") {
+TEST_CASE(
+    "RectSolid3D has the same corners from a centre or from two corners, and tells which points lie in it") {
     RectSolid3D box, same;
     box.setRectSolid(Point3D(1, 2, 3), 2, -4, 6);
     same.setRectSolid2Corner(Point3D(2, 0, 9), Point3D(0, 4, 3));
@@ -133,7 +134,7 @@ TEST_CASE("a box of v1 knows its corners by either way of giving it and what lie
     CHECK(area == Approx(2 * (2 * 4 + 2 * 6 + 4 * 6)));
 }
 
-TEST_CASE("shapes of v1 cross a bridge") {
+TEST_CASE("shapes of v1 can be archived") {
     Obstacle3D wall;
     wall.name = "wall";
     wall.surface.resize(2);
