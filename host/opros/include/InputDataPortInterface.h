@@ -35,7 +35,7 @@ class InputDataPortInterface : public DataPort {
     virtual ReturnType addSource(DataPortSource* source);
     /// On return the source is not in use and will not be used again (ours).
     virtual ReturnType removeSource(DataPortSource* source);
-    /// Whether values may wait in a source, of which no listener is told (ours).
+    /// Whether the port has a source: its values are not notified to the listener, and have to be polled (ours).
     bool hasSources() const;
     /// The listener, which must outlive all pushes, or NULL for none (ours).
     void setListener(DataPortListener* listener);

@@ -66,7 +66,7 @@ struct knows_boost_access {
     static const bool value = decltype(test<Access>(0))::value;
 };
 
-/// Whether the name stands for one function or variable that can be had: then it is not the template looked for.
+/// Whether T::serialize is one public function or variable: then it is not the member template of Boost.Serialization.
 template <typename T>
 struct has_plain_serialize {
     template <typename U>

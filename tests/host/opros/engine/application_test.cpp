@@ -6,10 +6,10 @@ using tandem::engine::Application;
 
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/lsan_interface.h>
-using LeftBehind = __lsan::ScopedDisabler;
+using LeakCheckDisabler = __lsan::ScopedDisabler;
 #else
-struct LeftBehind {
-    ~LeftBehind() {}
+struct LeakCheckDisabler {
+    ~LeakCheckDisabler() {}
 };
 #endif
 
@@ -220,7 +220,7 @@ TEST_CASE("an application of which no component can start ends") {
 
 TEST_CASE("a component that does not return is named and the others are stopped") {
     const std::string kind = GENERATE("execute hangs", "stop hangs");
-    const LeftBehind with_all_it_holds;
+    const LeakCheckDisabler stuck_component_leaks;
     const Folder folder;
     auto options = test_options(folder, false);
     options.grace = std::chrono::milliseconds(50);

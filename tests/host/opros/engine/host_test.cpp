@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program, as a process.
+// opros_host as a process.
 #include "tests/host/opros/engine/folder.hpp"
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 
 namespace {
 
+/// A child process whose standard output and error are read together.
 class Process {
   public:
     explicit Process(const std::vector<std::string>& arguments) {
@@ -29,32 +30,32 @@ class Process {
             _exit(127);
         }
         close(out[1]);
-        output_ = out[0];
+        read_end_ = out[0];
     }
     ~Process() {
         if (pid_ > 0) {
             kill(pid_, SIGKILL);
             waitpid(pid_, nullptr, 0);
         }
-        close(output_);
+        close(read_end_);
     }
 
     /// Reads until the text has come, the process ends, or 60 s are over.
-    bool says(const std::string& text) {
-        while (said.find(text) == std::string::npos) {
-            pollfd readable{output_, POLLIN, 0};
+    bool prints(const std::string& text) {
+        while (output.find(text) == std::string::npos) {
+            pollfd readable{read_end_, POLLIN, 0};
             char chunk[512];
             if (poll(&readable, 1, 60000) <= 0) return false;
-            const ssize_t got = read(output_, chunk, sizeof chunk);
+            const ssize_t got = read(read_end_, chunk, sizeof chunk);
             if (got <= 0) return false;
-            said.append(chunk, static_cast<std::size_t>(got));
+            output.append(chunk, static_cast<std::size_t>(got));
         }
         return true;
     }
     void signal(int number) { kill(pid_, number); }
-    /// The signal that ended it, of those sent until it did; 0 if it has not within a bound out of
-    /// proportion.
-    int ended_by(int number) {
+    /// Sends the signal again and again until the process has ended, for 30 s at most. Returns the signal that ended
+    /// it, or 0.
+    int signal_until_ended(int number) {
         int status = 0;
         for (int i = 0; i < 600; ++i) {
             signal(number);
@@ -67,18 +68,18 @@ class Process {
         return 0;
     }
     int exit_code() {
-        says("no program says this");
+        prints("text that no program prints");
         int status = 0;
         waitpid(pid_, &status, 0);
         pid_ = -1;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 
-    std::string said;
+    std::string output;
 
   private:
     pid_t pid_;
-    int output_;
+    int read_end_;
 };
 
 std::filesystem::path one_component(const Folder& folder, const std::string& library,
@@ -94,7 +95,7 @@ TEST_CASE("the host prints ready when all components have started and stops them
     const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker.dll")});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(number);
     CHECK(host.exit_code() == 0);
 }
@@ -104,7 +105,7 @@ TEST_CASE("the host accepts all its options") {
     Process host({OPROS_HOST, "--plugin-path", "/nowhere", "--plugin-path", FIXTURES, "--cpu", "0",
                   "--tick-spin", "50", "--wait-mode", "same-core", "--low-latency-idle", "--parent-death",
                   "--lockstep", folder.path() / "step", one_component(folder, "maker")});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 0);
 }
@@ -113,12 +114,12 @@ TEST_CASE("bad input is one line on standard error and exit code 1") {
     const Folder folder;
     Process host({OPROS_HOST, one_component(folder, "nothing.dll")});
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::StartsWith("opros_host: ") &&
-                              Catch::Contains("M.xml:3: library 'nothing.dll' not found"));
-    CHECK(std::count(host.said.begin(), host.said.end(), '\n') == 1);
+    CHECK_THAT(host.output, Catch::StartsWith("opros_host: ") &&
+                                Catch::Contains("M.xml:3: library 'nothing.dll' not found"));
+    CHECK(std::count(host.output.begin(), host.output.end(), '\n') == 1);
     Process missing({OPROS_HOST, "/nowhere/app.xml"});
     CHECK(missing.exit_code() == 1);
-    CHECK_THAT(missing.said, Catch::Contains("/nowhere/app.xml"));
+    CHECK_THAT(missing.output, Catch::Contains("/nowhere/app.xml"));
 }
 
 TEST_CASE("a wrong device library is reported in one line that says what the file is") {
@@ -128,14 +129,15 @@ TEST_CASE("a wrong device library is reported in one line that says what the fil
                      "<property name=\"ArmApiName\">Nowhere</property>");
     folder.write("Text.so", "int main() {}\n");
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, folder.application(Folder::sub("M", "M.xml"))});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 0);
-    CHECK_THAT(host.said, Catch::Contains("warning: ApiName printer: library ") &&
-                              Catch::Contains("libprinter.so is an OPRoS component (exports getComponent), "
-                                              "expected a device API, which exports GetAPI (extern \"C\")"));
-    CHECK_THAT(host.said, Catch::Contains("warning: DllName Text: ") && Catch::Contains("Text.so"));
-    CHECK_THAT(host.said,
+    CHECK_THAT(host.output,
+               Catch::Contains("warning: ApiName printer: library ") &&
+                   Catch::Contains("libprinter.so is an OPRoS component (exports getComponent), "
+                                   "expected a device API, which exports GetAPI (extern \"C\")"));
+    CHECK_THAT(host.output, Catch::Contains("warning: DllName Text: ") && Catch::Contains("Text.so"));
+    CHECK_THAT(host.output,
                Catch::Contains("ArmApiName Nowhere: the component gets the name unchanged: library "
                                "'Nowhere' not found: looked for Nowhere.so, libNowhere.so"));
 }
@@ -144,50 +146,51 @@ TEST_CASE("a call of an unconnected method in onStart is reported in one line") 
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start calls")});
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("component M: start failed, its callback made a call that failed: "
-                                          "required method add is not connected\n"));
+    CHECK_THAT(host.output,
+               Catch::Contains("component M: start failed, its callback made a call that failed: "
+                               "required method add is not connected\n"));
 }
 
 TEST_CASE("a host whose component hangs in onExecute names it and exits") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
                   one_component(folder, "maker", "execute hangs")});
-    REQUIRE(host.says("ready\n"));
-    REQUIRE(host.says("M hangs\n"));
+    REQUIRE(host.prints("ready\n"));
+    REQUIRE(host.prints("M hangs\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("component M does not return from onExecute within 0.1 s"));
+    CHECK_THAT(host.output, Catch::Contains("component M does not return from onExecute within 0.1 s"));
 }
 
 TEST_CASE("signals within one second are one request to stop and everything is stopped in order") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker")});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGINT);
     host.signal(SIGTERM);
     host.signal(SIGHUP);
     CHECK(host.exit_code() == 0);
-    CHECK_THAT(host.said, Catch::Contains("M is gone\n"));
+    CHECK_THAT(host.output, Catch::Contains("M is gone\n"));
 }
 
 TEST_CASE("a second signal ends a host whose component does not stop") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "3600",
                   one_component(folder, "maker", "stop hangs")});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
-    REQUIRE(host.says("M hangs\n"));
-    CHECK(host.ended_by(SIGINT) == SIGINT);
+    REQUIRE(host.prints("M hangs\n"));
+    CHECK(host.signal_until_ended(SIGINT) == SIGINT);
 }
 
 TEST_CASE("a host whose component hangs in the set-up can be ended") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
                   one_component(folder, "maker", "initialize hangs")});
-    REQUIRE(host.says("M hangs\n"));
+    REQUIRE(host.prints("M hangs\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("onInitialize of component M does not return within 0.1 s"));
+    CHECK_THAT(host.output, Catch::Contains("onInitialize of component M does not return within 0.1 s"));
 }
 
 TEST_CASE("a host whose component hangs during shutdown names it and the callback and exits") {
@@ -196,21 +199,21 @@ TEST_CASE("a host whose component hangs during shutdown names it and the callbac
     const Folder folder;
     Process host(
         {OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1", one_component(folder, "maker", where)});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("component M does not return from " +
-                                          where.substr(0, where.rfind(' ')) + " within 0.1 s"));
+    CHECK_THAT(host.output, Catch::Contains("component M does not return from " +
+                                            where.substr(0, where.rfind(' ')) + " within 0.1 s"));
 }
 
 TEST_CASE("a library that stays loaded and hangs after main() is named and the host exits") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
                   one_component(folder, "lasting_maker", "its static destructors hang")});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said,
+    CHECK_THAT(host.output,
                Catch::Contains("the library hangs\nopros_host: component M does not return from "
                                "its static destructors within 0.1 s; the host exits without it\n"));
 }
@@ -222,10 +225,10 @@ TEST_CASE("a component that hangs in its destructor does not keep others from be
     folder.component("Hardware", "maker", "<type>passive</type>");
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1",
                   folder.application(Folder::sub("M", "M.xml") + Folder::sub("Hardware", "Hardware.xml"))});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("Hardware is gone\n"));
+    CHECK_THAT(host.output, Catch::Contains("M hangs\n") && Catch::Contains("Hardware is gone\n"));
 }
 
 TEST_CASE("a failed set-up ends the host even when a component hangs in its destructor") {
@@ -236,14 +239,14 @@ TEST_CASE("a failed set-up ends the host even when a component hangs in its dest
                   folder.application(Folder::sub("M", "M.xml"),
                                      Folder::connect("data", "M", "numbers", "M", "none"))});
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.said, Catch::Contains("M hangs\n") && Catch::Contains("'none'"));
+    CHECK_THAT(host.output, Catch::Contains("M hangs\n") && Catch::Contains("'none'"));
 }
 
 TEST_CASE("the host prints what its executors have counted with --stats") {
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, "--stats", one_component(folder, "maker")});
-    REQUIRE(host.says("ready\n"));
+    REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 0);
-    CHECK_THAT(host.said, Catch::Contains("executor of M: every 10 ms, "));
+    CHECK_THAT(host.output, Catch::Contains("executor of M: every 10 ms, "));
 }

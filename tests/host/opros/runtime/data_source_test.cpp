@@ -11,7 +11,7 @@
 namespace {
 
 /// Encoded numbers that wait outside the component.
-class Outside : public DataPortSource {
+class TestSource : public DataPortSource {
   public:
     void send(double value) {
         BinaryPipe pipe;
@@ -19,7 +19,7 @@ class Outside : public DataPortSource {
         waiting.push_back(pipe.bytes.str());
     }
     opros::archive::iarchive* next() override {
-        ++looks;
+        ++next_calls;
         if (waiting.empty()) return nullptr;
         bytes_ = std::istringstream(waiting.front());
         archive_ = std::make_unique<opros::archive::binary_iarchive>(&bytes_);
@@ -29,11 +29,11 @@ class Outside : public DataPortSource {
         waiting.pop_front();
         ++finished;
     }
-    void undecodable(const std::string& why) override { complaint = why; }
+    void undecodable(const std::string& why) override { error = why; }
 
     std::deque<std::string> waiting;
-    std::string complaint;
-    int finished = 0, looks = 0;
+    std::string error;
+    int finished = 0, next_calls = 0;
 
   private:
     std::istringstream bytes_;
@@ -41,9 +41,9 @@ class Outside : public DataPortSource {
 };
 
 /// Offers the same encoded numbers whenever asked to, without allocating itself.
-class Repeater : public DataPortSource {
+class RepeatingSource : public DataPortSource {
   public:
-    explicit Repeater(const std::vector<double>& values) {
+    explicit RepeatingSource(const std::vector<double>& values) {
         BinaryPipe pipe;
         pipe.out << values;
         bytes_.str(pipe.bytes.str());
@@ -79,8 +79,8 @@ struct Picture {
 };
 std::string typeName(Picture*) { return "Picture"; }
 
-/// Pictures that wait outside, and say that they are large.
-class Camera : public DataPortSource {
+/// A source of pictures that tells the port that they are large.
+class LargeValueSource : public DataPortSource {
   public:
     void take(unsigned char shade) { waiting_.push_back(shade); }
     opros::archive::iarchive* next() override {
@@ -111,23 +111,23 @@ double pop(InputDataPort<double>& port) {
 
 TEST_CASE("with LAST the consumer gets the newest value of a source, and the others are dropped") {
     InputDataPort<double> port(OPROS_LAST, 1);
-    Outside outside;
-    REQUIRE(port.addSource(&outside) == OPROS_SUCCESS);
+    TestSource source;
+    REQUIRE(port.addSource(&source) == OPROS_SUCCESS);
     CHECK(port.pop() == nullptr);
-    for (double value : {1., 2., 3.}) outside.send(value);
+    for (double value : {1., 2., 3.}) source.send(value);
     CHECK(pop(port) == 3);
-    CHECK(outside.finished == 3);
+    CHECK(source.finished == 3);
     CHECK(port.pop() == nullptr);
 }
 
 TEST_CASE(
     "with FIFO the consumer gets every value in order, and a full queue leaves the rest in the source") {
     InputDataPort<double> port(OPROS_FIFO, 2);
-    Outside outside;
-    port.addSource(&outside);
-    for (double value : {1., 2., 3.}) outside.send(value);
+    TestSource source;
+    port.addSource(&source);
+    for (double value : {1., 2., 3.}) source.send(value);
     CHECK(port.getSize() == 2);
-    CHECK(outside.waiting.size() == 1);
+    CHECK(source.waiting.size() == 1);
     CHECK(pop(port) == 1);
     CHECK(pop(port) == 2);
     CHECK(pop(port) == 3);
@@ -135,22 +135,22 @@ TEST_CASE(
 
 TEST_CASE("a waiting consumer gets the next value with one call of next() and the rest in order") {
     InputDataPort<double> port(OPROS_FIFO, 4);
-    Outside outside;
-    port.addSource(&outside);
+    TestSource source;
+    port.addSource(&source);
     CHECK(port.pop() == nullptr);
-    for (double value : {1., 2., 3.}) outside.send(value);
-    outside.looks = 0;
+    for (double value : {1., 2., 3.}) source.send(value);
+    source.next_calls = 0;
     CHECK(pop(port) == 1);
-    CHECK(outside.looks == 1);
+    CHECK(source.next_calls == 1);
     CHECK(pop(port) == 2); // it lags behind, so what waits outside is fetched in
-    CHECK(outside.waiting.empty());
+    CHECK(source.waiting.empty());
     CHECK(pop(port) == 3);
     CHECK(port.pop() == nullptr);
 }
 
 TEST_CASE("a waiting consumer gets the values of all its sources and those that are pushed") {
     InputDataPort<double> port;
-    Outside one, other;
+    TestSource one, other;
     port.addSource(&one);
     port.addSource(&other);
     CHECK(port.pop() == nullptr);
@@ -169,12 +169,12 @@ TEST_CASE("a waiting consumer gets the values of all its sources and those that 
 
 TEST_CASE("a popped value does not change when others arrive") {
     InputDataPort<double> port;
-    Outside outside;
-    port.addSource(&outside);
+    TestSource source;
+    port.addSource(&source);
     std::vector<std::unique_ptr<opros_any>> kept;
     for (double value : {1., 2., 3.}) {
         CHECK(port.pop() == nullptr);
-        outside.send(value);
+        source.send(value);
         kept.emplace_back(port.pop());
     }
     for (std::size_t i = 0; i < kept.size(); ++i)
@@ -185,7 +185,7 @@ TEST_CASE("after a first value, a waiting consumer gets a value without an alloc
     InputDataPort<std::vector<double>> port;
     const std::vector<double> values(100, 1.5);
     std::vector<double> decoded = values;
-    Repeater source(values);
+    RepeatingSource source(values);
     port.addSource(&source);
     for (int i = 0; i < 3; ++i) {
         CHECK(port.pop() == nullptr); // what the next value needs is allocated here
@@ -203,12 +203,12 @@ TEST_CASE("after a first value, a waiting consumer gets a value without an alloc
 TEST_CASE("a large value is decoded into the object that the consumer gets and never copied") {
     const auto policy = GENERATE(OPROS_FIFO, OPROS_LAST, OPROS_LIFO, OPROS_UFIFO);
     InputDataPort<Picture> port(policy, 4);
-    Camera camera;
-    port.addSource(&camera);
+    LargeValueSource source;
+    port.addSource(&source);
     Picture::copies = 0;
     for (unsigned char round = 1; round <= 5; ++round) {
         for (int i = 0; i < 3; ++i)
-            camera.take(round); // it waits for the first one, and lags behind with the rest
+            source.take(round); // it waits for the first one, and lags behind with the rest
         std::size_t popped = 0;
         while (const std::unique_ptr<opros_any> any{port.pop()}) {
             const auto* picture = port.getContentPointer(*any);
@@ -223,43 +223,43 @@ TEST_CASE("a large value is decoded into the object that the consumer gets and n
 
 TEST_CASE("pushed values and those of a source share one queue") {
     InputDataPort<double> port;
-    Outside outside;
-    port.addSource(&outside);
+    TestSource source;
+    port.addSource(&source);
     double pushed = 7;
     port.push(pushed);
-    outside.send(8);
+    source.send(8);
     CHECK(pop(port) == 7);
     CHECK(pop(port) == 8);
 }
 
 TEST_CASE("a value that cannot be decoded is dropped and reported, and no other value is lost") {
     InputDataPort<double> port(OPROS_LAST, 1);
-    Outside outside;
-    port.addSource(&outside);
-    outside.send(5);
-    outside.waiting.push_back("junk");
+    TestSource source;
+    port.addSource(&source);
+    source.send(5);
+    source.waiting.push_back("junk");
     CHECK(pop(port) == 5);
-    CHECK_FALSE(outside.complaint.empty());
-    CHECK(outside.finished == 2);
+    CHECK_FALSE(source.error.empty());
+    CHECK(source.finished == 2);
 }
 
 TEST_CASE("a removed source is not used any more") {
     InputDataPort<double> port;
-    Outside outside;
-    port.addSource(&outside);
-    port.removeSource(&outside);
-    outside.send(1);
+    TestSource source;
+    port.addSource(&source);
+    port.removeSource(&source);
+    source.send(1);
     CHECK(port.getSize() == 0);
-    CHECK(outside.waiting.size() == 1);
+    CHECK(source.waiting.size() == 1);
 }
 
 TEST_CASE("reset drops the values that wait in the sources") {
     InputDataPort<double> port;
-    Outside outside;
-    port.addSource(&outside);
-    outside.send(1);
+    TestSource source;
+    port.addSource(&source);
+    source.send(1);
     port.reset();
-    CHECK(outside.waiting.empty());
+    CHECK(source.waiting.empty());
 }
 
 TEST_CASE("a port whose type cannot be archived refuses a source") {
@@ -267,8 +267,8 @@ TEST_CASE("a port whose type cannot be archived refuses a source") {
         int n = 0;
     };
     InputDataPort<Local> port;
-    Outside outside;
-    CHECK(port.addSource(&outside) == OPROS_UNSUPPORTED_METHOD);
+    TestSource source;
+    CHECK(port.addSource(&source) == OPROS_UNSUPPORTED_METHOD);
     CHECK(port.addSource(nullptr) == OPROS_BAD_INPUT_PARAMETER);
 }
 
@@ -282,34 +282,34 @@ TEST_CASE("a value can be pushed from an archive") {
 
 namespace {
 /// Its reading throws what is no std::exception.
-struct Moody {
-    void save(opros::archive::oarchive& ar, const unsigned int) { ar << mood; }
+struct ThrowingOnLoad {
+    void save(opros::archive::oarchive& ar, const unsigned int) { ar << number; }
     void load(opros::archive::iarchive& ar, const unsigned int) {
-        ar >> mood;
-        if (mood == 0) throw 42;
+        ar >> number;
+        if (number == 0) throw 42;
     }
-    int mood = 1;
+    int number = 1;
 };
-inline std::string typeName(Moody*) { return "Moody"; }
+inline std::string typeName(ThrowingOnLoad*) { return "ThrowingOnLoad"; }
 } // namespace
 
 TEST_CASE("a value whose load() throws any type is dropped and the next value of its source is read") {
-    class Moods : public Outside {
+    class ThrowingSource : public TestSource {
       public:
-        void send(int mood) {
+        void send(int number) {
             BinaryPipe pipe;
-            Moody value;
-            value.mood = mood;
+            ThrowingOnLoad value;
+            value.number = number;
             pipe.out << value;
             waiting.push_back(pipe.bytes.str());
         }
-    } moods;
-    InputDataPort<Moody> port;
-    REQUIRE(port.addSource(&moods) == OPROS_SUCCESS);
-    for (int mood : {0, 7}) moods.send(mood);
+    } throwing_source;
+    InputDataPort<ThrowingOnLoad> port;
+    REQUIRE(port.addSource(&throwing_source) == OPROS_SUCCESS);
+    for (int number : {0, 7}) throwing_source.send(number);
     const std::unique_ptr<opros_any> any(port.pop());
     REQUIRE(any);
-    CHECK(port.getContent(*any).mood == 7);
-    CHECK(moods.finished == 2);
-    CHECK(moods.complaint == "an exception of unknown type");
+    CHECK(port.getContent(*any).number == 7);
+    CHECK(throwing_source.finished == 2);
+    CHECK(throwing_source.error == "an exception of unknown type");
 }
