@@ -19,7 +19,7 @@ std::string code_text(ReturnType code) {
 }
 
 /// Publishes the name of a callback while it runs, for the message about one that does not return. Callbacks
-/// nest (a service call out of onExecute), so that the end of one restores the name of the outer one.
+/// nest (in lock-step, an event that a component sends to itself), so the end of one restores the outer name.
 class CallbackScope {
   public:
     CallbackScope(std::atomic<const char*>& current, const char* name)
