@@ -55,7 +55,7 @@ PUBLIC_TO_APPS = {
     "host/opros/engine/profile/type_profile.hpp",
     "host/rtm/runtime/manager/manager_options.hpp",
     "host/rtm/runtime/naming/remote_names.hpp",
-    "host/rtm/runtime/port/data_port.hpp",
+    "host/rtm/runtime/port/custom_serializer.hpp",
 }
 # The two component models' API headers: a room of one model must not see the other's.
 FOREIGN = {
