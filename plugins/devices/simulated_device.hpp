@@ -69,6 +69,12 @@ class SimulatedDevice : public Class {
         return API_SUCCESS;
     }
 
+    /// perform() with an assignment as the action.
+    template <typename Value>
+    int copy(const Value& from, Value& to) {
+        return perform([&] { to = from; });
+    }
+
     /// [in configure()] A parameter as a number, 0 if it is none; the default if there is no such parameter.
     double number_parameter(const std::string& name, double default_value) {
         if (!parameters_.FindName(name)) return default_value;

@@ -10,6 +10,20 @@ namespace tandem::bench {
 
 namespace {
 
+template <std::size_t bytes, class Ring>
+void write_slot(Ring& ring, std::uint64_t sequence) {
+    fill_message(ring.claim(), bytes, sequence);
+    ring.publish();
+}
+
+/// The slot is given back after its words have been summed.
+template <std::size_t bytes, class Ring>
+std::uint64_t read_slot(Ring& ring) {
+    const std::uint64_t sequence = checked_sequence(ring.wait_for_slot(), bytes);
+    ring.release();
+    return sequence;
+}
+
 /// Two rings, one for each direction. A region is the place of such a pair in the session's memory.
 template <std::size_t bytes, Wake wake>
 class RingEndpoint {
@@ -17,15 +31,8 @@ class RingEndpoint {
     explicit RingEndpoint(Session& session, std::size_t region = 0)
         : out_(memory(session, 2 * region + (session.is_a() ? 0 : 1))),
           in_(memory(session, 2 * region + (session.is_a() ? 1 : 0))) {}
-    void send(std::uint64_t sequence) {
-        fill_message(out_.claim(), bytes, sequence);
-        out_.publish();
-    }
-    std::uint64_t receive() {
-        const std::uint64_t sequence = checked_sequence(in_.wait_for_slot(), bytes);
-        in_.release();
-        return sequence;
-    }
+    void send(std::uint64_t sequence) { write_slot<bytes>(out_, sequence); }
+    std::uint64_t receive() { return read_slot<bytes>(in_); }
 
   private:
     using Ring = IndexRing<bytes, bytes <= 4096 ? 1024 : 4, wake>;
@@ -45,15 +52,8 @@ class RingEndpoint {
 class SmallStreamEndpoint {
   public:
     explicit SmallStreamEndpoint(Session& session) : ring_(session.memory().data()) {}
-    void send(std::uint64_t sequence) {
-        fill_message(ring_.claim(), bytes, sequence);
-        ring_.publish();
-    }
-    std::uint64_t receive() {
-        const std::uint64_t sequence = checked_sequence(ring_.wait_for_slot(), bytes);
-        ring_.release();
-        return sequence;
-    }
+    void send(std::uint64_t sequence) { write_slot<bytes>(ring_, sequence); }
+    std::uint64_t receive() { return read_slot<bytes>(ring_); }
 
   private:
     static constexpr std::size_t bytes = 64;
@@ -115,12 +115,7 @@ void add_index_ring_cases(Registry& registry) {
     add_wake_mode<Wake::spin_then_futex>(registry);
     add_wake_mode<Wake::blocking>(registry);
     RingCases<RingEndpoint> cases(registry, Group::baseline, "index-ring");
-    cases.add_size<256>();
-    cases.add_size<1024>();
-    cases.add_size<4096>();
-    cases.add_size<65536>();
-    cases.add_size<mebibyte>();
-    cases.add_size<6 * mebibyte>();
+    cases.add_sizes_from_256();
     cases.add_small_stream<SmallStreamEndpoint>();
     add_large_streams<65536>(cases);
     add_large_streams<mebibyte>(cases);

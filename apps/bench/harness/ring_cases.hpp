@@ -48,6 +48,16 @@ class RingCases {
         registry_.add(one_way);
     }
 
+    /// The sizes that both rings are plotted at; 6 MiB is a raw picture of two megapixels.
+    void add_sizes_from_256() {
+        add_size<256>();
+        add_size<1024>();
+        add_size<4096>();
+        add_size<65536>();
+        add_size<mebibyte>();
+        add_size<6 * mebibyte>();
+    }
+
     /// A stream of large messages, written and read in the way that `detail` names.
     template <class StreamEndpoint>
     void add_large_stream(std::size_t bytes, const std::string& detail) {

@@ -8,18 +8,12 @@ namespace tandem::bench {
 
 void add_ring_cases(Registry& registry) {
     RingCases<RingEndpoint> cases(registry, Group::tandem, "ring");
-    // The plot over sizes needs these; the limits refer to 48 and 64 bytes.
     cases.add_size<8>();
     cases.add_size<48>(); // the longest that fits into one cache line with the record's header
     cases.add_wake_mode<Wake::spin>();
     cases.add_wake_mode<Wake::spin_then_futex>();
     cases.add_wake_mode<Wake::blocking>();
-    cases.add_size<256>();
-    cases.add_size<1024>();
-    cases.add_size<4096>();
-    cases.add_size<65536>();
-    cases.add_size<mebibyte>();
-    cases.add_size<6 * mebibyte>();
+    cases.add_sizes_from_256();
 }
 
 } // namespace tandem::bench

@@ -13,12 +13,8 @@ namespace tandem::devices {
 template <typename Class>
 class SimulatedAnalog : public Class {
   public:
-    int SetAnalogOutputData(std::vector<double> outputs) override {
-        return this->perform([&] { volts_ = outputs; });
-    }
-    int GetAnalogInputData(std::vector<double>& inputs) override {
-        return this->perform([&] { inputs = volts_; });
-    }
+    int SetAnalogOutputData(std::vector<double> outputs) override { return this->copy(outputs, volts_); }
+    int GetAnalogInputData(std::vector<double>& inputs) override { return this->copy(volts_, inputs); }
 
   private:
     std::vector<double> volts_ = std::vector<double>(1);
@@ -28,13 +24,9 @@ class SimulatedAnalog : public Class {
 template <typename Class>
 class SimulatedDigital : public Class {
   public:
-    int SetDigitalOutputData(std::vector<bool> outputs) override {
-        return this->perform([&] { levels_ = outputs; });
-    }
+    int SetDigitalOutputData(std::vector<bool> outputs) override { return this->copy(outputs, levels_); }
     /// OPRoS spells it so.
-    int GetDigitalnputData(std::vector<bool>& inputs) override {
-        return this->perform([&] { inputs = levels_; });
-    }
+    int GetDigitalnputData(std::vector<bool>& inputs) override { return this->copy(levels_, inputs); }
 
   private:
     std::vector<bool> levels_ = std::vector<bool>(1);
