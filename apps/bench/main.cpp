@@ -25,12 +25,14 @@ void write_file(const std::string& path, const std::string& text) {
     if (!file) throw std::runtime_error(fmt::format("cannot write {}; check that its folder exists", path));
 }
 
+/// Throws std::runtime_error that names the file.
 std::string read_file(const std::string& path) {
     std::ifstream file(path);
     if (!file) throw std::runtime_error(fmt::format("cannot read {}; give a file written with --json", path));
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+/// For --compare. The message names the option: there are two files on a command line.
 Report read_report(const std::string& path) {
     try {
         return from_json(read_file(path));

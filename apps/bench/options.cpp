@@ -55,6 +55,7 @@ Budget budget_of(const Options& options) {
 }
 
 Cores cores_of(const Options& options) {
+    // Checked here, so that a wrong core is one line and not the failure of each case.
     const std::vector<int> allowed = allowed_cores();
     const std::vector<int>& wanted = options.cores.empty() ? allowed : options.cores;
     for (int core : options.cores)

@@ -49,6 +49,7 @@ Row empty_row(const Case& bench_case, const Cores& cores) {
 /// Repeats a case, after a pause, while other processes disturb it; the least disturbed attempt counts.
 Outcome measure_undisturbed(const Case& bench_case, const Plan& plan) {
     Outcome best = run_case(bench_case, plan.budget, plan.cores);
+    // The pause lets a short disturbance, as a cron job, pass.
     const int attempts =
         bench_case.extra_seconds > 0 ? 1 : plan.budget.attempts; // a long case averages disturbances out
     for (int i = 1; i < attempts && best.foreign_cpu_share > Row::max_foreign_cpu_share && !interrupted();
@@ -151,6 +152,7 @@ Report measure(const Plan& plan) {
     Report report;
     report.machine = this_machine();
     for (const Case& entry : plan.cases) report.rows.push_back(empty_row(entry, plan.cores));
+    // The runs are the outer loop: see suite.hpp.
     std::vector<RowRuns> runs(plan.cases.size());
     for (int run = 0; run < plan.runs; ++run) {
         for (std::size_t i = 0; i < plan.cases.size() && !interrupted(); ++i) {

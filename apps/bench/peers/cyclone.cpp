@@ -85,6 +85,7 @@ class CycloneEndpoint {
     CycloneEndpoint(const CycloneEndpoint&) = delete;
     CycloneEndpoint& operator=(const CycloneEndpoint&) = delete;
 
+    // dds_write() serializes the sample; a reliable writer blocks while its history is full.
     void send(std::uint64_t sequence) {
         fill_message(message_->words, sizeof(T), sequence);
         require_ok(dds_write(writer_, message_.get()), "write");

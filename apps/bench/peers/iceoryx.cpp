@@ -44,6 +44,7 @@ void wait_for(Ready&& ready) {
     while (!ready()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
+/// For errors that end the case: its row shows the text.
 [[noreturn]] void fail(const char* operation) {
     throw std::runtime_error(std::string("iceoryx: ") + operation);
 }
@@ -125,6 +126,7 @@ class IceoryxClient {
             });
         }
     }
+    /// Blocking: sleeps in the WaitSet; otherwise takes until there is a response.
     std::uint64_t call(std::uint64_t sequence) {
         auto request = client_.loan(bytes, alignment);
         if (request.has_error()) fail("no chunk for a request");
@@ -186,6 +188,7 @@ class IceoryxServer {
 
 } // namespace
 
+// Streams by polling only: a WaitSet would sleep and wake for each message.
 void add_iceoryx_cases(Registry& registry) {
     PeerCases cases(registry, "iceoryx", "iox-roudi");
     cases.add_one_way<IceoryxEndpoint<64, Wake::spin>>(Wake::spin);

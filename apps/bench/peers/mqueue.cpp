@@ -55,6 +55,7 @@ class MqueueEndpoint {
 
 } // namespace
 
+// Blocking streams: a full queue blocks the writer in the kernel, an empty one the reader.
 void add_mqueue_cases(Registry& registry) {
     PeerCases cases(registry, "posix-mqueue");
     cases.add_one_way<MqueueEndpoint<64, Wake::spin>>(Wake::spin);

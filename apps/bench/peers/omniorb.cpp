@@ -75,6 +75,7 @@ class OrbSide {
         const CORBA::Object_var root = orb_->resolve_initial_references("RootPOA");
         const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
         const PortableServer::ObjectId_var id = poa->activate_object(servant_.in());
+        // Requests are served from here on.
         const PortableServer::POAManager_var manager = poa->the_POAManager();
         manager->activate();
         const CORBA::Object_var own = poa->id_to_reference(id);
@@ -96,6 +97,7 @@ class OrbSide {
     OrbSide& operator=(const OrbSide&) = delete;
 
   protected:
+    // Two object references, one behind the other, at the front of the session's memory.
     static constexpr std::size_t text_bytes = 4096;
     /// Options: large messages are allowed, and the client uses the transport that is measured.
     static CORBA::ORB_ptr start_orb(const Session& session) {

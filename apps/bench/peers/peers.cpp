@@ -16,6 +16,7 @@ namespace tandem::bench {
 
 namespace {
 
+/// Unused in a build that has all peers.
 [[maybe_unused]] void skip(Registry& registry, const char* name, const char* packages) {
     registry.skipped.push_back({name, std::string("this build has no ") + name +
                                           ": install the Debian packages " + packages +

@@ -16,6 +16,7 @@ namespace tandem::bench {
 
 namespace {
 
+/// With the text of errno.
 [[noreturn]] void fail(const char* operation) {
     throw std::system_error(errno, std::generic_category(), operation);
 }

@@ -12,6 +12,7 @@ namespace tandem::bench {
 
 namespace {
 
+/// ZeroMQ has error numbers of its own beside errno.
 [[noreturn]] void fail(const char* operation) {
     throw std::runtime_error(fmt::format("{}: {}", operation, zmq_strerror(zmq_errno())));
 }

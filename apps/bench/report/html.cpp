@@ -88,7 +88,7 @@ std::string rows_section(const Report& report) {
                "from", ""},
               "th") +
         "</tr></thead><tbody>\n";
-    std::string skipped;
+    std::string skipped; // collected, for the list behind the table
     for (const Row& row : report.rows) {
         if (row.skipped.empty())
             out += row_html(row);

@@ -47,6 +47,7 @@ std::string table_text(const Report& report) {
                        "cores", "samples", "p50", "p90", "p99", "p99.9", "max", "conditions");
     for (const Row& row : report.rows)
         if (row.skipped.empty()) out += line_of(row, width);
+    // Once more in one line: a single row's mark is easily overlooked.
     const auto disturbed =
         std::count_if(report.rows.begin(), report.rows.end(), [](const Row& row) { return row.disturbed(); });
     if (disturbed > 0)
