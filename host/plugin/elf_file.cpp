@@ -87,16 +87,16 @@ std::string machine_name(unsigned machine) {
     }
 }
 
-// The file of this program tells what the machine runs.
+// Compares with the file of this program, which runs on this machine.
 void check_machine(const ElfFile& elf, const GElf_Ehdr& header) {
     const ElfFile own("/proc/self/exe");
-    const GElf_Ehdr ours = own.header();
-    const bool same = header.e_machine == ours.e_machine &&
-                      header.e_ident[EI_CLASS] == ours.e_ident[EI_CLASS] &&
-                      header.e_ident[EI_DATA] == ours.e_ident[EI_DATA];
+    const GElf_Ehdr own_header = own.header();
+    const bool same = header.e_machine == own_header.e_machine &&
+                      header.e_ident[EI_CLASS] == own_header.e_ident[EI_CLASS] &&
+                      header.e_ident[EI_DATA] == own_header.e_ident[EI_DATA];
     if (!same)
         elf.fail(Reason::wrong_architecture, "is for " + machine_name(header.e_machine) +
-                                                 ", this machine is " + machine_name(ours.e_machine) +
+                                                 ", this machine is " + machine_name(own_header.e_machine) +
                                                  "; build it here");
 }
 
@@ -164,8 +164,9 @@ ElfContents read_elf(const std::filesystem::path& library) {
     check_segments(elf);
     // Without section headers libelf finds neither symbols nor notes, although the library could be loaded.
     if (header.e_shoff == 0)
-        elf.fail(Reason::damaged,
-                 "has no section headers, so that it cannot be looked at without running it; link it again");
+        elf.fail(
+            Reason::damaged,
+            "has no section headers, without which it cannot be checked before it is loaded; link it again");
     ElfContents contents;
     bool found = false;
     for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section));) {

@@ -14,7 +14,7 @@
 
 namespace tandem::plugin {
 
-/// A loaded library. Whoever holds a pointer to it or to an instance of share_instance() keeps it loaded.
+/// A loaded library. It is unloaded when the last pointer to it, or to an instance of share_instance(), is gone.
 class Library {
   public:
     /// Reads the file's contents, then loads it. Throws Error: those of read_contents(), or load_failed with the

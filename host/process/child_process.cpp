@@ -80,6 +80,7 @@ void ChildProcess::open_pidfd(const std::string& name) {
     const int error = errno;
     // Without a pidfd no bounded wait is possible; after SIGKILL none is needed.
     ::kill(pid_, SIGKILL);
+    kill_group();
     while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
     fail(error, name + " cannot be watched (pidfd_open)");
 }

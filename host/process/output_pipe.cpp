@@ -15,7 +15,7 @@ OutputPipe::OutputPipe() {
         throw std::system_error(errno, std::generic_category(), "no pipe to a child process");
     reader_ = FileDescriptor(ends[0]);
     writer_ = FileDescriptor(ends[1]);
-    // Only the reader: a child does not expect a standard output that says EAGAIN.
+    // Only the reader: a program does not expect that writing to its standard output fails with EAGAIN.
     fcntl(reader_.get(), F_SETFL, O_NONBLOCK);
 }
 

@@ -44,8 +44,8 @@ FileDescriptor input_file(const std::string& content) {
 /// Blocks the signals that end a program in this thread, so that they can be read from a signalfd instead.
 class BlockedSignals {
   public:
-    explicit BlockedSignals(bool wanted) : wanted_(wanted) {
-        if (!wanted_) return;
+    explicit BlockedSignals(bool active) : active_(active) {
+        if (!active_) return;
         sigset_t signals;
         sigemptyset(&signals);
         for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
@@ -53,7 +53,7 @@ class BlockedSignals {
         pthread_sigmask(SIG_BLOCK, &signals, &before_);
     }
     ~BlockedSignals() {
-        if (wanted_) pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+        if (active_) pthread_sigmask(SIG_SETMASK, &before_, nullptr);
     }
     BlockedSignals(const BlockedSignals&) = delete;
     BlockedSignals& operator=(const BlockedSignals&) = delete;
@@ -65,7 +65,7 @@ class BlockedSignals {
     }
 
   private:
-    bool wanted_;
+    bool active_;
     sigset_t before_{};
     FileDescriptor reader_;
 };

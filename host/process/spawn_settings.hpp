@@ -8,7 +8,7 @@
 
 namespace tandem::process {
 
-/// Owns the two objects with which posix_spawn() is told how to start a program.
+/// Owns the two objects that describe to posix_spawn() how a program is started.
 class SpawnSettings {
   public:
     SpawnSettings();

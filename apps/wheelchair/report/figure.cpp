@@ -25,6 +25,7 @@ constexpr const char* styles =
     "set key top left opaque font ',11' samplen 3\n"
     "set lmargin at screen 0.10\nset rmargin at screen 0.97\n";
 
+// PNG for slides, SVG for pages; both with a white background, which is readable in dark mode, too.
 std::string terminal(const fs::path& path, int height) {
     const bool svg = path.extension() == ".svg";
     const std::string kind = svg ? "svg size 900,{} font 'Helvetica,13' background rgb 'white'"
@@ -45,6 +46,7 @@ std::string data(const std::string& name, const std::vector<Row>& rows,
     return out + "EOD\n";
 }
 
+// gnuplot reads its script from standard input.
 process::CommandResult run_gnuplot(const process::CommandOptions& options) {
     try {
         return process::run_command({"gnuplot", "-"}, options);
@@ -72,6 +74,7 @@ std::string time_axis(const std::vector<Row>& rows) {
     return fmt::format("set xrange [0:{:g}]\n", end);
 }
 
+// Two plots, one above the other: the steering angles, and their differences to the first run.
 std::string comparison_script(const fs::path& path, const std::string& title,
                               const std::vector<std::pair<std::string, std::vector<Row>>>& runs) {
     std::string script = terminal(path, 720) + styles;
@@ -80,6 +83,7 @@ std::string comparison_script(const fs::path& path, const std::string& title,
         auto rows = runs[i].second;
         script +=
             data(fmt::format("run{}", i), rows, {&Row::steering_measured_deg, &Row::reference_direction_deg});
+        // The runs may have different lengths; there is no difference after the end of the shorter one.
         rows.resize(std::min(rows.size(), first.second.size()));
         for (std::size_t n = 0; n < rows.size(); ++n)
             rows[n].steering_measured_deg -= first.second[n].steering_measured_deg;
@@ -96,6 +100,7 @@ std::string comparison_script(const fs::path& path, const std::string& title,
     script += "\nunset title\nset format x '%g'\nset tmargin at screen 0.36\nset bmargin at screen 0.09\n"
               "set xlabel 'time [s]'\n";
     script += fmt::format("set ylabel 'difference to {} [deg]'\nset key top right horizontal\n", first.first);
+    // Lock-step runs do not differ at all, and gnuplot cannot scale an empty range.
     script += "set offsets 0,0,graph 0.15,graph 0.05\n"
               "stats [*:*] [*:*] $off1 using 2 nooutput\n"
               "if (STATS_min == STATS_max) { set yrange [-0.1:0.1] } else { set autoscale y }\nplot ";
@@ -105,6 +110,7 @@ std::string comparison_script(const fs::path& path, const std::string& title,
     return script + "\nunset multiplot\n";
 }
 
+// Three plots, one above the other, with a common time axis.
 std::string run_script(const fs::path& path, const std::string& title, const std::vector<Row>& rows) {
     std::string script = terminal(path, 900) + styles + time_axis(rows);
     script +=

@@ -30,6 +30,7 @@ Statistics statistics(const std::vector<double>& values) {
 
 double percentile(std::vector<double> values, double fraction) {
     if (values.empty()) return 0.0;
+    // Nearest rank: the result is one of the values.
     const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(values.size())));
     const auto at =
         values.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, values.size()) - 1);
@@ -45,6 +46,7 @@ std::vector<double> latencies_us(const std::vector<ControlRecord>& control) {
 }
 
 std::vector<double> table_samples(const std::vector<double>& latencies) {
+    // A run too short for both keeps its first samples.
     const std::size_t first = latencies.size() >= skipped + table_size ? skipped : 0;
     const std::size_t last = std::min(first + table_size, latencies.size());
     return {latencies.begin() + static_cast<std::ptrdiff_t>(first),

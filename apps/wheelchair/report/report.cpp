@@ -38,6 +38,7 @@ ordered_json json_of(const Statistics& s) {
             {"max_us", s.max}};
 }
 
+// null: the traces do not show it.
 ordered_json json_of(const HostFailure& i) {
     ordered_json j{
         {"host", i.host}, {"pid", i.pid}, {"exit_status", i.exit_status}, {"scenario_time_s", i.run_time}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A host that ended in mid-run: what is known about it, and what the traces tell about the consequences.
+// A host that ended in mid-run: what is known about it, and the consequences that the traces show.
 #pragma once
 
 #include <optional>

@@ -132,7 +132,7 @@ class HostedRun {
         return !hw.empty() && hw.back().sequence > scenario_.last_tick() + 1;
     }
 
-    /// Without --restart the run goes on as long as a host runs: the user may restart the other one by hand.
+    /// Without --restart the run continues as long as one host runs: the user may start the other one by hand.
     bool no_host_running() {
         const auto& hosts = supervisor_.hosts();
         return std::none_of(hosts.begin(), hosts.end(), [](const Host& h) { return h.running(); });
@@ -164,8 +164,8 @@ class HostedRun {
         host_failures_.push_back(i);
         std::string line =
             fmt::format("{} (pid {}) {} at {:.2f} s", i.host, i.pid, i.exit_status, i.run_time);
-        if (!host.process.poll()->signalled) line += ", it said: " + host.first_error();
-        progress_.print_line(line + (i.had_hw ? "; HWComp was in it" : "; the other host goes on"));
+        if (!host.process.poll()->signalled) line += "; its log: " + host.first_error();
+        progress_.print_line(line + (i.had_hw ? "; HWComp was in it" : "; the other host keeps running"));
         if (options_.restart && !options_.lockstep) {
             supervisor_.restart(host);
             progress_.print_line(fmt::format("{} started again, pid {}", host.name, host.process.pid()));
@@ -200,9 +200,9 @@ class HostedRun {
                 failures_.push_back(
                     fmt::format("{} (pid {}) did not stop cleanly: it {}{}{}", host.name, host.process.pid(),
                                 host.process.poll() ? host.process.poll()->text() : "hangs",
-                                host.first_error().empty() ? "" : ", it said: ", host.first_error()));
+                                host.first_error().empty() ? "" : "; its log: ", host.first_error()));
         }
-        // A killed host leaves its segment in /dev/shm; nobody else will use these links any more.
+        // A killed host leaves its segment in /dev/shm, and no other process uses these links.
         for (const auto& [adaptor, link] : directory_.links()) shm::remove_dead(link);
     }
 

@@ -33,15 +33,14 @@ void write_file(const fs::path& path, const std::string& text) {
     if (!file) throw InputError(path.string() + ": cannot be written");
 }
 
-constexpr const char* marker_file =
-    "wheelchair-run"; // empty; its presence says that a run has made the folder
+constexpr const char* marker_file = "wheelchair-run"; // an empty file in each folder that a run has made
 
 /// Prepares the folder that the user wants to keep. An earlier run in it is removed, because components continue
 /// trace files that exist. A folder with anything else in it is refused: this program never deletes user files.
 fs::path kept_folder(const fs::path& path) {
     std::error_code error;
-    const bool ours = fs::exists(path / marker_file);
-    if (!ours && fs::exists(path) && !fs::is_empty(path, error))
+    const bool is_run_folder = fs::exists(path / marker_file);
+    if (!is_run_folder && fs::exists(path) && !fs::is_empty(path, error))
         throw InputError(path.string() +
                          ": holds something else than an earlier run; give an empty or a new folder");
     for (const char* part : {"opros", "rtm", "trace", "log"}) fs::remove_all(path / part, error);
@@ -87,10 +86,12 @@ Parameters parameters_of(const std::string& member, const Options& o, const fs::
     return p;
 }
 
+// AdaptorComp runs once per link, under the name of the link's adaptor.
 std::string component_profile(const std::string& member) {
     return member.ends_with("Adaptor") ? "AdaptorComp.xml" : member + ".xml";
 }
 
+// One component of the OPRoS application profile.
 std::string subcomponent(const RunComponent& member, const Parameters& parameters) {
     std::string xml = fmt::format(
         "    <subcomponent type=\"atomic\">\n      <name>{}</name>\n      <reference>{}</reference>\n"
@@ -108,6 +109,7 @@ std::string port_connection(const Connection& w) {
                        w.kind == Connection::data ? "data" : "service", w.from, w.from_port, w.to, w.to_port);
 }
 
+// A setting of rtc.conf; none if the list is empty.
 std::string list_setting(const char* key, const std::vector<std::string>& values) {
     return values.empty() ? "" : fmt::format("{}: {}\n", key, fmt::join(values, ", "));
 }

@@ -163,7 +163,7 @@ void Supervisor::wait_until_ready(double seconds) {
             throw InputError(
                 fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more with --host-wait",
                             missing->name, missing->process.pid(), seconds,
-                            missing->first_error().empty() ? "" : ", it said: ", missing->first_error()));
+                            missing->first_error().empty() ? "" : "; its log: ", missing->first_error()));
         const auto found = watch(50ms);
         if (found.interrupted) throw Interrupted();
         for (Host* host : found.ended)

@@ -26,6 +26,7 @@ class ControlComp : public Component, private ControlPorts {
     }
 
     // The first call over the service port: it fails here, and not in mid-run, if the port is not connected.
+    // A new body for each start: counters, law and safety state begin anew.
     ReturnType onStart() override {
         return component::guarded("ControlComp", [this] {
             check_joystick(joystick_->dead_zone(), joystick_->direction_rate());

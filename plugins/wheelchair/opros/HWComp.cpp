@@ -35,6 +35,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     }
 
     // Publishes once, so that the other components find values in their first tick.
+    // A new body for each start: counters, law and safety state begin anew.
     ReturnType onStart() override {
         return component::guarded("HWComp", [this] {
             emergency_ = false;
@@ -79,7 +80,7 @@ class HWComp : public Component, public IChair, private HWPorts {
     component::Values buffer_;
     Settings settings_;
     std::unique_ptr<HWBody> body_;
-    std::atomic<bool> emergency_{false}; // asked for by service, from any thread
+    std::atomic<bool> emergency_{false}; // set by the service, read in each tick
 };
 
 extern "C" {

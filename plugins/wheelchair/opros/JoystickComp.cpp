@@ -29,6 +29,7 @@ class JoystickComp : public Component, public IJoystick, private JoystickPorts {
     }
 
     // Asks HWComp for the chair's limits, so HWComp must have been started before.
+    // A new body for each start: counters, law and safety state begin anew.
     ReturnType onStart() override {
         return component::guarded("JoystickComp", [this] {
             body_.reset(); // closes the trace of an earlier start

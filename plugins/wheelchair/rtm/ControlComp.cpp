@@ -24,6 +24,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
         return RTC::RTC_OK;
     }
 
+    // A new body for each activation: counters, law and safety state begin anew.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::guarded(getInstanceName(), [this] {
             ask_joystick();

@@ -37,6 +37,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     explicit HWComp(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager), chairPort_("chair") {}
 
     RTC::ReturnCode_t onInitialize() override {
+        // Port names are those of docs/wheelchair.md, section 5, in both component models.
         registerInPort("refVoltage", refVoltage_.port);
         registerInPort("linkState", linkState_.port);
         registerOutPort("joystickPos", joystickPos_.port);
@@ -48,6 +49,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     }
 
     // Publishes once, so that the other components find values in their first tick.
+    // A new body for each activation: counters, law and safety state begin anew.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::guarded(getInstanceName(), [this] {
             chair_.emergency_ = false;

@@ -48,6 +48,7 @@ class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
         return RTC::RTC_OK;
     }
 
+    // A new body for each activation: counters, law and safety state begin anew.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
         return component::guarded(getInstanceName(), [this] {
             body_.reset(); // closes the trace of an earlier activation

@@ -34,6 +34,7 @@ struct SequenceIn {
         Received<T> in;
         for (int i = 0; i < max_messages_per_tick && port.isNew(); ++i) {
             port.read();
+            // A span over the sequence's own memory: no copy.
             in.add(std::span<const double>(value.data.get_buffer(), value.data.length()));
         }
         return in;
@@ -78,6 +79,7 @@ struct Parameters {
 
 /// The component profile for the manager and for tools such as RTSystemEditor.
 inline coil::Properties profile(const char* name, const char* description) {
+    // kind, max_instance and the like are what OpenRTM-aist's tools expect; conf.default.* are the default set.
     const char* const spec[] = {"implementation_id",
                                 name,
                                 "type_name",
@@ -121,6 +123,7 @@ RTC::ReturnCode_t guarded(const char* instance, Step step) {
     } catch (const std::exception& e) {
         std::cerr << instance << ": " << e.what() << std::endl;
     } catch (const CORBA::Exception& e) {
+        // Not derived from std::exception.
         std::cerr << instance << ": a service did not answer (" << e._name()
                   << "); connect its port and activate its provider first" << std::endl;
     }

@@ -21,7 +21,7 @@ double value_of(const std::vector<AcceptanceCheck>& list, const std::string& nam
 
 } // namespace
 
-TEST_CASE("the in-memory step has the figures of the specification and is accepted") {
+TEST_CASE("the simulated step has the figures of docs/wheelchair.md, section 8, and is accepted") {
     const auto list = check_step20(step20());
     CHECK(all_pass(list));
     CHECK(value_of(list, "time to 10 %") == Approx(0.0535).margin(1e-4));
@@ -33,7 +33,7 @@ TEST_CASE("the in-memory step has the figures of the specification and is accept
     CHECK(value_of(list, "steady band, measured") == Approx(0.0599).margin(1e-4));
     CHECK(value_of(list, "largest voltage") == Approx(15.45).margin(0.01));
     CHECK(value_of(list, "largest current") == Approx(19.83).margin(0.01));
-    CHECK(value_of(list, "least speed in the turn") == Approx(0.79).margin(0.001));
+    CHECK(value_of(list, "lowest speed in the turn") == Approx(0.79).margin(0.001));
 }
 
 TEST_CASE("another drive is not accepted as the step, and a short one is not checked") {

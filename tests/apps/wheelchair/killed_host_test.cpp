@@ -103,7 +103,7 @@ bool left_in_shared_memory(const std::string& link) {
 
 } // namespace
 
-TEST_CASE("when rtm_host is killed the motors stop, the other host stays, and the run says so") {
+TEST_CASE("when rtm_host is killed the motors stop, the other host keeps running, and the run reports it") {
     MixedRun run({});
     run.kill_when_driving("rtm_host");
     const auto result = run.result();

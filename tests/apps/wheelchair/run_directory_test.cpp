@@ -34,8 +34,9 @@ TEST_CASE("the mixed run has both hosts, a link of its own name, and the provide
     CHECK_THAT(xml, Catch::Contains("component_name=\"Adaptor\" port_name=\"linkState\""));
     const auto conf = content(run.path() / "rtm/rtc.conf");
     CHECK_THAT(conf, Catch::Contains("InterceptorComp?link=" + link + "&rtc=JoystickComp0"));
-    CHECK_THAT(conf,
-               !Catch::Contains("preactivation")); // AdaptorComp activates what stands behind InterceptorComp
+    CHECK_THAT(
+        conf,
+        !Catch::Contains("preactivation")); // InterceptorComp activates the RTC when AdaptorComp starts
     CHECK_THAT(content(run.path() / "rtm/JoystickComp0.conf"),
                Catch::Contains("conf.default.clock: monotonic"));
 }
@@ -96,10 +97,10 @@ TEST_CASE("a run leaves nothing behind unless it is to be kept, and a kept folde
 
 TEST_CASE("a folder with anything else in it is refused and left as it is") {
     const ScratchDir dir;
-    std::filesystem::create_directories(dir / "opros/mine");
+    std::filesystem::create_directories(dir / "opros/other");
     Options options;
     options.keep = dir.path();
     CHECK_THROWS_WITH(RunDirectory(options, Configuration::opros, "/programs"),
                       Catch::Contains("holds something else than an earlier run"));
-    CHECK(std::filesystem::exists(dir / "opros/mine"));
+    CHECK(std::filesystem::exists(dir / "opros/other"));
 }

@@ -18,8 +18,8 @@ std::vector<std::string> shell(const std::string& script) { return {"/bin/sh", "
 
 bool alive(pid_t pid) { return kill(pid, 0) == 0; }
 
-/// Watches until the host's end is news, at most ten seconds.
-bool told_of_end(Supervisor& s, const Host& host) {
+/// Watches until the host's end is reported, at most ten seconds.
+bool end_is_reported(Supervisor& s, const Host& host) {
     for (int i = 0; i < 100; ++i)
         for (const Host* h : s.watch(100ms).ended)
             if (h == &host) return true;
@@ -28,7 +28,7 @@ bool told_of_end(Supervisor& s, const Host& host) {
 
 } // namespace
 
-TEST_CASE("a host is ready once it says so, and is stopped by a signal it can handle") {
+TEST_CASE("a host is ready when it has written `ready`, and is stopped by a signal that it can handle") {
     const ScratchDir dir;
     Supervisor s;
     Host& host =
@@ -41,7 +41,7 @@ TEST_CASE("a host is ready once it says so, and is stopped by a signal it can ha
     CHECK_FALSE(alive(pid));
 }
 
-TEST_CASE("a host that ends before it is ready is reported with what it said") {
+TEST_CASE("a host that ends before it is ready is reported with its log") {
     const ScratchDir dir;
     Supervisor s;
     s.start("host", shell("echo first >&2; echo 'no such profile' >&2; exit 3"), dir / "log");
@@ -49,7 +49,7 @@ TEST_CASE("a host that ends before it is ready is reported with what it said") {
                       Catch::Contains("exited with 3 before it was ready: no such profile"));
 }
 
-TEST_CASE("a host that never becomes ready ends the wait, not the patience") {
+TEST_CASE("the wait for a host that never becomes ready ends with its timeout") {
     const ScratchDir dir;
     Supervisor s;
     s.start("host", shell("exec sleep 100"), dir / "log");
@@ -57,13 +57,13 @@ TEST_CASE("a host that never becomes ready ends the wait, not the patience") {
                       Catch::Contains("was not ready within 0.2 s") && Catch::Contains("--host-wait"));
 }
 
-TEST_CASE("a killed host is news with its signal, and can be started again") {
+TEST_CASE("a killed host is reported with its signal, and can be started again") {
     const ScratchDir dir;
     Supervisor s;
     Host& host = s.start("host", shell("echo ready; exec sleep 100"), dir / "log");
     s.wait_until_ready(10);
     kill(host.process.pid(), SIGKILL);
-    REQUIRE(told_of_end(s, host));
+    REQUIRE(end_is_reported(s, host));
     CHECK(host.process.poll()->text() == "was killed by signal 9 (Killed)");
     CHECK_FALSE(s.stop(host));
     s.restart(host);
@@ -83,7 +83,7 @@ TEST_CASE("hosts do not outlive their supervisor") {
     CHECK_FALSE(alive(pid));
 }
 
-TEST_CASE("an interrupt of this program is news and ends the wait for a host") {
+TEST_CASE("an interrupt of this program is reported and ends the wait for a host") {
     const ScratchDir dir;
     Supervisor s;
     s.start("host", shell("exec sleep 100"), dir / "log");

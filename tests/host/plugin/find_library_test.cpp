@@ -20,11 +20,11 @@ struct Folder {
 } // namespace
 
 TEST_CASE("a library is found under every name that profiles use for it") {
-    const std::string asked = GENERATE("Hello", "Hello.dll", "Hello.DLL", "Hello.so", "Hello.dll.so");
+    const std::string name = GENERATE("Hello", "Hello.dll", "Hello.DLL", "Hello.so", "Hello.dll.so");
     const std::string present = GENERATE("Hello.so", "libHello.so", "libHello.dll.so");
     Folder folder;
     folder.add(present);
-    CHECK(find_library(asked, {folder.path}) == folder.path / present);
+    CHECK(find_library(name, {folder.path}) == folder.path / present);
 }
 
 TEST_CASE("a library name with its prefix is found as it is") {

@@ -58,7 +58,7 @@ bool mapped(const std::string& file) {
 
 } // namespace
 
-TEST_CASE("a library tells its component model without being mapped") {
+TEST_CASE("a library's component model is found without mapping the library") {
     CHECK(read_contents(OPROS_PLUGIN).kind == LibraryKind::opros_component);
     const auto module = read_contents(RTM_PLUGIN);
     CHECK(module.kind == LibraryKind::rtc_module);
@@ -70,7 +70,7 @@ TEST_CASE("a library tells its component model without being mapped") {
     CHECK_FALSE(mapped(RTM_PLUGIN));
 }
 
-TEST_CASE("a library tells the ABI number of the headers that it was built against") {
+TEST_CASE("the ABI number of the headers that a library was built against is found") {
     const std::set<std::uint32_t> none;
     const auto component = read_contents(OPROS_PLUGIN), module = read_contents(RTM_PLUGIN);
     CHECK(component.opros.abi_numbers.size() == 1); // of several object files
@@ -87,9 +87,11 @@ TEST_CASE("a library tells the ABI number of the headers that it was built again
     CHECK_FALSE(read_contents(GOOD_LIBRARY).opros.used);
 }
 
-TEST_CASE("a library is taken with our number and without any if it does not use the headers") {
-    const auto require = [](const char* file, std::uint32_t ours) {
-        tandem::plugin::require_abi(file, read_contents(file), tandem::plugin::ComponentModel::opros, ours);
+TEST_CASE("a library with the expected ABI number is accepted, and one without any if it does not use the "
+          "headers") {
+    const auto require = [](const char* file, std::uint32_t expected) {
+        tandem::plugin::require_abi(file, read_contents(file), tandem::plugin::ComponentModel::opros,
+                                    expected);
     };
     const std::uint32_t number = *read_contents(OPROS_PLUGIN).opros.abi_numbers.begin();
     CHECK_NOTHROW(require(OPROS_PLUGIN, number));
@@ -137,7 +139,7 @@ TEST_CASE("what is no library of this machine is refused with its own reason") {
     CHECK_THAT(foreign.text, Catch::Contains("64-bit ARM"));
 }
 
-TEST_CASE("a named pipe in place of a library does not hold up anybody") {
+TEST_CASE("a named pipe in place of a library is refused without waiting for a writer") {
     const auto path =
         std::filesystem::temp_directory_path() / ("tandem_pipe_" + std::to_string(getpid()) + ".so");
     REQUIRE(mkfifo(path.c_str(), 0600) == 0);
@@ -159,7 +161,7 @@ TEST_CASE("a library cut off anywhere is refused as damaged or was whole enough 
             ++refused;
         }
     }
-    CHECK(refused == steps - 1); // the section headers stand at the end
+    CHECK(refused == steps - 1); // the section headers are at the end of the file
 }
 
 TEST_CASE("random damage to a library ends in an answer or an Error and nothing else") {

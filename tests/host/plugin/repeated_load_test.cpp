@@ -69,7 +69,7 @@ TEST_CASE("load and start and stop and unload leave memory and descriptors as th
     for (int round = 0; round < count; ++round) run_once(application, folder, round);
     CHECK_FALSE(loaded(ALL_PORTS));
     CHECK(descriptors() == open);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // theirs is another heap
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // the sanitizers replace the heap
     CHECK(mappings() <= maps + 8);                                  // heaps of threads come and go
     // What threads keep for themselves differs by some KiB, however many rounds; 17 bytes lost per round
     // are more.
@@ -108,13 +108,13 @@ TEST_CASE("eight threads probe good and bad components at once and each gets its
         for (int i = 0; i < threads; ++i)
             probers.emplace_back([&, i] {
                 const std::filesystem::path file = i % 2 ? ZOO "/opros/entry_throws.so" : ALL_PORTS;
-                std::string said;
+                std::string message;
                 try {
                     tandem::plugin::run_probe({OPROS_HOST, std::chrono::seconds(60)}, "load-opros", file);
                 } catch (const tandem::plugin::Error& error) {
-                    said = error.what();
+                    message = error.what();
                 }
-                if ((said.find("no camera") != std::string::npos) == (i % 2 == 1)) ++right;
+                if ((message.find("no camera") != std::string::npos) == (i % 2 == 1)) ++right;
             });
     }
     CHECK(right == threads);

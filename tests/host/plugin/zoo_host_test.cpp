@@ -14,7 +14,7 @@ struct Run {
     long lines() const { return std::count(errors.begin(), errors.end(), '\n'); }
 };
 
-// What the host says to this; should it get ready, it is ended.
+// Runs the host and collects its standard error. A host that becomes ready is stopped.
 Run run(const std::string& command) {
     const std::string ready = "case $line in ready) kill -TERM $host;; esac";
     tandem::process::CommandOptions options;
@@ -67,7 +67,7 @@ TEST_CASE("opros_host runs the good plugins on without the bad one") {
             folder.application(Folder::sub("Bad", "Bad.xml") + Folder::sub("Good", "Good.xml")).string());
     INFO(result.errors);
     CHECK(result.exit_code == 0);
-    CHECK(result.lines() == 2); // the second one: told to stop, once it was ready
+    CHECK(result.lines() == 2); // the second line: stopped by a signal, once it was ready
     CHECK_THAT(result.errors,
                Catch::Contains("Bad.xml:3: ") && Catch::Contains(bad) && Catch::Contains("stopping on"));
 }
@@ -144,14 +144,14 @@ TEST_CASE("a library that a plugin needs is named when it was built against the 
     folder.component("Bad", ZOO "/opros/helper_of_another_tandem.so");
     const auto conf =
         folder.write("rtc.conf", "manager.modules.preload: " ZOO "/rtm/helper_of_another_tandem.so\n");
-    const auto says = [](const std::string& line, const std::string& model) {
+    const auto check_message = [](const std::string& line, const std::string& model) {
         CHECK_THAT(line, Catch::Contains("libzoo_old_helper.so, which " ZOO "/" + model +
                                          "/helper_of_another_tandem.so needs, was built against"));
     };
     for (const std::string probed : {"", " --no-probe"}) {
         const std::string application = folder.application(Folder::sub("Bad", "Bad.xml"));
-        says(run(OPROS_HOST + probed + " " + application).errors, "opros");
-        says(run(RTM_HOST + probed + " -f " + conf.string()).errors, "rtm");
+        check_message(run(OPROS_HOST + probed + " " + application).errors, "opros");
+        check_message(run(RTM_HOST + probed + " -f " + conf.string()).errors, "rtm");
     }
 }
 

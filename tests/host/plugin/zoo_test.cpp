@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each bad plugin of the zoo, tried by the program of either model: one line that says why, and the test
-// lives on.
+// Probes each bad library of the zoo with the program of either model: the result is one line that says why it is
+// refused, and this process is not affected.
 #include "host/plugin/error.hpp"
 #include "host/plugin/probe.hpp"
 
@@ -10,13 +10,13 @@
 
 namespace {
 
-struct Species {
+struct BadLibrary {
     const char* name;
     std::vector<std::string> reason; ///< parts of the line; INIT is the function of the model at hand
     bool hangs = false;
 };
 
-const std::vector<Species> both_models{
+const std::vector<BadLibrary> both_models{
     {"static_constructor_crashes", {" in its static constructors"}},
     {"static_constructor_aborts", {" in its static constructors", ": for this robot"}},
     {"static_constructor_throws", {" in its static constructors", "no device"}},
@@ -35,13 +35,13 @@ const std::vector<Species> both_models{
     {"symbol_missing", {"cannot be loaded", "nobody_defines_this"}},
     {"library_missing", {"cannot be loaded", "libzoo_another_library.so"}},
 };
-const std::vector<Species> opros_only{
+const std::vector<BadLibrary> opros_only{
     {"getcomponent_returns_null", {"getComponent()", "returned NULL"}},
     {"destructor_crashes", {" in releaseComponent()"}},
     {"static_destructor_crashes", {" in its static destructors"}},
     {"no_entry", {"does not export getComponent"}},
 };
-const std::vector<Species> rtm_only{
+const std::vector<BadLibrary> rtm_only{
     {"rtc_constructor_throws", {"component type Thrower cannot be created: no gripper"}},
     {"rtc_factory_returns_null", {"component type Nothing cannot be created", "NULL"}},
     {"rtc_factory_hangs", {"did not return from the constructor of Waiter within 1 s"}, true},
@@ -52,29 +52,29 @@ const std::vector<Species> rtm_only{
     {"no_entry", {"does not export no_entryInit"}},
 };
 
-std::string refusal(const Species& species, const std::string& model) {
+std::string refusal(const BadLibrary& bad, const std::string& model) {
     const bool rtm = model == "rtm";
-    const std::string init = std::string(species.name) + "Init";
+    const std::string init = std::string(bad.name) + "Init";
     tandem::plugin::ProbeOptions options{rtm ? RTM_HOST : OPROS_HOST,
-                                         std::chrono::seconds(species.hangs ? 1 : 60)};
-    const std::string file = ZOO "/" + model + "/" + species.name + ".so";
+                                         std::chrono::seconds(bad.hangs ? 1 : 60)};
+    const std::string file = ZOO "/" + model + "/" + bad.name + ".so";
     try {
         tandem::plugin::run_probe(options, "load-" + model, file,
                                   rtm ? std::vector<std::string>{init, "250"} : std::vector<std::string>{});
     } catch (const tandem::plugin::Error& error) {
         return error.what();
     }
-    return "it was taken";
+    return "it was accepted";
 }
 
-void check(const Species& species, const std::string& model) {
-    const std::string text = refusal(species, model);
+void check(const BadLibrary& bad, const std::string& model) {
+    const std::string text = refusal(bad, model);
     INFO(text);
-    CHECK(text.find(species.name) != std::string::npos);
+    CHECK(text.find(bad.name) != std::string::npos);
     CHECK(text.find('\n') == std::string::npos);
     CHECK(text.size() < 1000);
-    for (std::string part : species.reason) {
-        const std::string entry = model == "rtm" ? std::string(species.name) + "Init()" : "getComponent()";
+    for (std::string part : bad.reason) {
+        const std::string entry = model == "rtm" ? std::string(bad.name) + "Init()" : "getComponent()";
         if (const auto at = part.find("INIT"); at != std::string::npos) part.replace(at, 4, entry);
         CHECK_THAT(text, Catch::Contains(part));
     }
@@ -84,12 +84,12 @@ void check(const Species& species, const std::string& model) {
 
 TEST_CASE("a bad OPRoS component is refused in one line that says what it did and where") {
     const auto all = GENERATE(both_models, opros_only);
-    for (const Species& species : all) check(species, "opros");
+    for (const BadLibrary& bad : all) check(bad, "opros");
 }
 
 TEST_CASE("a bad RTC module is refused in one line that says what it did and where") {
     const auto all = GENERATE(both_models, rtm_only);
-    for (const Species& species : all) check(species, "rtm");
+    for (const BadLibrary& bad : all) check(bad, "rtm");
 }
 
 TEST_CASE("a good plugin of either model passes its probe") {

@@ -50,7 +50,7 @@ TEST_CASE("a command's output, errors, report and exit code come back") {
     CHECK_FALSE(end.succeeded());
 }
 
-TEST_CASE("a command that a signal has killed is told from one that has exited") {
+TEST_CASE("a command killed by a signal is distinguished from one that has exited") {
     const auto end = run_shell("kill -SEGV $$");
     CHECK(end.status.signalled);
     CHECK(end.status.code == SIGSEGV);

@@ -53,7 +53,7 @@ TEST_CASE("a spinning tick does not come early either") {
     CHECK(tick.stats().lateness_ns_last >= 0);
 }
 
-TEST_CASE("a spinning tick is rehearsed at most once before each tick and a sleeping one never") {
+TEST_CASE("the warm-up runs at most once before each tick that is polled for, and never without polling") {
     int warm_ups = 0;
     PeriodicTick spinning({.period = 20ms, .spin = 15ms, .warm_up = [&] { ++warm_ups; }});
     for (int i = 0; i < 20; ++i) {

@@ -15,8 +15,9 @@ using tandem::rt::RealTimeOptions;
 
 namespace {
 
-/// What apply() asks for stays with the process, so each case has one of its own. True: body() was.
-bool in_a_process(const std::function<bool()>& body) {
+/// Runs body() in a process of its own, because what apply() requests lasts as long as the process. True: body()
+/// returned true.
+bool in_child_process(const std::function<bool()>& body) {
     const pid_t child = fork();
     if (child == 0) _exit(body() ? 0 : 1);
     int status = 0;
@@ -24,27 +25,26 @@ bool in_a_process(const std::function<bool()>& body) {
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-bool of_a_later_thread(const std::function<bool()>& look) {
-    bool seen = false;
-    std::thread([&] { seen = look(); }).join();
-    return seen;
+bool in_new_thread(const std::function<bool()>& check) {
+    bool result = false;
+    std::thread([&] { result = check(); }).join();
+    return result;
 }
 
 } // namespace
 
-TEST_CASE("threads started after the switches are applied have a timer slack of one nanosecond") {
-    CHECK(in_a_process([] {
-        return apply({}).empty() &&
-               of_a_later_thread([] { return prctl(PR_GET_TIMERSLACK, 0, 0, 0, 0) == 1; });
+TEST_CASE("threads started after the options are applied have a timer slack of one nanosecond") {
+    CHECK(in_child_process([] {
+        return apply({}).empty() && in_new_thread([] { return prctl(PR_GET_TIMERSLACK, 0, 0, 0, 0) == 1; });
     }));
 }
 
 TEST_CASE("in wait mode same-core all threads of the process stay on its processor") {
-    CHECK(in_a_process([] {
+    CHECK(in_child_process([] {
         RealTimeOptions options;
         options.cpu = sched_getcpu();
         options.wait_mode = "same-core";
-        return apply(options).empty() && of_a_later_thread([&] {
+        return apply(options).empty() && in_new_thread([&] {
                    cpu_set_t set;
                    return sched_getaffinity(0, sizeof set, &set) == 0 && CPU_COUNT(&set) == 1 &&
                           CPU_ISSET(static_cast<std::size_t>(options.cpu), &set);
@@ -52,16 +52,16 @@ TEST_CASE("in wait mode same-core all threads of the process stay on its process
     }));
 }
 
-TEST_CASE("other wait modes leave threads on all processors and reach the bridges") {
-    CHECK(in_a_process([] {
+TEST_CASE("other wait modes leave threads on all processors and are passed on to plugins") {
+    CHECK(in_child_process([] {
         cpu_set_t before, after;
         sched_getaffinity(0, sizeof before, &before);
         RealTimeOptions options;
         options.cpu = sched_getcpu();
         options.wait_mode = "spin";
-        const bool quiet = apply(options).empty();
+        const bool accepted = apply(options).empty();
         sched_getaffinity(0, sizeof after, &after);
-        return quiet && CPU_EQUAL(&before, &after) && std::string(getenv("TANDEM_WAIT_MODE")) == "spin";
+        return accepted && CPU_EQUAL(&before, &after) && std::string(getenv("TANDEM_WAIT_MODE")) == "spin";
     }));
 }
 
@@ -72,8 +72,8 @@ TEST_CASE("same-core without a processor is refused") {
                       "--wait-mode same-core needs --cpu N, the same processor for both hosts");
 }
 
-TEST_CASE("what the kernel refuses is one line for each switch and the process goes on") {
-    CHECK(in_a_process([] {
+TEST_CASE("each option that the kernel refuses gives one line and no error") {
+    CHECK(in_child_process([] {
         if (geteuid() == 0 && (setgid(65534) != 0 || setuid(65534) != 0)) return false;
         RealTimeOptions options;
         options.cpu = 100000;

@@ -22,7 +22,7 @@ std::string socket_path() {
 }
 } // namespace
 
-TEST_CASE("a step runs one cycle of the named component before the client goes on") {
+TEST_CASE("step() returns after one cycle of the named component") {
     const auto path = socket_path();
     std::vector<std::string> stepped;
     StepServer server(path, [&](const std::string& name) { stepped.push_back(name); });
@@ -32,7 +32,7 @@ TEST_CASE("a step runs one cycle of the named component before the client goes o
     CHECK(stepped == std::vector<std::string>{"HWComp", "Control Comp"});
 }
 
-TEST_CASE("the step's exception reaches the client as one line, and the server goes on") {
+TEST_CASE("an exception of a cycle reaches the client as one line, and the server keeps serving") {
     const auto path = socket_path();
     StepServer server(path, [](const std::string& name) {
         if (name == "bad") throw std::runtime_error("no component\n'bad'");
@@ -56,7 +56,7 @@ TEST_CASE("a client waits for a server that is not there yet") {
     CHECK(steps == 1);
 }
 
-TEST_CASE("a client without a server gives up after its bound and names the socket") {
+TEST_CASE("a client without a server fails after its timeout with a message that names the socket") {
     const auto path = socket_path();
     CHECK_THROWS_WITH(StepClient(path, 1ms), Catch::Contains(path));
 }
@@ -86,7 +86,7 @@ TEST_CASE("the socket is for its owner only, and a stale one is replaced") {
 
 TEST_CASE("a path that is no socket is left alone") {
     const auto path = socket_path();
-    std::ofstream(path) << "mine";
+    std::ofstream(path) << "text";
     CHECK_THROWS_AS(StepServer(path, [](const std::string&) {}), std::runtime_error);
     CHECK(std::filesystem::file_size(path) == 4);
     std::filesystem::remove(path);

@@ -17,7 +17,7 @@ namespace {
 template <class T>
 class Queue {
   public:
-    void put(const Stamped<T>& value) { in_.take(pack(value)); }
+    void put(const Stamped<T>& value) { in_.add(pack(value)); }
     Received<T> receive_all() { return std::exchange(in_, {}); }
 
   private:
@@ -132,7 +132,7 @@ TEST_CASE("the chair stops in the tick after the link went down and drives on on
     CHECK(read_trace<HWRecord>(dir / "hw.trace")[301].link_up == 0.0);
 }
 
-TEST_CASE("an emergency stop asked for by service stops the chair and reaches ControlComp") {
+TEST_CASE("an emergency stop requested by service stops the chair and reaches ControlComp") {
     const ScratchDir dir;
     Run run(dir, "step20");
     run.steps(300);
@@ -187,7 +187,7 @@ TEST_CASE("a JoystickComp whose stick position is old sends nothing, for the dri
     CHECK(wires.references().newest);
 }
 
-TEST_CASE("a reference left over from the tick before does not end the look-out for the next one") {
+TEST_CASE("a reference from the tick before does not end the polling for this tick's one") {
     RawSettings texts;
     texts.poll_us = "5000";
     ControlBody control(read_settings(texts));
@@ -196,5 +196,5 @@ TEST_CASE("a reference left over from the tick before does not end the look-out 
     wires.send(Stamped<Reference>{old, 1, {}});
     const double start = monotonic_seconds();
     control.tick(wires);
-    CHECK(monotonic_seconds() - start >= 0.005); // looked out to the end
+    CHECK(monotonic_seconds() - start >= 0.005); // polled for the whole time
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The in-memory run against rows that the executable specification printed.
+// Compares the simulated run with rows that the Python reference of docs/wheelchair.md printed (section 11).
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -63,7 +63,7 @@ double path_length(const std::vector<Row>& rows, std::size_t from) {
 
 } // namespace
 
-TEST_CASE("every scenario reproduces the rows of the executable specification") {
+TEST_CASE("every scenario reproduces the rows of the Python reference") {
     std::ifstream file(std::string(TEST_DATA_DIR) + "/reference_rows.csv");
     REQUIRE(file);
     std::map<std::string, std::vector<std::string>> runs;
@@ -71,14 +71,14 @@ TEST_CASE("every scenario reproduces the rows of the executable specification") 
     std::getline(file, line);
     int compared = 0;
     while (std::getline(file, line)) {
-        const auto want = split(line);
-        const std::string& name = want[0];
+        const auto expected = split(line);
+        const std::string& name = expected[0];
         if (!runs.count(name)) runs[name] = csv_lines(is_extra(name) ? extra(name) : find_scenario(name));
-        const auto got = split(runs[name].at(1 + std::stoul(want[1])));
-        REQUIRE(got.size() + 2 == want.size());
-        for (std::size_t i = 0; i < got.size(); ++i) {
-            INFO(name << " tick " << want[1] << " column " << i);
-            const double a = std::stod(want[i + 2]), b = std::stod(got[i]);
+        const auto actual = split(runs[name].at(1 + std::stoul(expected[1])));
+        REQUIRE(actual.size() + 2 == expected.size());
+        for (std::size_t i = 0; i < actual.size(); ++i) {
+            INFO(name << " tick " << expected[1] << " column " << i);
+            const double a = std::stod(expected[i + 2]), b = std::stod(actual[i]);
             CHECK(std::abs(a - b) <= 1e-6 * std::max(1.0, std::abs(a)));
         }
         ++compared;
@@ -87,13 +87,13 @@ TEST_CASE("every scenario reproduces the rows of the executable specification") 
     CHECK(runs.size() == 16);
 }
 
-TEST_CASE("there are the fourteen scenarios of the specification and one for recorded sticks") {
+TEST_CASE("there are the fourteen scenarios of docs/wheelchair.md and one for recorded sticks") {
     CHECK(scenarios().size() == 15);
     CHECK(scenarios().front().name == "step20");
     CHECK_THROWS_WITH(find_scenario("step21"), Catch::StartsWith("no scenario 'step21'; there are step20, "));
 }
 
-TEST_CASE("the chair stops within the distances of the specification") {
+TEST_CASE("the chair stops within the distances of docs/wheelchair.md, section 8") {
     CHECK(path_length(simulate(find_scenario("stop_full")), 500) == Approx(1.57).margin(0.01));
     CHECK(path_length(simulate(find_scenario("stop_turning")), 500) == Approx(0.65).margin(0.01));
     CHECK(path_length(simulate(find_scenario("estop")), 500) == Approx(0.82).margin(0.02));

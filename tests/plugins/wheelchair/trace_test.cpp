@@ -42,7 +42,7 @@ TEST_CASE("records come back in order, across the growth of the file") {
     CHECK(read_trace<JoystickRecord>(path, 19990).size() == 10);
 }
 
-TEST_CASE("what was recorded outlives a kill -9, and the next process goes on behind it") {
+TEST_CASE("records survive a SIGKILL of their writer, and the next process appends to them") {
     const ScratchDir dir;
     const auto path = dir / "a.trace";
     const pid_t child = fork();

@@ -30,6 +30,7 @@ void pause_between_polls() {
 /// between two timers. A reference left from the tick before does not end the polling, or ControlComp would stay one
 /// tick behind for the rest of the run.
 ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
+    // Real time even in simulation: the time is that of polling. In lock-step poll_us is 0.
     const double give_up = monotonic_seconds() + poll_seconds_;
     Read read{0, monotonic_seconds()};
     for (;;) {
@@ -40,6 +41,7 @@ ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
             reference_ = *in.newest;
             read = {read.count + in.count, now};
         }
+        // By its stamp and not by its sequence number, which a restarted JoystickComp begins anew.
         const bool of_this_tick = in.newest && now - reference_.stamp < 0.5 * tick_seconds;
         if (of_this_tick || now >= give_up) return read;
         pause_between_polls();

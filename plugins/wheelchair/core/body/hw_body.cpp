@@ -47,6 +47,7 @@ HWRecord HWBody::record(const Received<Voltage>& in, double applied_at) const {
     return r;
 }
 
+// The record of a tick is appended by tick(); only that of t = 0 is appended here.
 void HWBody::publish(HWPorts& ports) {
     auto position = chair_.joystick();
     auto wheels = chair_.wheel_speed();
@@ -64,6 +65,7 @@ void HWBody::tick(HWPorts& ports) {
     if (!ticked_) chair_.start_watchdog(now); // activation may have been long ago
     ticked_ = true;
     if (in.newest) voltage_ = *in.newest;
+    // A lost link stops the chair at once, without waiting for the watchdog.
     chair_.apply(now, in.newest, !link_up_ || emergency_);
     const double applied_at = monotonic_seconds();
     chair_.advance();

@@ -9,13 +9,14 @@ namespace tandem::wheelchair {
 
 namespace {
 
+// The parameter `clock`.
 bool simulated(const std::string& clock) {
     if (clock.empty() || clock == "monotonic") return false;
     if (clock == "simulated") return true;
     throw InputError("parameter clock is '" + clock + "'; expected monotonic or simulated");
 }
 
-/// Must be shorter than a tick, or the component could not keep its period.
+/// The parameter `poll_us`. Must be shorter than a tick, or the component could not keep its period.
 double poll_seconds(const std::string& text) {
     if (text.empty()) return 0.0;
     double us = -1.0;

@@ -83,7 +83,7 @@ Voltage ControlLaw::drive(const Reference& reference, double mean, double differ
         filtered_direction_ += p.direction_filter * (direction - filtered_direction_);
         const double k = p.kappa * std::tan(filtered_direction_ / degrees);
         mean_setpoint = v / p.wheel_radius;
-        // At standstill the ratio is not defined, so the wanted mean speed replaces the measured one there; between
+        // At standstill the ratio is not defined, so the requested mean speed replaces the measured one there; between
         // standstill and blend_speed both are blended.
         double blend = 1.0 - std::abs(mean) / p.blend_speed;
         if (blend < 0.0) blend = 0.0;

@@ -47,30 +47,30 @@ void JoystickLaw::change_mode(Target& target) {
     }
 }
 
-void JoystickLaw::limit_speed(double wanted) {
-    double change = wanted - speed_;
-    if (wanted * speed_ < 0.0) change = -speed_; // a reversal stops at zero first
+void JoystickLaw::limit_speed(double requested) {
+    double change = requested - speed_;
+    if (requested * speed_ < 0.0) change = -speed_; // a reversal stops at zero first
     const bool faster = std::abs(speed_ + change) > std::abs(speed_);
     const double max_change = (faster ? parameters_.acceleration : parameters_.deceleration) * tick_seconds;
     speed_ += std::abs(change) > max_change ? limit(change, -max_change, max_change) : change;
 }
 
-void JoystickLaw::limit_direction(double wanted) {
+void JoystickLaw::limit_direction(double requested) {
     if (parameters_.direction_rate > 0.0 && !spin_) {
         const double max_change = parameters_.direction_rate * tick_seconds;
-        const double change = wanted - direction_;
+        const double change = requested - direction_;
         direction_ =
-            std::abs(change) > max_change ? direction_ + limit(change, -max_change, max_change) : wanted;
+            std::abs(change) > max_change ? direction_ + limit(change, -max_change, max_change) : requested;
     } else {
-        direction_ = wanted;
+        direction_ = requested;
     }
 }
 
 Reference JoystickLaw::tick(const JoystickPosition& stick) {
-    Target wanted = target(stick);
-    change_mode(wanted);
-    limit_speed(wanted.speed);
-    limit_direction(wanted.direction);
+    Target requested = target(stick);
+    change_mode(requested);
+    limit_speed(requested.speed);
+    limit_direction(requested.direction);
     return {direction_, speed_};
 }
 

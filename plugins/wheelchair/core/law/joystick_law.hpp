@@ -24,8 +24,8 @@ class JoystickLaw {
     };
     Target target(const JoystickPosition& stick) const;
     void change_mode(Target& target);
-    void limit_speed(double wanted);
-    void limit_direction(double wanted);
+    void limit_speed(double requested);
+    void limit_direction(double requested);
 
     JoystickParameters parameters_;
     double direction_ = 0.0, speed_ = 0.0;

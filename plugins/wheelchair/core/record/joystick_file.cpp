@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::size_t max_samples = 10'000'000; // bounds the memory that a wrong file can take
 
+// Without blanks at both ends, and without the CR of a Windows file.
 std::string_view trimmed(std::string_view text) {
     const auto blank = " \t\r";
     const auto first = text.find_first_not_of(blank);
@@ -25,6 +26,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
+// A finite number that is the whole text. std::from_chars ignores the locale, unlike std::stod.
 std::optional<double> number(std::string_view text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -107,6 +107,7 @@ class Trace {
     explicit Trace(const std::string& path)
         : file_(path.empty() ? nullptr : std::make_unique<TraceFile>(path, column_names<Record>())) {}
 
+    // The members of a record are doubles without padding (column_names() checks that).
     void append(const Record& record) {
         if (file_) file_->append({reinterpret_cast<const double*>(&record), std::size(Record::names)});
     }

@@ -15,6 +15,7 @@ namespace tandem::wheelchair {
 
 namespace {
 
+// Column names of docs/wheelchair.md, section 11, which other programs read.
 constexpr const char* heading_line = "t,jx,jy,ref_dir_deg,ref_speed,dir_filt_deg,steer_meas_deg,steer_true_"
                                      "deg,wL_meas,wR_meas,wL,wR,uL,uR,iL,iR,x,y,"
                                      "theta,phiL_deg,phiR_deg,brake,state\n";
@@ -114,6 +115,7 @@ std::vector<Row> simulate(const Scenario& scenario) {
     ControlLaw control;
     Stamped<Reference> sent;
     std::vector<Row> rows;
+    // The order of docs/wheelchair.md, section 5.1: joystick, control, the row, then the chair.
     for (int n = 0; n <= scenario.last_tick(); ++n) {
         const double t = n * tick_seconds, tick = n;
         const auto reference = joystick.tick(chair.joystick());

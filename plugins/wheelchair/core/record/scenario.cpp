@@ -41,6 +41,7 @@ std::function<JoystickPosition(int)> steps(std::vector<Step> table) {
     };
 }
 
+// s_curve: straight on, then a sinusoidal direction of 15 deg with a period of 5 s.
 JoystickPosition slalom(int n) {
     if (n < 50) return {};
     if (n < 300) return {0, counts_for_speed(1.0), false};
@@ -48,6 +49,7 @@ JoystickPosition slalom(int n) {
     return {counts_for_direction(direction), counts_for_speed(1.0), false};
 }
 
+// doorway: straight on, stop, turn left on the spot by time, straight on.
 JoystickPosition doorway(int n) {
     const bool turning = n >= 550 && n < 760;
     const bool driving = (n >= 50 && n < 450) || (n >= 860 && n < 1200);
@@ -63,6 +65,7 @@ Scenario named(std::string name, double seconds, std::function<JoystickPosition(
     return s;
 }
 
+// 5 deg, reached within half a second from `start` on.
 Slope uphill(double start) { return {5.0, start, 0.5, 0.0, true}; }
 
 /// The paper's test and its variants. The paper gives the reference electronically, so there is no rate limit.
@@ -82,6 +85,7 @@ std::vector<Scenario> step_family() {
     return list;
 }
 
+// Numbers are those of the table in docs/wheelchair.md, section 7.
 std::vector<Scenario> all_scenarios() {
     std::vector<Scenario> list = step_family();
     list.push_back(named("s_curve", 15.0, slalom));

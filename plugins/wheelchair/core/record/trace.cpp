@@ -19,12 +19,14 @@ constexpr char magic[8] = {'T', 'A', 'N', 'D', 'T', 'R', 'C', '\n'};
 constexpr std::uint32_t version = 1;
 constexpr std::uint64_t chunk_records = 8192; // times 8 bytes: whole pages for any number of columns
 
+// Every message names the file.
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
     throw InputError("trace " + path + ": " + what);
 }
 
 std::string system_error() { return std::strerror(errno); }
 
+// The file grows, and is mapped, in chunks of this size.
 std::size_t chunk_bytes(std::size_t columns) { return chunk_records * columns * sizeof(double); }
 
 std::uint64_t file_size(int file) {
@@ -78,6 +80,7 @@ TraceFile::TraceFile(const std::string& path, ColumnNames columns) : path_(path)
     if (columns.empty() || columns.size() > max_trace_columns) fail(path, "number of columns out of bounds");
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (file_ < 0) fail(path, "cannot be opened for writing: " + system_error());
+    // The destructor does not run when the constructor throws.
     try {
         open_or_create(columns);
     } catch (...) {
@@ -89,6 +92,7 @@ TraceFile::TraceFile(const std::string& path, ColumnNames columns) : path_(path)
 void TraceFile::open_or_create(ColumnNames columns) {
     // Two writers would overwrite each other's records. The kernel releases the lock when the process ends.
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) fail(path_, "another component writes it");
+    // An empty file is a new one; any other must begin with the same page.
     const auto page = header_page(columns);
     if (file_size(file_) == 0 &&
         pwrite(file_, page.data(), page.size(), 0) != static_cast<ssize_t>(page.size()))
@@ -126,12 +130,14 @@ bool TraceFile::map_chunk(std::uint64_t chunk) {
 }
 
 void TraceFile::append(std::span<const double> record) {
+    // After the first lost record nothing more is written: a trace has no gaps, it only ends early.
     const bool full =
         dropped_ > 0 || (count_ / chunk_records != chunk_number_ && !map_chunk(count_ / chunk_records));
     if (full || record.size() != columns_) {
         ++dropped_;
         return;
     }
+    // Release order: a reader that sees the new count also sees the record.
     std::copy(record.begin(), record.end(), chunk_ + (count_ % chunk_records) * columns_);
     std::atomic_ref<std::uint64_t>(header_->committed).store(++count_, std::memory_order_release);
 }
@@ -151,6 +157,7 @@ TraceReader::~TraceReader() { close(file_); }
 std::uint64_t TraceReader::size() const { return committed(file_, path_, columns_); }
 
 std::vector<double> TraceReader::read(std::uint64_t first, std::uint64_t count) const {
+    // Records up to this count are complete and never change, so no lock is needed.
     const std::uint64_t have = size();
     if (first >= have) return {};
     std::vector<double> out(std::min(count, have - first) * columns_);
