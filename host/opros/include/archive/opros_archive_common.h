@@ -95,12 +95,14 @@ inline char type_code(wchar_t*) { return WCHAR_T_CODE; }
 
 } // namespace archive
 
+/// The base of all name-value pairs, by which components recognize them.
 class nvp_base {};
 
 /// A value with the name it has in its class: only archives that keep names look at the name.
 template <typename Type>
 class nvp : public nvp_base {
   public:
+    /// Refers to both, which must outlive the pair.
     nvp(const char* name, Type& data) : m_name(name), m_data(&data) {}
     std::string getName() const { return m_name; }
     Type& getData() const { return *m_data; }
@@ -110,6 +112,7 @@ class nvp : public nvp_base {
     Type* m_data;
 };
 
+/// A pair for a member; see OPROS_SERIALIZATION_NVP.
 template <typename T>
 inline nvp<T> makenvp(const char* name, T& value) {
     return nvp<T>(name, value);

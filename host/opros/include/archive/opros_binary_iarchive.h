@@ -13,6 +13,7 @@ namespace archive {
 /// Reads what binary_oarchive writes (opros_binary_oarchive.h says how). Throws an archive exception otherwise.
 class binary_iarchive : public iarchive {
   public:
+    /// The stream must be seekable, as a string stream or a file is, and outlive the archive.
     explicit binary_iarchive(std::istream* is) : m_is(is), m_bare(false) {}
     using iarchive::load;
 
@@ -38,7 +39,7 @@ class binary_iarchive : public iarchive {
     void get_blob(std::string& bytes);
 
     std::istream* m_is;
-    bool m_bare;
+    bool m_bare; // inside an array of numbers, whose elements carry no code of their own
 };
 
 } // namespace archive

@@ -12,8 +12,10 @@
 namespace opros {
 namespace archive {
 
+/// For values that must be checked when they are read: each tells its type.
 class binary_oarchive : public oarchive {
   public:
+    /// The stream must outlive the archive; its error flags tell whether all has been written.
     explicit binary_oarchive(std::ostream* os) : m_os(os), m_bare(false) {}
     using oarchive::save;
 

@@ -76,6 +76,7 @@ struct has_plain_serialize {
     static const bool value = decltype(test<T>(0))::value;
 };
 
+/// Whether T has a serialize() that only Boost's access class may call, and that class is known.
 template <typename T>
 struct has_private_serialize {
     static const bool derivable = std::is_class<T>::value && !std::is_final<T>::value;
@@ -83,6 +84,7 @@ struct has_private_serialize {
                               knows_boost_access<T, boost::serialization::access>::value;
 };
 
+// Tags of two more ways (opros_serializable.h).
 struct by_serialize {};
 struct by_private_serialize {};
 
@@ -92,6 +94,7 @@ struct boost_access {
     typedef typename std::conditional<true, boost::serialization::access, T>::type type;
 };
 
+/// Both directions: serialize() uses operator&, which saves or loads as the archive's type says.
 template <typename Archive, typename T>
 void serialize_class(Archive& ar, T& value, by_serialize) {
     value.serialize(ar, OPROS_SERIALIZATION_VERSION);

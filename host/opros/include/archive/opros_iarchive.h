@@ -66,6 +66,7 @@ class iarchive : public archive {
 // How the types of each kind are read; the last argument chooses among the overloads.
 namespace detail {
 
+// Numbers at once, so that an archive may copy them as one block; all others one by one.
 template <typename T>
 iarchive& load_elements(iarchive& ar, T* p, long size, by_primitive) {
     return ar.load_array(p, size);
@@ -98,6 +99,7 @@ void load_class(iarchive&, T&, by_nothing) {
                   "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
 }
 
+// An enumeration crosses as an int. Any number may come from outside: the user's code has to expect it.
 template <typename T>
 void load_value(iarchive& ar, T& value, by_enumeration) {
     int number = 0;
@@ -139,6 +141,7 @@ iarchive& iarchive::load(T (&values)[N]) {
     return read_array_end(N, code, sizeof(T));
 }
 
+// The count is checked by the archive before it is allocated here.
 template <typename T>
 iarchive& iarchive::load(T** p, long& size) {
     const long count = static_cast<long>(read_sequence_head());
@@ -168,6 +171,7 @@ iarchive& operator&(iarchive& ar, const opros::nvp<T>& pair) {
     return ar.load(pair);
 }
 
+// Boost's own pairs, for sources that include Boost.Serialization.
 template <typename T>
 iarchive& operator>>(iarchive& ar, const boost::serialization::nvp<T>& pair) {
     return ar.load(makenvp(pair.name(), pair.value()));

@@ -29,6 +29,7 @@ void load_each(iarchive& ar, Take take) {
     ar.read_sequence_end();
 }
 
+// Each replaces what the container held.
 template <typename T, typename Container>
 void load_list(iarchive& ar, Container& t) {
     t.clear();
@@ -47,6 +48,7 @@ void load_map(iarchive& ar, Container& t) {
 
 } // namespace detail
 
+// In place, so that a vector of the same size as before allocates nothing.
 template <typename T, typename A, typename = if_serializable<T>>
 void load_this(iarchive& ar, std::vector<T, A>& t) {
     t.resize(ar.read_sequence_head());

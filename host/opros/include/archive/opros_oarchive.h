@@ -78,6 +78,7 @@ class oarchive : public archive {
 // How the types of each kind are written; the last argument chooses among the overloads.
 namespace detail {
 
+// Numbers at once, so that an archive may copy them as one block; all others one by one.
 template <typename T>
 oarchive& save_elements(oarchive& ar, const T* p, long size, by_primitive) {
     return ar.save_array(p, size);
@@ -110,6 +111,7 @@ void save_class(oarchive&, T&, by_nothing) {
                   "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
 }
 
+// An enumeration crosses as an int, whatever its underlying type.
 template <typename T>
 void save_value(oarchive& ar, const T& value, by_enumeration) {
     ar.save(static_cast<int>(value));
@@ -160,6 +162,7 @@ template <typename T>
 oarchive& operator<<(oarchive& ar, const T& value) {
     return ar.save(value);
 }
+// Boost's own pairs, for sources that include Boost.Serialization.
 template <typename T>
 oarchive& operator<<(oarchive& ar, const boost::serialization::nvp<T>& pair) {
     return ar.save(makenvp(pair.name(), pair.value()));

@@ -14,6 +14,7 @@ namespace archive {
 /// Reads what raw_oarchive writes. Throws an archive exception when there is less than that.
 class raw_iarchive : public iarchive {
   public:
+    /// The stream must be seekable and outlive the archive.
     explicit raw_iarchive(std::istream* is) : m_is(is) {}
     using iarchive::load;
 

@@ -13,8 +13,10 @@
 namespace opros {
 namespace archive {
 
+/// The shortest of the three formats, for two ends that agree on the types.
 class raw_oarchive : public oarchive {
   public:
+    /// The stream must outlive the archive; its error flags tell whether all has been written.
     explicit raw_oarchive(std::ostream* os) : m_os(os) {}
     using oarchive::save;
 

@@ -80,6 +80,7 @@ struct by_members {};
 struct by_free_functions {};
 struct by_nothing {};
 
+// Shorter, for the nested choices below.
 template <bool condition, typename Yes, typename No>
 using choose = typename std::conditional<condition, Yes, No>::type;
 
@@ -107,12 +108,13 @@ struct way {
 
 } // namespace detail
 
-/// Whether T can be saved and loaded.
+/// Whether T can be saved and loaded. Of an array: whether its elements can; of a container: see if_serializable.
 template <typename T>
 struct is_serializable {
     typedef typename std::remove_cv<typename std::remove_all_extents<T>::type>::type element;
     static const bool value = !std::is_same<typename detail::way<element>::type, detail::by_nothing>::value;
 };
+// Archives have functions of their own for strings; void is the result of a method without one.
 template <>
 struct is_serializable<std::string> {
     static const bool value = true;

@@ -14,6 +14,7 @@ namespace archive {
 /// Reads what string_oarchive writes, in both modes. Throws an archive exception otherwise.
 class string_iarchive : public iarchive {
   public:
+    /// The stream must be seekable and outlive the archive.
     explicit string_iarchive(std::istream* is) : m_is(is) {}
     using iarchive::load;
 
@@ -40,8 +41,8 @@ class string_iarchive : public iarchive {
     void get_blob(std::string& bytes);
 
     std::istream* m_is;
-    bool m_named = false;
-    std::vector<bool> m_inside;
+    bool m_named = false;       // the sequence that begins next is a container
+    std::vector<bool> m_inside; // of the sequences that are open: whether it is one
 };
 
 } // namespace archive

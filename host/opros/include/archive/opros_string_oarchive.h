@@ -13,6 +13,7 @@
 namespace opros {
 namespace archive {
 
+/// For values that people read, as in logs and tools; floating point is written with all its digits.
 class string_oarchive : public oarchive {
   public:
     /// In mode 1, numbers are 'X' and their bytes in hexadecimal instead.

@@ -80,6 +80,7 @@ OPROS_TYPE_NAME_OF_2(pair)
 #undef OPROS_TYPE_NAME_OF_1
 #undef OPROS_TYPE_NAME_OF_2
 
+// A pointer has a name, for messages, but cannot be archived.
 template <typename T>
 std::string typeName(T**) {
     return getTypeName<T>() + "*";

@@ -9,6 +9,7 @@
 
 namespace opros {
 
+/// Booleans, characters and numbers: what an archive writes without asking the type itself.
 template <typename T>
 struct is_primitive {
     enum { value = std::is_arithmetic<T>::value };
@@ -21,6 +22,7 @@ template <typename T>
 struct is_pointer {
     enum { value = std::is_pointer<T>::value };
 };
+/// A class, struct or union.
 template <typename T>
 struct is_class {
     enum { value = std::is_class<T>::value || std::is_union<T>::value };
@@ -30,6 +32,7 @@ struct is_enum {
     enum { value = std::is_enum<T>::value };
 };
 
+// As the traits of the same names in namespace std.
 template <typename T>
 struct remove_const {
     typedef typename std::remove_const<T>::type type;

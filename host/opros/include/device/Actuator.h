@@ -4,6 +4,7 @@
 
 #include "Device.h"
 
+/// The limits of a drive, for components that keep them.
 class ActuatorProfile {
   public:
     ActuatorProfile() : maximumPower(0) {}

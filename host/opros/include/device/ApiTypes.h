@@ -43,24 +43,30 @@ using namespace std; // components rely on it
         return *this = type(a / o.a, b / o.b, c / o.c, d / o.d, e / o.e, f / o.f);                           \
     }
 
+// Each class lists its members in the order in which they are archived: it is part of the wire format between a v1.1
+// component and its peer, and must not change.
+/// A position and an attitude.
 class ObjectPosition {
   public:
     OPROS_API_SIX(ObjectPosition, x, y, z, roll, pitch, yaw)
 };
 OPROS_API_TYPE_NAME(ObjectPosition)
 
+/// A pose of a hand or tool.
 class CartesianCoordinate {
   public:
     OPROS_API_SIX(CartesianCoordinate, x, y, z, roll, pitch, yaw)
 };
 OPROS_API_TYPE_NAME(CartesianCoordinate)
 
+/// Forces and torques in three axes.
 class ForceTorqueSensorData {
   public:
     OPROS_API_SIX(ForceTorqueSensorData, fx, fy, fz, tx, ty, tz)
 };
 OPROS_API_TYPE_NAME(ForceTorqueSensorData)
 
+/// An attitude. Its arithmetic changes the left operand, as upstream's does.
 class ObjectRotation {
   public:
     double roll, pitch, yaw;
@@ -90,6 +96,7 @@ namespace OPRoS {
 typedef ::ObjectRotation Rotation;
 } // namespace OPRoS
 
+/// Turning rates, accelerations and attitude of an inertial unit.
 class ObjectPosture {
   public:
     double pRate = 0, qRate = 0, rRate = 0;
@@ -99,10 +106,12 @@ class ObjectPosture {
 };
 OPROS_API_TYPE_NAME(ObjectPosture)
 
+/// A position and heading in the plane, with the arithmetic of coordinate frames.
 class ObjectLocation {
   public:
     double x, y, theta;
     ObjectLocation() : x(0), y(0), theta(0) {}
+    /// From polar coordinates; the heading is the angle.
     ObjectLocation(double length, double angle)
         : x(length * cos(angle)), y(length * sin(angle)), theta(angle) {}
     ObjectLocation(double x_, double y_, double theta_) : x(x_), y(y_), theta(theta_) {}
@@ -113,10 +122,12 @@ class ObjectLocation {
     ObjectLocation& operator*=(const ObjectLocation& p) { return set(x * p.x, y * p.y, theta * p.theta); }
     ObjectLocation& operator/=(const ObjectLocation& p) { return set(x / p.x, y / p.y, theta / p.theta); }
     ObjectLocation& operator*=(double d) { return set(x * d, y * d, theta * d); }
+    /// Turns position and heading about the origin.
     ObjectLocation& Rotate(double rad) {
         return set(x * cos(rad) - y * sin(rad), x * sin(rad) + y * cos(rad), theta + rad);
     }
     ObjectLocation& Translate(double dx, double dy) { return set(x + dx, y + dy, theta); }
+    /// From the frame whose origin and heading are p into the frame that p is given in.
     ObjectLocation& Transform(const ObjectLocation& p) {
         Rotate(p.theta);
         return Translate(p.x, p.y);
@@ -143,6 +154,7 @@ inline ObjectLocation diff(const ObjectLocation& a, const ObjectLocation& b) {
     return ObjectLocation(a.x - b.x, a.y - b.y, DeltaRad(a.theta, b.theta));
 }
 
+/// Axes and buttons.
 class JoystickData {
   public:
     double x = 0, y = 0, z = 0;
@@ -151,6 +163,7 @@ class JoystickData {
 };
 OPROS_API_TYPE_NAME(JoystickData)
 
+/// A position on the earth, with time and velocity.
 class GpsData {
   public:
     double latitude = 0, longitude = 0;
@@ -160,6 +173,7 @@ class GpsData {
 };
 OPROS_API_TYPE_NAME(GpsData)
 
+/// What was found in an image, and the corners around it in pixels.
 class VisionRecognitionResult {
   public:
     std::string name;
@@ -169,6 +183,7 @@ class VisionRecognitionResult {
 };
 OPROS_API_TYPE_NAME(VisionRecognitionResult)
 
+/// A colour's name and the ranges of its three channels.
 class ColorRange {
   public:
     std::string name;
@@ -177,6 +192,7 @@ class ColorRange {
 };
 OPROS_API_TYPE_NAME(ColorRange)
 
+/// One frame on a CAN bus.
 class CanData {
   public:
     long id;

@@ -4,6 +4,7 @@
 
 #include "Sensor.h"
 
+/// The name that components of OPRoS v1 use.
 class BumperSensorProfile : public SensorProfile {};
 
 /// Bumpers: which of them touch something.

@@ -4,6 +4,7 @@
 
 #include "Can.h"
 
+/// The settings of a channel in OPRoS v1, for components that keep them.
 class CANProfile {
   public:
     CANProfile()

@@ -10,6 +10,7 @@ class Camera : public OprosApi {
     Camera() {}
     virtual ~Camera() {}
     virtual int GetImage(unsigned char* /*image*/) { return API_NOT_SUPPORTED; }
+    /// Images through a callback, whose type is the device's to define, until EndPushImage().
     virtual int StartPushImage(void* /*callback*/) { return API_NOT_SUPPORTED; }
     virtual int EndPushImage() { return API_NOT_SUPPORTED; }
 };

@@ -4,6 +4,7 @@
 
 #include "Sensor.h"
 
+/// Resolution and gear, for components that keep them.
 class EncoderProfile : public SensorProfile {
   public:
     EncoderProfile() : linePerRevolution(0), reductionRatio(0) {}

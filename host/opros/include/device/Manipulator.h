@@ -4,6 +4,7 @@
 
 #include "ServoActuator.h"
 
+/// The name that components use for the profile of a joint.
 class ManipulatorProfile : public ServoActuatorProfile {};
 
 /// An arm: one value per joint in each vector. `time`, in milliseconds, is how long each joint may take.

@@ -4,6 +4,7 @@
 
 #include "Actuator.h"
 
+/// Encoder, gear and limits of a servo drive, for components that keep them.
 class ServoActuatorProfile : public ActuatorProfile {
   public:
     ServoActuatorProfile()
@@ -13,7 +14,7 @@ class ServoActuatorProfile : public ActuatorProfile {
     double minimumPositionLimit, maximumPositionLimit;
 };
 
-/// A drive that holds a velocity or a position, which it reaches in the time given.
+/// A drive that holds a velocity or a position, which it reaches in `time` milliseconds; 0: at once.
 class ServoActuator : public Actuator {
   public:
     ServoActuator() {}

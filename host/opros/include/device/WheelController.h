@@ -4,6 +4,7 @@
 
 #include "Device.h"
 
+/// Measures and limits of the base, for components that keep them.
 class WheelControllerProfile {
   public:
     WheelControllerProfile()
@@ -20,8 +21,10 @@ class WheelController : public Device {
   public:
     WheelController() {}
     virtual ~WheelController() {}
+    /// Tells the base where it is, from which GetPosition() goes on.
     virtual int SetPosition(ObjectLocation) { return API_NOT_SUPPORTED; }
     virtual int GetPosition(ObjectLocation&) { return API_NOT_SUPPORTED; }
+    /// The pulses of the two wheels; the spelling is upstream's.
     virtual int GetOdometery(std::vector<long>&) { return API_NOT_SUPPORTED; }
     virtual int DriveWheel(double /*linearVelocity*/, double /*angularVelocity*/) {
         return API_NOT_SUPPORTED;

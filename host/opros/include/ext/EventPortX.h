@@ -22,6 +22,7 @@ void setTopicCallBack(InputEventPort<T, n>& port, void (*function)(P...), const 
     setEventCallBack(port, function);
 }
 
+// With the function by its name, as SET_EVENT_CALLBACK.
 #define SET_TOPIC_CALLBACK(port, func, classPtr, topic) setTopicCallBack(port, &func, classPtr, topic)
 #define SET_TOPIC_CALLBACK_EX(port, func, topic) setTopicCallBack(port, &func, topic)
 
