@@ -13,19 +13,19 @@
 
 namespace tandem::adaptor {
 namespace control = link::control;
-using link::Answer;
 using link::CallStatus;
 using link::PortKind;
+using link::Reply;
 
 namespace {
 
 constexpr int activation_attempts = 3;
 
-std::string check_names(const link::PortTable& partner, const std::string& link) {
+std::string check_names(const link::PortTable& peer, const std::string& link) {
     std::set<std::string> names{"linkState"};
-    for (const auto& port : partner.ports)
+    for (const auto& port : peer.ports)
         if (!names.insert(port.name).second)
-            return fmt::format("link '{}': the partner shares a port '{}', which is there already; rename it",
+            return fmt::format("link '{}': the peer shares a port '{}', which is there already; rename it",
                                link, port.name);
     return "";
 }
@@ -48,12 +48,12 @@ ReturnType AdaptorComp::onInitialize() {
         options.name = settings_.link;
         options.rings.large_bytes = settings_.large_bytes;
         options.segment_bytes = settings_.segment_bytes;
-        options.wait = link::wait_options();
+        options.wait = link::wait_options_from_environment();
         link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
                                              static_cast<LinkHandler&>(*this));
         link_->open();
-        link_->wait_up(settings_.wait, "InterceptorComp of the RTM host");
-        grow_ports();
+        link_->wait_until_up(settings_.wait, "InterceptorComp of the RTM host");
+        create_mirror_ports();
         return OPROS_SUCCESS;
     } catch (const std::runtime_error& error) {
         spdlog::error("{}: {}", getId(), error.what());
@@ -64,7 +64,7 @@ ReturnType AdaptorComp::onInitialize() {
 
 ReturnType AdaptorComp::onStart() {
     try {
-        link_->wait_up(settings_.wait, "InterceptorComp of the RTM host");
+        link_->wait_until_up(settings_.wait, "InterceptorComp of the RTM host");
     } catch (const link::LinkError& error) {
         spdlog::error("{}: {}", getId(), error.what());
         return OPROS_CALL_API_ERROR;
@@ -72,13 +72,13 @@ ReturnType AdaptorComp::onStart() {
     rtc_failed_ = false;
     const auto code = drive(control::activate);
     started_ = code == OPROS_SUCCESS && !rtc_failed_;
-    push_link_state();
+    publish_link_state();
     return started_ || code != OPROS_SUCCESS ? code : OPROS_CALL_API_ERROR;
 }
 
 ReturnType AdaptorComp::onStop() {
     started_ = false;
-    // A partner that has gone has nothing left to deactivate.
+    // A peer that has gone has nothing left to deactivate.
     return link_->up() ? drive(control::deactivate) : OPROS_SUCCESS;
 }
 
@@ -97,118 +97,119 @@ ReturnType AdaptorComp::onDestroy() {
 
 // ---- ports
 
-void AdaptorComp::grow_ports() {
+void AdaptorComp::create_mirror_ports() {
     const std::lock_guard lock(mutex_);
-    for (const auto& port : table_.ports) grow_port(port);
-    grown_ = true;
+    for (const auto& port : table_.ports) create_mirror_port(port);
+    mirror_ports_created_ = true;
     spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link, table_.ports.size(),
                  table_.component);
 }
 
-void AdaptorComp::grow_port(const link::Port& port) {
+void AdaptorComp::create_mirror_port(const link::Port& port) {
     switch (port.kind) {
     case PortKind::data_in:
-        inputs_.push_back(std::make_unique<MirroredInput>(port, link_->writer(port.name)));
+        inputs_.push_back(std::make_unique<MirrorInPort>(port, link_->writer(port.name)));
         addPort(port.name, inputs_.back().get());
         break;
     case PortKind::data_out:
-        outputs_.push_back(std::make_unique<MirroredOutput>(port, link_->reader(port.name)));
+        outputs_.push_back(std::make_unique<MirrorOutPort>(port, link_->reader(port.name)));
         addPort(port.name, outputs_.back().get());
         break;
     case PortKind::service_provided:
-        addPort(port.name, new MirroredProvided(port, *link_, settings_.call_timeout));
+        addPort(port.name, new MirrorProvidedPort(port, *link_, settings_.call_timeout));
         break;
     case PortKind::service_required:
-        required_.push_back(new MirroredRequired(port));
+        required_.push_back(new MirrorRequiredPort(port));
         addPort(port.name, required_.back());
         break;
     }
 }
 
-/// A partner that came back must still have every port that stands connected here.
-std::string AdaptorComp::accept(const link::PortTable& partner) {
+/// A peer that came back must still have every port that stands connected here.
+std::string AdaptorComp::check_peer_ports(const link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
-    if (!grown_) {
-        table_ = partner;
-        return check_names(partner, settings_.link);
+    if (!mirror_ports_created_) {
+        table_ = peer;
+        return check_names(peer, settings_.link);
     }
     for (const auto& port : table_.ports) {
-        const auto* now = partner.find(port.name);
+        const auto* now = peer.find(port.name);
         if (now && *now == port) continue;
-        return fmt::format("link '{}': port '{}' of the partner that came back {}; start this host again",
+        return fmt::format("link '{}': port '{}' of the peer that came back {}; start this host again",
                            settings_.link, port.name, now ? "has another type than before" : "is gone");
     }
     return "";
 }
 
-// ---- the partner comes, goes, calls
+// ---- the peer comes, goes, calls
 
-void AdaptorComp::link_changed(bool) { push_link_state(); }
+void AdaptorComp::link_state_changed(bool) { publish_link_state(); }
 
-void AdaptorComp::partner_came() {
+void AdaptorComp::peer_connected() {
     if (!started_) return;
     spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
     for (int attempt = 0; attempt < activation_attempts && started_ && link_->up(); ++attempt)
         if (drive(control::activate) == OPROS_SUCCESS) return;
     if (link_->up() && started_.exchange(false))
-        stopOnError(); // while it is down, the next partner is waited for
+        stopOnError(); // while it is down, the next peer is waited for
 }
 
-void AdaptorComp::partner_went() {}
+void AdaptorComp::peer_disconnected() {}
 
-Answer AdaptorComp::serve(const link::Request& request) {
+Reply AdaptorComp::serve(const link::Request& request) {
     if (request.port.empty()) {
         if (request.operation != control::failed)
-            return Answer::failure(CallStatus::no_such_operation, "unknown verb");
-        spdlog::error("{}: {}", getId(), control::decode_text(request.arguments));
+            return Reply::failure(CallStatus::no_such_operation, "unknown command");
+        spdlog::error("{}: {}", getId(), control::decode_string(request.arguments));
         rtc_failed_ = true;
         if (started_.exchange(false)) stopOnError();
         return {};
     }
-    if (auto* port = find_required(request.port)) return port->serve(request);
-    return Answer::failure(CallStatus::no_such_operation, "no such service port");
+    if (auto* port = find_required_port(request.port)) return port->serve(request);
+    return Reply::failure(CallStatus::no_such_operation, "no such service port");
 }
 
-/// The partner may call before this half has grown its ports.
-MirroredRequired* AdaptorComp::find_required(std::string_view name) {
+/// The peer may call before this half has grown its ports.
+MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
     const std::lock_guard lock(mutex_);
     for (auto* port : required_)
         if (port->port() == name) return port;
     return nullptr;
 }
 
-// ---- driving the partner
+// ---- driving the peer
 
 /// An activation may wait for two execution contexts, and for a call that the RTC makes in it.
-std::chrono::milliseconds AdaptorComp::bound_of(std::string_view verb) const {
-    return verb == control::activate ? 4 * settings_.call_timeout : settings_.call_timeout;
+std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) const {
+    return command == control::activate ? 4 * settings_.call_timeout : settings_.call_timeout;
 }
 
-Answer AdaptorComp::control(std::string_view verb, std::span<const std::byte> arguments) {
-    return link_->call({"", verb, "", arguments}, bound_of(verb));
+Reply AdaptorComp::control(std::string_view command, std::span<const std::byte> arguments) {
+    return link_->call({"", command, "", arguments}, timeout_of(command));
 }
 
-std::string AdaptorComp::tell_bindings() {
+std::string AdaptorComp::publish_bindings() {
     for (const auto* port : required_) {
-        const auto answer =
-            control(control::bind, control::encode(control::Binding{port->port(), port->operations()}));
-        if (answer.status != CallStatus::ok) return describe(answer, settings_.call_timeout);
+        const auto reply = control(
+            control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
+        if (reply.status != CallStatus::ok) return describe(reply, settings_.call_timeout);
     }
     return "";
 }
 
-ReturnType AdaptorComp::drive(std::string_view verb) {
-    std::string error = verb == control::activate ? tell_bindings() : "";
+ReturnType AdaptorComp::drive(std::string_view command) {
+    std::string error = command == control::activate ? publish_bindings() : "";
     if (error.empty()) {
-        const auto answer = control(verb);
-        if (answer.status == CallStatus::ok) return OPROS_SUCCESS;
-        error = describe(answer, bound_of(verb));
+        const auto reply = control(command);
+        if (reply.status == CallStatus::ok) return OPROS_SUCCESS;
+        error = describe(reply, timeout_of(command));
     }
-    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, verb, table_.component, error);
+    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command, table_.component,
+                  error);
     return OPROS_CALL_API_ERROR;
 }
 
-void AdaptorComp::push_link_state() {
+void AdaptorComp::publish_link_state() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::lock_guard lock(link_state_mutex_);

@@ -62,24 +62,25 @@ void get_all(wire::CdrReader& in, T* p, long size) {
 
 /// The time is the first thing that its value writes, as two unsigned ints: the signatures say so.
 template <class T>
-bool CdrOarchive::is_time(T value) {
-    if (!std::is_same_v<T, unsigned int> || time_left_ == 0) return false;
-    const bool seconds = time_left_-- == 2;
+bool CdrOarchive::is_time_word(T value) {
+    if (!std::is_same_v<T, unsigned int> || time_words_left_ == 0) return false;
+    const bool seconds = time_words_left_-- == 2;
     const auto word = static_cast<std::uint32_t>(value);
     *time_ = seconds ? wire::pack_time(word, 0) : *time_ | wire::pack_time(0, word);
     return true;
 }
 
 template <class T>
-bool CdrIarchive::is_time(T& value) {
-    if (!std::is_same_v<T, unsigned int> || time_left_ == 0) return false;
-    value = static_cast<T>(time_left_-- == 2 ? wire::seconds_of(time_) : wire::nanoseconds_of(time_));
+bool CdrIarchive::is_time_word(T& value) {
+    if (!std::is_same_v<T, unsigned int> || time_words_left_ == 0) return false;
+    value =
+        static_cast<T>(time_words_left_-- == 2 ? wire::stamp_seconds(time_) : wire::stamp_nanoseconds(time_));
     return true;
 }
 
 #define TANDEM_SAVE(type)                                                                                    \
     oarchive& CdrOarchive::save(type value) {                                                                \
-        if (!is_time(value)) put(out_, value);                                                               \
+        if (!is_time_word(value)) put(out_, value);                                                          \
         return *this;                                                                                        \
     }                                                                                                        \
     oarchive& CdrOarchive::save_array(const type* p, long size) {                                            \
@@ -115,7 +116,7 @@ void CdrIarchive::check() const {
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& CdrIarchive::load(type& value) {                                                               \
-        if (is_time(value)) return *this;                                                                    \
+        if (is_time_word(value)) return *this;                                                               \
         get(in_, value);                                                                                     \
         check();                                                                                             \
         return *this;                                                                                        \

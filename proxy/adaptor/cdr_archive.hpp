@@ -14,7 +14,7 @@ class CdrOarchive final : public opros::archive::oarchive {
   public:
     explicit CdrOarchive(wire::CdrWriter& out) : out_(out) {}
     /// For a value that begins with RTM's time, which travels in the message's header: it goes to `stamp`.
-    CdrOarchive(wire::CdrWriter& out, std::uint64_t& stamp) : out_(out), time_(&stamp), time_left_(2) {}
+    CdrOarchive(wire::CdrWriter& out, std::uint64_t& stamp) : out_(out), time_(&stamp), time_words_left_(2) {}
 
 #define TANDEM_SAVE(type)                                                                                    \
     oarchive& save(type value) override;                                                                     \
@@ -30,11 +30,11 @@ class CdrOarchive final : public opros::archive::oarchive {
 
   private:
     template <class T>
-    bool is_time(T value);
+    bool is_time_word(T value);
 
     wire::CdrWriter& out_;
     std::uint64_t* time_ = nullptr;
-    int time_left_ = 0; ///< of its two words
+    int time_words_left_ = 0; ///< of its two words
 };
 
 /// Lets a type's own serialization read CDR. Throws archive_type_exception when the bytes do not hold what it
@@ -43,7 +43,7 @@ class CdrIarchive final : public opros::archive::iarchive {
   public:
     explicit CdrIarchive(wire::CdrReader in) : in_(in) {}
     /// For a value that begins with RTM's time, which `stamp` holds and the message does not.
-    CdrIarchive(wire::CdrReader in, std::uint64_t stamp) : in_(in), time_(stamp), time_left_(2) {}
+    CdrIarchive(wire::CdrReader in, std::uint64_t stamp) : in_(in), time_(stamp), time_words_left_(2) {}
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& load(type& value) override;                                                                    \
@@ -59,12 +59,12 @@ class CdrIarchive final : public opros::archive::iarchive {
 
   private:
     template <class T>
-    bool is_time(T& value);
+    bool is_time_word(T& value);
     void check() const;
 
     wire::CdrReader in_;
     std::uint64_t time_ = 0;
-    int time_left_ = 0; ///< of its two words
+    int time_words_left_ = 0; ///< of its two words
 };
 
 } // namespace tandem::adaptor

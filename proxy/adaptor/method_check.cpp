@@ -17,41 +17,41 @@ std::optional<std::string> signature_of(Method& method) {
     } catch (const std::exception&) {
         return std::nullopt;
     }
-    const auto operation = wire::parse_operation(arguments.signature() + ":" + result.signature());
+    const auto operation = wire::parse_operation_signature(arguments.signature() + ":" + result.signature());
     return operation.arguments + ":" + operation.result;
 }
 
-std::string check_method(const link::Port& partner, const std::string& name, const std::string& signature) {
-    if (partner.operations.empty()) return "";
-    const auto known = std::find_if(partner.operations.begin(), partner.operations.end(),
+std::string check_method(const link::Port& peer, const std::string& name, const std::string& signature) {
+    if (peer.operations.empty()) return "";
+    const auto known = std::find_if(peer.operations.begin(), peer.operations.end(),
                                     [&](const auto& operation) { return operation.name == name; });
-    if (known == partner.operations.end())
-        return fmt::format("service port '{}': the partner's interface {} has no operation '{}'",
-                           partner.name, partner.type, name);
-    const auto theirs = wire::parse_operation(known->signature);
-    if (theirs == wire::parse_operation(signature)) return "";
+    if (known == peer.operations.end())
+        return fmt::format("service port '{}': the peer's interface {} has no operation '{}'", peer.name,
+                           peer.type, name);
+    const auto theirs = wire::parse_operation_signature(known->signature);
+    if (theirs == wire::parse_operation_signature(signature)) return "";
     return fmt::format(
-        "service port '{}': method '{}' has signature '{}', the partner's operation of interface {} has "
+        "service port '{}': method '{}' has signature '{}', the peer's operation of interface {} has "
         "'{}'",
-        partner.name, name, signature, partner.type, known->signature);
+        peer.name, name, signature, peer.type, known->signature);
 }
 
-std::string describe(const link::Answer& answer, std::chrono::milliseconds call_timeout) {
-    switch (answer.status) {
+std::string describe(const link::Reply& reply, std::chrono::milliseconds call_timeout) {
+    switch (reply.status) {
     case link::CallStatus::timeout:
-        return fmt::format("no answer within {} ms", call_timeout.count());
+        return fmt::format("no reply within {} ms", call_timeout.count());
     case link::CallStatus::peer_died:
-        return "the partner is not there";
+        return "the peer is not there";
     case link::CallStatus::overload:
         return "too many calls are under way";
     case link::CallStatus::shut_down:
         return "the link is closing";
     case link::CallStatus::no_such_operation:
-        return answer.bytes.empty() ? "the partner has no such operation" : answer.text();
+        return reply.bytes.empty() ? "the peer has no such operation" : reply.text();
     case link::CallStatus::bad_arguments:
-        return answer.bytes.empty() ? "the partner cannot read the arguments" : answer.text();
+        return reply.bytes.empty() ? "the peer cannot read the arguments" : reply.text();
     default:
-        return answer.bytes.empty() ? "the partner's component failed" : answer.text();
+        return reply.bytes.empty() ? "the peer's component failed" : reply.text();
     }
 }
 

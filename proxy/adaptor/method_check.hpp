@@ -15,11 +15,11 @@ namespace tandem::adaptor {
 /// `arguments:result` of an OPRoS method; nothing when one of its types cannot be archived.
 std::optional<std::string> signature_of(Method& method);
 
-/// Empty when the partner's port has an operation of that name and signature, or does not know its
+/// Empty when the peer's port has an operation of that name and signature, or does not know its
 /// operations; otherwise one line with both signatures.
-std::string check_method(const link::Port& partner, const std::string& name, const std::string& signature);
+std::string check_method(const link::Port& peer, const std::string& name, const std::string& signature);
 
 /// What went wrong with a call, for a message.
-std::string describe(const link::Answer& answer, std::chrono::milliseconds call_timeout);
+std::string describe(const link::Reply& reply, std::chrono::milliseconds call_timeout);
 
 } // namespace tandem::adaptor

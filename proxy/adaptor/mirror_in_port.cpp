@@ -8,19 +8,19 @@
 
 namespace tandem::adaptor {
 
-MirroredInput::MirroredInput(link::Port partner, link::ChannelWriter& channel)
-    : partner_(std::move(partner)), channel_(channel) {}
+MirrorInPort::MirrorInPort(link::Port peer, link::ChannelWriter& channel)
+    : peer_(std::move(peer)), channel_(channel) {}
 
-bool MirroredInput::checkType(opros_any& sample) {
-    const auto check = check_type(sample, partner_);
+bool MirrorInPort::checkType(opros_any& sample) {
+    const auto check = check_type(sample, peer_);
     type_error_ = check.error;
     if (!check.error.empty()) return false;
-    value_has_time_ = wire::is_timed(partner_.signature) && check.match == wire::Match::equal;
+    value_has_time_ = wire::is_timed(peer_.signature) && check.match == wire::SignatureMatch::equal;
     return true;
 }
 
-ReturnType MirroredInput::push(opros_any& value) {
-    std::uint64_t stamp = value_has_time_ ? 0 : wire::stamp_now();
+ReturnType MirrorInPort::push(opros_any& value) {
+    std::uint64_t stamp = value_has_time_ ? 0 : wire::wall_clock_stamp();
     try {
         const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
             CdrOarchive archive = value_has_time_ ? CdrOarchive(out, stamp) : CdrOarchive(out);

@@ -10,23 +10,23 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an input data port of the partner: what an OPRoS component pushes here is encoded straight into
+/// Mirrors an input data port of the peer: what an OPRoS component pushes here is encoded straight into
 /// the ring, in the pushing thread. Never blocks.
-class MirroredInput final : public InputDataPortInterface {
+class MirrorInPort final : public InputDataPortInterface {
   public:
-    MirroredInput(link::Port partner, link::ChannelWriter& channel);
+    MirrorInPort(link::Port peer, link::ChannelWriter& channel);
 
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called at connection with a sample of what will be pushed: its signature must fit the partner's.
+    /// Called at connection with a sample of what will be pushed: its signature must fit the peer's.
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
     std::string typeError() const override { return type_error_; }
 
   private:
-    const link::Port partner_;
+    const link::Port peer_;
     link::ChannelWriter& channel_;
     bool value_has_time_ = false;
     std::string type_error_;

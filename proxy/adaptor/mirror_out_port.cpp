@@ -9,39 +9,39 @@
 
 namespace tandem::adaptor {
 
-MirroredOutput::MirroredOutput(link::Port partner, link::ChannelReader& channel)
-    : partner_(std::move(partner)), channel_(channel) {}
+MirrorOutPort::MirrorOutPort(link::Port peer, link::ChannelReader& channel)
+    : peer_(std::move(peer)), channel_(channel) {}
 
-MirroredOutput::~MirroredOutput() { detach(); }
+MirrorOutPort::~MirrorOutPort() { detach(); }
 
-bool MirroredOutput::checkType(DataPort* target) {
+bool MirrorOutPort::checkType(DataPort* target) {
     auto* input = dynamic_cast<InputDataPortInterface*>(target);
     if (!input || target_) {
         type_error_ =
-            fmt::format("port '{}': {}", partner_.name,
+            fmt::format("port '{}': {}", peer_.name,
                         input ? "it is connected already, and what crosses the link goes to one port; let "
                                 "that component pass it on"
                               : "the target is not an input data port");
         return false;
     }
-    const auto check = check_type(input->sample(), partner_);
+    const auto check = check_type(input->sample(), peer_);
     type_error_ = check.error;
     if (!check.error.empty()) return false;
-    value_has_time_ = wire::is_timed(partner_.signature) && check.match == wire::Match::equal;
+    value_has_time_ = wire::is_timed(peer_.signature) && check.match == wire::SignatureMatch::equal;
     if (input->addSource(this) != OPROS_SUCCESS) {
-        type_error_ = fmt::format("port '{}': the target takes no values from a bridge", partner_.name);
+        type_error_ = fmt::format("port '{}': the target takes no values from a bridge", peer_.name);
         return false;
     }
     target_ = input;
     return true;
 }
 
-void MirroredOutput::detach() {
+void MirrorOutPort::detach() {
     if (target_) target_->removeSource(this);
     target_ = nullptr;
 }
 
-opros::archive::iarchive* MirroredOutput::next() {
+opros::archive::iarchive* MirrorOutPort::next() {
     held_ = channel_.hold();
     const auto record = channel_.next();
     if (!record) {
@@ -53,15 +53,15 @@ opros::archive::iarchive* MirroredOutput::next() {
     return value_has_time_ ? &archive_.emplace(reader, record->stamp_ns) : &archive_.emplace(reader);
 }
 
-void MirroredOutput::done() {
+void MirrorOutPort::done() {
     archive_.reset();
     held_.unlock();
 }
 
-void MirroredOutput::undecodable(const std::string& why) {
+void MirrorOutPort::undecodable(const std::string& why) {
     if (undecodable_.should_log())
         spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
-                      partner_.name, record_bytes_, why, undecodable_.count());
+                      peer_.name, record_bytes_, why, undecodable_.count());
 }
 
 } // namespace tandem::adaptor

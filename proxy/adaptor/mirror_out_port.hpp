@@ -15,12 +15,12 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an output data port of the partner. The one OPRoS input port connected to it polls the ring
+/// Mirrors an output data port of the peer. The one OPRoS input port connected to it polls the ring
 /// itself, through the DataPortSource that this port is to it.
-class MirroredOutput final : public OutputDataPortInterface, private DataPortSource {
+class MirrorOutPort final : public OutputDataPortInterface, private DataPortSource {
   public:
-    MirroredOutput(link::Port partner, link::ChannelReader& channel);
-    ~MirroredOutput() override;
+    MirrorOutPort(link::Port peer, link::ChannelReader& channel);
+    ~MirrorOutPort() override;
 
     ReturnType push(opros_any&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -36,11 +36,11 @@ class MirroredOutput final : public OutputDataPortInterface, private DataPortSou
   private:
     opros::archive::iarchive* next() override;
     void done() override;
-    bool large() const override { return record_bytes_ > link::large_message; }
+    bool large() const override { return record_bytes_ > link::large_message_bytes; }
     void undecodable(const std::string& why) override;
     void detach();
 
-    const link::Port partner_;
+    const link::Port peer_;
     link::ChannelReader& channel_;
     InputDataPortInterface* target_ = nullptr;
     bool value_has_time_ = false;

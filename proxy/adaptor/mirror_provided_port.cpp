@@ -10,34 +10,34 @@
 
 namespace tandem::adaptor {
 
-MirroredProvided::MirroredProvided(link::Port partner, link::Link& link,
-                                   std::chrono::milliseconds call_timeout)
-    : partner_(std::move(partner)), link_(link), call_timeout_(call_timeout) {}
+MirrorProvidedPort::MirrorProvidedPort(link::Port peer, link::Link& link,
+                                       std::chrono::milliseconds call_timeout)
+    : peer_(std::move(peer)), link_(link), call_timeout_(call_timeout) {}
 
-std::string MirroredProvided::bindMethod(Method* required) {
+std::string MirrorProvidedPort::bindMethod(Method* required) {
     const auto signature = signature_of(*required);
     if (!signature)
         return fmt::format(
-            "service port '{}': method '{}' has an argument or result that cannot cross the link",
-            partner_.name, required->getName());
-    const std::string error = check_method(partner_, required->getName(), *signature);
+            "service port '{}': method '{}' has an argument or result that cannot cross the link", peer_.name,
+            required->getName());
+    const std::string error = check_method(peer_, required->getName(), *signature);
     if (error.empty()) signatures_[required->getName()] = *signature;
     return error;
 }
 
-ReturnType MirroredProvided::callService(std::string& name, std::vector<opros_params>& arguments,
-                                         opros_params& result) {
+ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_params>& arguments,
+                                           opros_params& result) {
     const auto bound = signatures_.find(name);
     if (bound == signatures_.end()) return OPROS_UNSUPPORTED_METHOD;
     std::vector<std::byte> bytes;
     wire::CdrWriter writer(bytes);
     CdrOarchive archive(writer);
     for (auto& argument : arguments) argument.encode(archive);
-    const auto answer = link_.call({partner_.name, name, bound->second, bytes}, call_timeout_);
-    if (answer.status != link::CallStatus::ok)
+    const auto reply = link_.call({peer_.name, name, bound->second, bytes}, call_timeout_);
+    if (reply.status != link::CallStatus::ok)
         throw MethodInvokeException(
-            fmt::format("service '{}.{}': {}", partner_.name, name, describe(answer, call_timeout_)));
-    CdrIarchive results{wire::CdrReader(answer.bytes)};
+            fmt::format("service '{}.{}': {}", peer_.name, name, describe(reply, call_timeout_)));
+    CdrIarchive results{wire::CdrReader(reply.bytes)};
     result.decode(results);
     return OPROS_SUCCESS;
 }

@@ -11,22 +11,22 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors a service port that the partner provides: an OPRoS component's calls are carried to it and wait
-/// for the answer, never longer than the call time-out. Failures are thrown as MethodInvokeException, one
+/// Mirrors a service port that the peer provides: an OPRoS component's calls are carried to it and wait
+/// for the reply, never longer than the call time-out. Failures are thrown as MethodInvokeException, one
 /// line each.
-class MirroredProvided final : public ProvidedServicePort {
+class MirrorProvidedPort final : public ProvidedServicePort {
   public:
-    MirroredProvided(link::Port partner, link::Link& link, std::chrono::milliseconds call_timeout);
+    MirrorProvidedPort(link::Port peer, link::Link& link, std::chrono::milliseconds call_timeout);
 
     bool isDynamic() const override { return true; }
-    /// At connection: the method's signature must be the partner's, where the partner knows its own.
+    /// At connection: the method's signature must be the peer's, where the peer knows its own.
     std::string bindMethod(Method* required) override;
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;
     using ProvidedServicePort::callService;
 
   private:
-    const link::Port partner_;
+    const link::Port peer_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
     std::map<std::string, std::string> signatures_; ///< of bound methods; complete before anybody calls

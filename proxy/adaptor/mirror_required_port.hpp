@@ -12,28 +12,28 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors a service port that the partner requires: the partner's calls are made on the OPRoS port connected
+/// Mirrors a service port that the peer requires: the peer's calls are made on the OPRoS port connected
 /// here, by whatever methods it provides.
-class MirroredRequired final : public RequiredServicePort {
+class MirrorRequiredPort final : public RequiredServicePort {
   public:
-    explicit MirroredRequired(link::Port partner);
+    explicit MirrorRequiredPort(link::Port peer);
 
     bool isDynamic() const override { return true; }
-    /// At connection: every operation that the partner requires must be there with its signature.
+    /// At connection: every operation that the peer requires must be there with its signature.
     std::string bindProvided(ProvidedServicePort* provided) override;
 
     /// Name and signature of what is provided; empty while nothing is connected.
     std::vector<link::ServiceOperation> operations() const;
-    const std::string& port() const { return partner_.name; }
+    const std::string& port() const { return peer_.name; }
 
     /// Runs one call. [worker-thread]
-    link::Answer serve(const link::Request& request);
+    link::Reply serve(const link::Request& request);
 
   private:
     std::string collect(ProvidedServicePort& provided);
-    link::Answer invoke(const link::Request& request);
+    link::Reply invoke(const link::Request& request);
 
-    const link::Port partner_;
+    const link::Port peer_;
     mutable std::shared_mutex mutex_; ///< taken alone to bind, so that no call runs in a port that is going
     ProvidedServicePort* provided_ = nullptr;
     std::map<std::string, std::string> signatures_;

@@ -15,32 +15,31 @@ std::string signature_of(const opros_any& sample) {
     return wire::to_signature(wire::parse_signature(recorder.signature()));
 }
 
-TypeCheck check_type(const opros_any& sample, const link::Port& partner) {
+TypeCheck check_type(const opros_any& sample, const link::Port& peer) {
     if (!sample.serializable())
         return {
-            wire::Match::mismatch,
+            wire::SignatureMatch::mismatch,
             fmt::format(
                 "port '{}': OPRoS type {} cannot cross the link: give it save() and load(), or save_this() "
                 "and load_this()",
-                partner.name, sample.type())};
+                peer.name, sample.type())};
     std::string signature;
     try {
         signature = signature_of(sample);
     } catch (const std::exception&) {
         return {
-            wire::Match::mismatch,
+            wire::SignatureMatch::mismatch,
             fmt::format(
                 "port '{}': OPRoS type {} cannot cross the link: it holds a long double or wide characters",
-                partner.name, sample.type())};
+                peer.name, sample.type())};
     }
-    const auto match = wire::match(signature, partner.signature);
-    if (match == wire::Match::equal || match == wire::Match::add_time) return {match, ""};
-    return {
-        wire::Match::mismatch,
-        fmt::format(
-            "port '{}': OPRoS type {} has signature '{}', the partner's type {} has '{}'; use a type with "
-            "that signature, with or without the leading time '(uu)'",
-            partner.name, sample.type(), signature, partner.type, partner.signature)};
+    const auto match = wire::match_signatures(signature, peer.signature);
+    if (match == wire::SignatureMatch::equal || match == wire::SignatureMatch::add_time) return {match, ""};
+    return {wire::SignatureMatch::mismatch,
+            fmt::format(
+                "port '{}': OPRoS type {} has signature '{}', the peer's type {} has '{}'; use a type with "
+                "that signature, with or without the leading time '(uu)'",
+                peer.name, sample.type(), signature, peer.type, peer.signature)};
 }
 
 } // namespace tandem::adaptor

@@ -41,17 +41,17 @@ class Call final : public omniCallDescriptor {
     std::span<const std::byte> arguments_;
 };
 
-using Status = GenericResult::Status;
+using Status = GenericCallResult::Status;
 
-GenericResult failure(Status status, const std::string& operation, std::string_view what) {
+GenericCallResult failure(Status status, const std::string& operation, std::string_view what) {
     return {status, {}, fmt::format("operation '{}': {}", operation, what)};
 }
 
 } // namespace
 
-GenericResult generic_call(CORBA::Object_ptr object, const std::string& operation,
-                           const wire::Type& arguments_type, const wire::Type& result_type,
-                           std::span<const std::byte> arguments, std::chrono::milliseconds timeout) {
+GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& operation,
+                               const wire::Type& arguments_type, const wire::Type& result_type,
+                               std::span<const std::byte> arguments, std::chrono::milliseconds timeout) {
     if (CORBA::is_nil(object))
         return failure(Status::unreachable, operation, "the provider is not connected");
     omniObjRef* reference = object->_PR_getobj();

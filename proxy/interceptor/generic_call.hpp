@@ -14,7 +14,7 @@
 namespace tandem::interceptor {
 
 /// What came of a call on a CORBA object.
-struct GenericResult {
+struct GenericCallResult {
     enum class Status { ok, no_such_operation, bad_arguments, exception, unreachable, timeout } status{};
     std::vector<std::byte> results; ///< CDR, when ok
     std::string text;               ///< otherwise one line
@@ -23,8 +23,8 @@ struct GenericResult {
 /// Calls an operation of any CORBA object without a compiled stub. Arguments and results in CDR; user
 /// exceptions are reported by their repository id. Blocks the calling thread, for a remote object `timeout`
 /// at most.
-GenericResult generic_call(CORBA::Object_ptr object, const std::string& operation,
-                           const wire::Type& arguments_type, const wire::Type& result_type,
-                           std::span<const std::byte> arguments, std::chrono::milliseconds timeout);
+GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& operation,
+                               const wire::Type& arguments_type, const wire::Type& result_type,
+                               std::span<const std::byte> arguments, std::chrono::milliseconds timeout);
 
 } // namespace tandem::interceptor

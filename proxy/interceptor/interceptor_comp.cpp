@@ -2,7 +2,8 @@
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include "proxy/interceptor/link_buffer.hpp"
-#include "proxy/interceptor/raw_port.hpp"
+#include "proxy/interceptor/mirror_in_port.hpp"
+#include "proxy/interceptor/mirror_out_port.hpp"
 #include "proxy/link/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 #include "proxy/wire/signature_match.hpp"
@@ -19,9 +20,9 @@
 
 namespace tandem::interceptor {
 namespace control = link::control;
-using link::Answer;
 using link::CallStatus;
 using link::PortKind;
+using link::Reply;
 
 InterceptorComp::InterceptorComp(RTC::Manager* manager)
     : RTC::DataFlowComponentBase(manager), link_state_out_("linkState", link_state_) {}
@@ -34,7 +35,7 @@ RTC::ReturnCode_t InterceptorComp::onInitialize() {
     try {
         settings_ = read_settings(getProperties());
         addOutPort("linkState", link_state_out_);
-        share_rtc();
+        share_rtc_ports();
         return RTC::RTC_OK;
     } catch (const std::runtime_error& error) {
         spdlog::error("{}: {}", getInstanceName(), error.what());
@@ -51,29 +52,29 @@ RTC::ReturnCode_t InterceptorComp::onFinalize() {
     return RTC::RTC_OK;
 }
 
-void InterceptorComp::share_rtc() {
+void InterceptorComp::share_rtc_ports() {
     auto* rtc = RTC::Manager::instance().getComponent(settings_.rtc.c_str());
     if (!rtc)
         throw std::runtime_error(
             fmt::format("parameter 'rtc' names '{}', but there is no such RTC; create it before "
                         "this one in manager.components.precreate",
                         settings_.rtc));
-    const auto ports = survey(*rtc);
+    const auto ports = enumerate_ports(*rtc);
     link::PortTable table{settings_.rtc, {}};
     for (const auto& port : ports) table.ports.push_back(port.entry);
     link::LinkOptions options;
     options.name = settings_.link;
     options.rings = {settings_.ring_bytes, settings_.large_bytes};
     options.segment_bytes = settings_.segment_bytes;
-    options.wait = link::wait_options();
+    options.wait = link::wait_options_from_environment();
     link_ = std::make_unique<link::Link>(shm::Side::second, options, table, static_cast<LinkHandler&>(*this));
     driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,
-                                          [this] { link_->post([this] { report_failure(); }); });
+                                          [this] { link_->post([this] { report_rtc_error(); }); });
     own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [] {});
     LinkBuffer::register_factory();
     for (const auto& port : ports) {
         const bool data = port.entry.kind == PortKind::data_out || port.entry.kind == PortKind::data_in;
-        data ? mirror_data(port) : mirror_service(port);
+        data ? mirror_data_port(port) : mirror_service_port(port);
     }
     std::set<std::string> connected; // a service port with several interfaces has an entry for each
     for (const auto& port : ports) {
@@ -91,19 +92,19 @@ std::string InterceptorComp::channel_key(const std::string& port) const {
     return settings_.link + "/" + port;
 }
 
-void InterceptorComp::mirror_data(const SurveyedPort& port) {
+void InterceptorComp::mirror_data_port(const RtcPort& port) {
     const auto& entry = port.entry;
     const std::string key = channel_key(entry.name);
     LinkChannel channel;
     channel.timed = wire::is_timed(entry.signature);
     if (entry.kind == PortKind::data_out) {
         channel.writer = &link_->writer(entry.name);
-        auto mine = std::make_unique<RawInPort>(entry.name.c_str(), entry.type.c_str());
+        auto mine = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
         addInPort(entry.name.c_str(), *mine);
         data_ports_.push_back(std::move(mine));
     } else {
         channel.reader = &link_->reader(entry.name);
-        auto mine = std::make_unique<RawOutPort>(entry.name.c_str(), entry.type.c_str());
+        auto mine = std::make_unique<MirrorInPort>(entry.name.c_str(), entry.type.c_str());
         addOutPort(entry.name.c_str(), *mine);
         data_ports_.push_back(std::move(mine));
     }
@@ -112,15 +113,15 @@ void InterceptorComp::mirror_data(const SurveyedPort& port) {
     connect(*data_ports_.back(), port.service, key);
 }
 
-void InterceptorComp::mirror_service(const SurveyedPort& port) {
+void InterceptorComp::mirror_service_port(const RtcPort& port) {
     auto& mine = service_ports_[port.corba_port];
     if (!mine) mine = std::make_unique<RTC::CorbaPort>(port.corba_port.c_str());
     const auto& entry = port.entry;
     if (entry.kind == PortKind::service_required) {
-        providers_.push_back(std::make_unique<ProviderMirror>(entry, *link_, settings_.call_timeout));
+        providers_.push_back(std::make_unique<MirrorRequiredPort>(entry, *link_, settings_.call_timeout));
         mine->registerProvider(entry.instance.c_str(), entry.type.c_str(), providers_.back()->servant());
     } else {
-        consumers_.push_back(std::make_unique<ConsumerMirror>(entry, settings_.call_timeout));
+        consumers_.push_back(std::make_unique<MirrorProvidedPort>(entry, settings_.call_timeout));
         mine->registerConsumer(entry.instance.c_str(), entry.type.c_str(), consumers_.back()->consumer());
     }
 }
@@ -158,9 +159,9 @@ void InterceptorComp::release() {
     channel_keys_.clear();
 }
 
-// ---- the partner comes, goes, calls
+// ---- the peer comes, goes, calls
 
-void InterceptorComp::link_changed(bool up) {
+void InterceptorComp::link_state_changed(bool up) {
     if (up) spdlog::info("{}: link '{}' is up", getInstanceName(), settings_.link);
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -173,20 +174,20 @@ void InterceptorComp::link_changed(bool up) {
     link_state_out_.write();
 }
 
-void InterceptorComp::partner_went() {
+void InterceptorComp::peer_disconnected() {
     if (!activated_by_link_.exchange(false)) return;
     const std::string error = driver_->deactivate();
     if (!error.empty()) spdlog::error("{}: {}: {}", getInstanceName(), settings_.rtc, error);
 }
 
-Answer InterceptorComp::serve(const link::Request& request) {
+Reply InterceptorComp::serve(const link::Request& request) {
     if (request.port.empty()) return serve_control(request);
     for (auto& consumer : consumers_)
         if (consumer->port().name == request.port) return consumer->serve(request);
-    return Answer::failure(CallStatus::no_such_operation, "no such service port");
+    return Reply::failure(CallStatus::no_such_operation, "no such service port");
 }
 
-Answer InterceptorComp::serve_control(const link::Request& request) {
+Reply InterceptorComp::serve_control(const link::Request& request) {
     std::string error;
     if (request.operation == control::activate) {
         error = activate();
@@ -198,24 +199,24 @@ Answer InterceptorComp::serve_control(const link::Request& request) {
     } else if (request.operation == control::bind) {
         error = bind(request.arguments);
     } else {
-        return Answer::failure(CallStatus::no_such_operation, "unknown verb");
+        return Reply::failure(CallStatus::no_such_operation, "unknown command");
     }
-    return error.empty() ? Answer{} : Answer::failure(CallStatus::exception, error);
+    return error.empty() ? Reply{} : Reply::failure(CallStatus::exception, error);
 }
 
 std::string InterceptorComp::activate() {
-    // First, so that partner_went() sees it when the partner dies meanwhile.
+    // First, so that peer_disconnected() sees it when the peer dies meanwhile.
     activated_by_link_ = true;
     std::string error = own_driver_->activate(); // the RTC may call through our ports from its onActivated on
     if (error.empty()) error = driver_->activate();
     if (!error.empty()) activated_by_link_ = false;
-    if (!link_->up()) partner_went();
+    if (!link_->up()) peer_disconnected();
     return error;
 }
 
 std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     try {
-        const auto binding = control::decode_binding(arguments);
+        const auto binding = control::decode_service_binding(arguments);
         for (auto& provider : providers_)
             if (provider->port().name == binding.port) return provider->bind(binding);
         return fmt::format("there is no required service port '{}'", binding.port);
@@ -224,13 +225,13 @@ std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     }
 }
 
-void InterceptorComp::partner_came() {
-    if (failed_) report_failure(); // it could not be told before
+void InterceptorComp::peer_connected() {
+    if (failed_) report_rtc_error(); // it could not be told before
 }
 
-void InterceptorComp::report_failure() {
+void InterceptorComp::report_rtc_error() {
     failed_ = true;
-    const auto text = control::encode(fmt::format("RTC '{}' went to ERROR", settings_.rtc));
+    const auto text = control::encode_string(fmt::format("RTC '{}' went to ERROR", settings_.rtc));
     if (link_->call({"", control::failed, "", text}, settings_.call_timeout).status == CallStatus::ok)
         failed_ = false;
 }

@@ -57,15 +57,15 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
         stamp = wire::pack_time(sec, nsec);
         bytes = bytes.subspan(time_bytes);
     } else {
-        stamp = wire::stamp_now();
+        stamp = wire::wall_clock_stamp();
     }
-    return sent(channel_.writer->write_exactly(bytes.size(), stamp, [&](std::span<std::byte> room) {
+    return sent(channel_.writer->write_sized(bytes.size(), stamp, [&](std::span<std::byte> room) {
         std::copy(bytes.begin(), bytes.end(), room.begin());
         return true;
     }));
 }
 
-/// Without a partner the message is gone and counted; the RTC goes on as with an unconnected port.
+/// Without a peer the message is gone and counted; the RTC goes on as with an unconnected port.
 BufferStatus LinkBuffer::sent(bool sent) const {
     return sent || !channel_.writer->bound() ? BufferStatus::OK : BufferStatus::FULL;
 }
@@ -77,10 +77,10 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!marshal(counter)) return BufferStatus::NOT_SUPPORTED;
     const std::size_t head = channel_.timed ? time_bytes : 0;
     if (counter.total() < head + minInPlaceLength()) return BufferStatus::NOT_SUPPORTED;
-    std::uint64_t stamp = wire::stamp_now();
+    std::uint64_t stamp = wire::wall_clock_stamp();
     bool whole = true;
     const bool written =
-        channel_.writer->write_exactly(counter.total() - head, stamp, [&](std::span<std::byte> room) {
+        channel_.writer->write_sized(counter.total() - head, stamp, [&](std::span<std::byte> room) {
             StampedOutStream out(room, channel_.timed);
             whole = marshal(out) && out.full();
             if (channel_.timed) stamp = out.stamp();
@@ -114,8 +114,8 @@ void LinkBuffer::copy(const shm::Record& record, RTC::ByteData& message) const {
     auto* out = reinterpret_cast<std::byte*>(message.getBuffer());
     wire::CdrWriter writer(std::span(out, message.getDataLength()));
     if (channel_.timed) {
-        writer.put(wire::seconds_of(record.stamp_ns));
-        writer.put(wire::nanoseconds_of(record.stamp_ns));
+        writer.put(wire::stamp_seconds(record.stamp_ns));
+        writer.put(wire::stamp_nanoseconds(record.stamp_ns));
     }
     writer.put_block(record.bytes.data(), record.bytes.size(), 1);
 }

@@ -12,8 +12,8 @@ namespace tandem::interceptor {
 
 /// A channel's ends as a connector's buffer sees them, and whether the messages begin with RTM's time.
 struct LinkChannel {
-    link::ChannelWriter* writer = nullptr; ///< for a buffer that is written: data leave for the partner
-    link::ChannelReader* reader = nullptr; ///< for a buffer that is read: data come from the partner
+    link::ChannelWriter* writer = nullptr; ///< for a buffer that is written: data leave for the peer
+    link::ChannelReader* reader = nullptr; ///< for a buffer that is read: data come from the peer
     bool timed = false;
 };
 
@@ -32,7 +32,7 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     /// What is too long to be worth a copy is made in the chunk that it crosses in, and read there.
-    std::size_t minInPlaceLength() const override { return link::large_message; }
+    std::size_t minInPlaceLength() const override { return link::large_message_bytes; }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
     RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
                                   bool& read_in_place) override;

@@ -16,14 +16,14 @@ namespace tandem::interceptor {
 
 /// Mirrors a service that the RTC provides and OPRoS components require: calls that crossed the link are made
 /// on the RTC's CORBA object, by type signature.
-class ConsumerMirror final {
+class MirrorProvidedPort final {
   public:
-    ConsumerMirror(link::Port port, std::chrono::milliseconds call_timeout);
+    MirrorProvidedPort(link::Port port, std::chrono::milliseconds call_timeout);
 
     RTC::CorbaConsumerBase& consumer() { return consumer_; }
     const link::Port& port() const { return port_; }
     /// Runs one call. [worker-thread]
-    link::Answer serve(const link::Request& request);
+    link::Reply serve(const link::Request& request);
 
   private:
     struct Types {

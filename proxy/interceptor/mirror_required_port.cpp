@@ -22,9 +22,9 @@ std::string repository_id(const std::string& type) {
     return "IDL:" + path + ":1.0";
 }
 
-[[noreturn]] void throw_failure(const link::Answer& answer) {
+[[noreturn]] void throw_failure(const link::Reply& reply) {
     using link::CallStatus;
-    switch (answer.status) {
+    switch (reply.status) {
     case CallStatus::timeout:
         throw CORBA::TIMEOUT(0, CORBA::COMPLETED_MAYBE);
     case CallStatus::peer_died:
@@ -43,15 +43,16 @@ std::string repository_id(const std::string& type) {
 
 } // namespace
 
-ProviderMirror::ProviderMirror(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout)
+MirrorRequiredPort::MirrorRequiredPort(link::Port port, link::Link& link,
+                                       std::chrono::milliseconds call_timeout)
     : port_(std::move(port)), link_(link), call_timeout_(call_timeout),
       servant_(repository_id(port_.type), *this) {
     for (const auto& operation : port_.operations)
         if (operation.signature.find('?') == std::string::npos) add(operation);
 }
 
-void ProviderMirror::add(const link::ServiceOperation& operation) {
-    const auto signature = wire::parse_operation(operation.signature);
+void MirrorRequiredPort::add(const link::ServiceOperation& operation) {
+    const auto signature = wire::parse_operation_signature(operation.signature);
     auto& place = operations_[operation.name];
     if (place) retired_.push_back(std::move(place));
     place = std::make_unique<Operation>(Operation{wire::parse_signature(signature.arguments),
@@ -59,7 +60,7 @@ void ProviderMirror::add(const link::ServiceOperation& operation) {
                                                   signature.arguments + ":" + signature.result});
 }
 
-std::string ProviderMirror::bind(const link::control::Binding& binding) {
+std::string MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
     const std::lock_guard lock(mutex_);
     for (const auto& offered : binding.operations) {
         const auto known = operations_.find(offered.name);
@@ -77,20 +78,20 @@ std::string ProviderMirror::bind(const link::control::Binding& binding) {
     return "";
 }
 
-const CallTarget::Operation* ProviderMirror::find(const char* operation) {
+const CallTarget::Operation* MirrorRequiredPort::find(const char* operation) {
     const std::lock_guard lock(mutex_);
     const auto found = operations_.find(operation);
     return found == operations_.end() ? nullptr : found->second.get();
 }
 
-std::vector<std::byte> ProviderMirror::call(const char* name, const Operation& operation,
-                                            std::span<const std::byte> arguments) {
-    auto answer = link_.call({port_.name, name, operation.signature, arguments}, call_timeout_);
-    if (answer.status == link::CallStatus::ok) return std::move(answer.bytes);
-    if (!answer.bytes.empty() && failed_.should_log())
-        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, answer.text(),
+std::vector<std::byte> MirrorRequiredPort::call(const char* name, const Operation& operation,
+                                                std::span<const std::byte> arguments) {
+    auto reply = link_.call({port_.name, name, operation.signature, arguments}, call_timeout_);
+    if (reply.status == link::CallStatus::ok) return std::move(reply.bytes);
+    if (!reply.bytes.empty() && failed_.should_log())
+        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, reply.text(),
                      failed_.count());
-    throw_failure(answer);
+    throw_failure(reply);
 }
 
 } // namespace tandem::interceptor

@@ -15,16 +15,16 @@
 namespace tandem::interceptor {
 
 /// Mirrors a service that the RTC requires and an OPRoS component provides: a CORBA object whose calls cross
-/// the link. A failed call is a CORBA system exception: TIMEOUT, COMM_FAILURE (partner gone), NO_RESOURCES
+/// the link. A failed call is a CORBA system exception: TIMEOUT, COMM_FAILURE (peer gone), NO_RESOURCES
 /// (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN (the OPRoS method failed; its text is in the log).
-class ProviderMirror final : private CallTarget {
+class MirrorRequiredPort final : private CallTarget {
   public:
-    ProviderMirror(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout);
+    MirrorRequiredPort(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout);
 
     GenericServant& servant() { return servant_; }
     const link::Port& port() const { return port_; }
     /// What the OPRoS side provides, told when its life begins. Empty, or one line with both signatures.
-    std::string bind(const link::control::Binding& binding);
+    std::string bind(const link::control::ServiceBinding& binding);
 
   private:
     const Operation* find(const char* operation) override;

@@ -92,15 +92,15 @@ std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState 
                                   const char* verb) {
     const auto deadline = std::chrono::steady_clock::now() + bound_;
     try {
-        auto answer = RTC::PRECONDITION_NOT_MET;
+        auto reply = RTC::PRECONDITION_NOT_MET;
         for (;;) {
-            if (state() == from) answer = (context_->*ask)(reference_);
-            if (answer == RTC::RTC_OK || state() == to) return reach(to, verb);
-            if (answer != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
+            if (state() == from) reply = (context_->*ask)(reference_);
+            if (reply == RTC::RTC_OK || state() == to) return reach(to, verb);
+            if (reply != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return fmt::format("{} is {}, {} was expected, and it was not {}: its context answers {}", name_,
-                           name_of(state()), name_of(from), verb, static_cast<int>(answer));
+                           name_of(state()), name_of(from), verb, static_cast<int>(reply));
     } catch (const CORBA::Exception& gone) { // the RTC or its context has left
         return fmt::format("{} was not {}: {}", name_, verb, gone._name());
     }

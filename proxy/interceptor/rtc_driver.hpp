@@ -12,7 +12,7 @@
 namespace tandem::interceptor {
 
 /// Drives the life cycle of the RTC behind the interceptor, in its own (first) execution context.
-/// The functions wait for the transition, never longer than `bound`; the answer is empty or one line.
+/// The functions wait for the transition, never longer than `bound`; the result is empty or one line.
 class RtcDriver {
   public:
     /// `failed` is called, in the context's thread, when the RTC goes to ERROR.
@@ -35,7 +35,7 @@ class RtcDriver {
     RTC::RTObject_var reference_;
     RTC::ExecutionContext_var context_;
     const std::chrono::milliseconds bound_;
-    std::mutex mutex_; ///< one transition at a time: a partner that comes waits for the end of one that went
+    std::mutex mutex_; ///< one transition at a time: a peer that comes waits for the end of one that went
     std::unique_ptr<FailureListener> listener_;
 };
 

@@ -62,8 +62,8 @@ link::Port service_port(const RTC::PortProfile& profile, const RTC::PortInterfac
 
 } // namespace
 
-std::vector<SurveyedPort> survey(RTC::RTObject_impl& rtc) {
-    std::vector<SurveyedPort> ports;
+std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
+    std::vector<RtcPort> ports;
     RTC::PortServiceList_var services = rtc.get_ports();
     std::set<std::string> names{"linkState"}; // both halves have a port of that name themselves
     for (CORBA::ULong i = 0; i < services->length(); ++i) {

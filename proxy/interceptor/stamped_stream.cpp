@@ -89,7 +89,7 @@ _CORBA_Boolean StampedOutStream::maybeReserveOutputSpace(omni::alignment_t align
 
 StampedInStream::StampedInStream(std::span<const std::byte> body, bool timed, std::uint64_t stamp)
     : StampedStream({byte_at(body.data()), body.size()}) {
-    const std::uint32_t words[2] = {wire::seconds_of(stamp), wire::nanoseconds_of(stamp)};
+    const std::uint32_t words[2] = {wire::stamp_seconds(stamp), wire::stamp_nanoseconds(stamp)};
     std::memcpy(time_, words, sizeof words);
     in_time_ = timed;
     pd_inb_mkr = timed ? time_ : body_.data();

@@ -13,7 +13,7 @@ using wire::Type;
 [[noreturn]] void malformed() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
 
 /// Bytes that `type` takes at least, to refuse an absurd element count before any element is looked at.
-std::size_t least_bytes(const Type& type) {
+std::size_t min_encoded_bytes(const Type& type) {
     const auto primitive = wire::primitive_size(type.kind);
     return primitive ? primitive : type.kind == Kind::structure ? 1 : 4;
 }
@@ -47,7 +47,7 @@ void to_cdr_one(const Type& type, cdrStream& from, wire::CdrWriter& to) {
     case Kind::sequence: {
         CORBA::ULong count;
         count <<= from;
-        const auto bytes = static_cast<CORBA::ULong>(least_bytes(type.children.front()));
+        const auto bytes = static_cast<CORBA::ULong>(min_encoded_bytes(type.children.front()));
         if (!from.checkInputOverrun(bytes, count)) malformed();
         to.put(static_cast<std::uint32_t>(count));
         to_cdr_elements(type.children.front(), count, from, to);
@@ -90,7 +90,7 @@ void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to) {
         to.marshalString(std::string(from.get_string()).c_str());
         break;
     case Kind::sequence: {
-        const CORBA::ULong count = from.get_count(least_bytes(type.children.front()));
+        const CORBA::ULong count = from.get_count(min_encoded_bytes(type.children.front()));
         if (!from.ok()) malformed();
         count >>= to;
         from_cdr_elements(type.children.front(), count, from, to);

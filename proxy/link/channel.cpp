@@ -14,7 +14,7 @@ namespace tandem::link {
 bool ChannelWriter::refused(std::size_t bytes) {
     const std::size_t limit = bound_->end.longest();
     if (bytes > limit) {
-        if (limit != std::exchange(told_limit_, limit))
+        if (limit != std::exchange(reported_limit_, limit))
             spdlog::error(
                 "port '{}': a message of {} bytes is longer than {} and is dropped, as all such will be; "
                 "raise large_kib to {} or more",
@@ -38,9 +38,9 @@ bool ChannelWriter::corrupt() const {
     return bound_ && bound_->end.corrupt();
 }
 
-std::uint64_t ChannelWriter::unlinked() const {
+std::uint64_t ChannelWriter::dropped_without_peer() const {
     const std::lock_guard lock(mutex_);
-    return unlinked_;
+    return dropped_without_peer_;
 }
 
 shm::RingCounters ChannelWriter::counters() const {

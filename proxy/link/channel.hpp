@@ -14,7 +14,7 @@
 namespace tandem::link {
 
 /// From here on, handing a message over without a copy is worth more than to do it as always.
-constexpr std::size_t large_message = std::size_t{64} * 1024;
+constexpr std::size_t large_message_bytes = std::size_t{64} * 1024;
 
 /// What an end of a channel is bound to: a ring, and the segment that keeps it mapped.
 template <class End>
@@ -23,19 +23,19 @@ struct Bound {
     End end;
 };
 
-/// Sending end of a data port across the link. It outlives the partner: unbound, it counts what nobody could
+/// Sending end of a data port across the link. It outlives the peer: unbound, it counts what nobody could
 /// get. The mutex is this process's own and is held by others only while the link is bound or unbound.
 class ChannelWriter {
   public:
     explicit ChannelWriter(std::string port) : port_(std::move(port)) {}
 
-    /// Publishes what encode(CdrWriter&) writes: where the partner will read it, if it is too long for the
+    /// Publishes what encode(CdrWriter&) writes: where the peer will read it, if it is too long for the
     /// ring itself. Then encode is called twice, the first time only to learn the length. `stamp` is read
-    /// afterwards: encode may set it. False: no partner, or the ring refused the message. [any-thread]
+    /// afterwards: encode may set it. False: no peer, or the ring refused the message. [any-thread]
     template <class Encode>
     bool write(const std::uint64_t& stamp, Encode&& encode) {
         const std::lock_guard lock(mutex_);
-        if (!bound_) return ++unlinked_, false;
+        if (!bound_) return ++dropped_without_peer_, false;
         std::size_t bytes = bound_->end.in_ring();
         for (int attempt = 0; attempt < 2; ++attempt) {
             const auto room = bound_->end.reserve(bytes);
@@ -52,9 +52,9 @@ class ChannelWriter {
     /// The same for a message of known length: fill(std::span<std::byte>) writes all of it, or returns false
     /// to send nothing after all.
     template <class Fill>
-    bool write_exactly(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
+    bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
-        if (!bound_) return ++unlinked_, false;
+        if (!bound_) return ++dropped_without_peer_, false;
         const auto room = bound_->end.reserve(bytes);
         if (room.data() == nullptr) return refused(bytes);
         const bool filled = fill(room);
@@ -64,8 +64,8 @@ class ChannelWriter {
 
     bool bound() const;
     bool corrupt() const;
-    /// Messages written while there was no partner.
-    std::uint64_t unlinked() const;
+    /// Messages written while there was no peer.
+    std::uint64_t dropped_without_peer() const;
     shm::RingCounters counters() const;
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingWriter);
@@ -77,8 +77,8 @@ class ChannelWriter {
     mutable std::mutex mutex_;
     std::optional<Bound<shm::RingWriter>> bound_;
     const std::string port_;
-    std::uint64_t unlinked_ = 0;
-    std::size_t told_limit_ = 0; ///< that a message was longer than has been said
+    std::uint64_t dropped_without_peer_ = 0;
+    std::size_t reported_limit_ = 0; ///< that a message was longer than has been said
     LogThrottle no_memory_;
 };
 

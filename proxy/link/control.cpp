@@ -6,7 +6,7 @@
 
 namespace tandem::link::control {
 
-std::vector<std::byte> encode(const Binding& binding) {
+std::vector<std::byte> encode(const ServiceBinding& binding) {
     std::vector<std::byte> bytes;
     wire::CdrWriter out(bytes);
     out.put_string(binding.port);
@@ -14,22 +14,22 @@ std::vector<std::byte> encode(const Binding& binding) {
     return bytes;
 }
 
-Binding decode_binding(std::span<const std::byte> bytes) {
+ServiceBinding decode_service_binding(std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
-    Binding binding;
+    ServiceBinding binding;
     binding.port = in.get_string();
-    binding.operations = get_operations(in);
-    if (!in.ok()) throw LinkError("a service binding of the partner is damaged");
+    binding.operations = get_service_operations(in);
+    if (!in.ok()) throw LinkError("a service binding of the peer is damaged");
     return binding;
 }
 
-std::vector<std::byte> encode(std::string_view text) {
+std::vector<std::byte> encode_string(std::string_view text) {
     std::vector<std::byte> bytes;
     wire::CdrWriter(bytes).put_string(text);
     return bytes;
 }
 
-std::string decode_text(std::span<const std::byte> bytes) {
+std::string decode_string(std::span<const std::byte> bytes) {
     return std::string(wire::CdrReader(bytes).get_string());
 }
 

@@ -19,7 +19,7 @@ constexpr std::uint64_t contract = 0x7461'6e64'656d'0002; // "tandem", 2
 
 constexpr auto watch_up = 10ms; // also the beat of the heart
 constexpr auto watch_down =
-    3ms; // a partner that comes is noticed by the watcher; this is for what it cannot see
+    3ms; // a peer that comes is noticed by the watcher; this is for what it cannot see
 constexpr auto retry_side = 1ms;
 constexpr auto retry_join = 10ms;
 
@@ -56,14 +56,14 @@ void Link::close() {
     session_.reset();
 }
 
-void Link::wait_up(std::chrono::milliseconds bound, const std::string& partner) {
+void Link::wait_until_up(std::chrono::milliseconds bound, const std::string& peer) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, bound, [this] { return up() || !refusal_.empty() || stopping_; });
     if (up()) return;
     if (!refusal_.empty()) throw LinkError(refusal_);
     throw LinkError(
         fmt::format("link '{}': {} did not come within {} s; start it with link={}, or allow more time",
-                    options_.name, partner, static_cast<double>(bound.count()) / 1000.0, options_.name));
+                    options_.name, peer, static_cast<double>(bound.count()) / 1000.0, options_.name));
 }
 
 std::shared_ptr<Session> Link::session() const {
@@ -86,8 +86,8 @@ ChannelReader& Link::reader(const std::string& port) {
 std::shared_ptr<Session> Link::join() const {
     RingSizes sizes = options_.rings;
     sizes.large_bytes = large_bytes_;
-    const PortRings plan = plan_rings(own_, side_, sizes);
-    check_room(plan, sizes);
+    const RingPlan plan = plan_rings(own_, side_, sizes);
+    check_available_memory(plan, sizes);
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
     join_options.loan_bytes = plan.loan_bytes;
@@ -102,7 +102,8 @@ std::shared_ptr<Session> Link::join() const {
     const auto calls = segment->add_call_queue(calls_name, queue);
     const auto table = encode(own_);
     std::memcpy(segment->add_blob(table_name, table.size()).data(), table.data(), table.size());
-    const LargeMessages large{options_.rings.large_bytes, plan.rings.empty() ? most_large : large_bytes_};
+    const LargeMessageLimits large{options_.rings.large_bytes,
+                                   plan.rings.empty() ? max_large_bytes : large_bytes_};
     std::memcpy(segment->add_blob(large_name, sizeof large).data(), &large, sizeof large);
     segment->publish();
     return std::make_shared<Session>(segment, calls, options_.wait);
@@ -116,28 +117,28 @@ void Link::run_link() {
             continue;
         }
         now->segment->heartbeat();
-        if (const std::string why = why_over(*now); !why.empty()) {
-            take_down(why);
+        if (const std::string why = end_reason(*now); !why.empty()) {
+            disconnect(why);
             continue;
         }
-        if (!up() && !now->refused && now->segment->peer_published()) try_bring_up(now);
+        if (!up() && !now->refused && now->segment->peer_published()) try_connect(now);
         watcher_.wait(up() ? watch_up : watch_down);
     }
-    take_down("");
+    disconnect("");
 }
 
 /// Empty while the session goes on. What was cut reads as zeros, so that is looked at first.
-std::string Link::why_over(const Session& session) {
+std::string Link::end_reason(const Session& session) {
     const shm::Segment& segment = *session.segment;
     if (segment.truncated())
         return segment.path() + " was truncated by another process; the link starts afresh";
-    if (damaged()) return "a ring of " + segment.path() + " is damaged; the link starts afresh";
-    if (segment.peer() == shm::PeerState::dead) return "the partner process has gone";
+    if (has_corrupt_ring()) return "a ring of " + segment.path() + " is damaged; the link starts afresh";
+    if (segment.peer() == shm::PeerState::dead) return "the peer process has gone";
     return segment.superseded() ? segment.path() + " was removed or superseded; the link starts afresh" : "";
 }
 
 /// Words in a ring that cannot be: somebody else has written there, and nothing more would come through it.
-bool Link::damaged() {
+bool Link::has_corrupt_ring() {
     const std::lock_guard lock(mutex_);
     const auto corrupt = [](const auto& channel) { return channel.second.corrupt(); };
     return std::any_of(writers_.begin(), writers_.end(), corrupt) ||
@@ -167,29 +168,29 @@ void Link::wait_to_rejoin(std::chrono::milliseconds bound, const std::string& wh
 
 /// Whether a half asks for longer messages than the other one has laid out chunks for; that one then joins
 /// anew.
-bool Link::outgrown(const Session& session) {
+bool Link::peer_needs_larger_chunks(const Session& session) {
     const auto bytes = session.segment->copy_blob(shm::other(side_), large_name);
-    LargeMessages theirs{};
+    LargeMessageLimits theirs{};
     if (!bytes || bytes->size() != sizeof theirs) return false;
     std::memcpy(&theirs, bytes->data(), sizeof theirs);
-    const bool more = theirs.asked > large_bytes_ && theirs.asked <= most_large;
+    const bool more = theirs.asked > large_bytes_ && theirs.asked <= max_large_bytes;
     if (more) large_bytes_ = theirs.asked;
     const bool lays_out = std::any_of(own_.ports.begin(), own_.ports.end(),
                                       [](const Port& port) { return is_data(port.kind); });
-    if (more && lays_out) take_down("");
+    if (more && lays_out) disconnect("");
     return (more && lays_out) || theirs.laid_out < options_.rings.large_bytes;
 }
 
-void Link::try_bring_up(const std::shared_ptr<Session>& session) {
+void Link::try_connect(const std::shared_ptr<Session>& session) {
     const auto peer = shm::other(side_);
     std::string refusal;
     try {
-        if (outgrown(*session)) return;
+        if (peer_needs_larger_chunks(*session)) return;
         const auto bytes = session->segment->copy_blob(peer, table_name);
         const auto calls = session->segment->find_call_queue(peer, calls_name);
-        if (!bytes || !calls) throw LinkError("the partner published no port table");
+        if (!bytes || !calls) throw LinkError("the peer published no port table");
         const PortTable table = decode_port_table(*bytes);
-        refusal = handler_.accept(table);
+        refusal = handler_.check_peer_ports(table);
         if (refusal.empty()) {
             bind(*session, own_, true);
             bind(*session, table, false);
@@ -204,8 +205,8 @@ void Link::try_bring_up(const std::shared_ptr<Session>& session) {
         const auto theirs = session->segment->arena_bytes(peer);
         peer_loan_bytes_ = theirs - std::min(theirs, options_.segment_bytes);
         up_.store(true, std::memory_order_release);
-        handler_.link_changed(true);
-        post([this] { handler_.partner_came(); });
+        handler_.link_state_changed(true);
+        post([this] { handler_.peer_connected(); });
     } else {
         spdlog::error(refusal);
     }
@@ -227,7 +228,7 @@ void Link::bind(Session& session, const PortTable& table, bool own) {
     }
 }
 
-void Link::take_down(const std::string& why) {
+void Link::disconnect(const std::string& why) {
     const bool was_up = up_.exchange(false);
     if (was_up && !why.empty()) spdlog::warn("link '{}' is down: {}", options_.name, why);
     {
@@ -240,11 +241,11 @@ void Link::take_down(const std::string& why) {
         refusal_.clear();
     }
     if (!was_up || stopping_) return; // who closes the link itself need not be told
-    handler_.link_changed(false);
-    post([this] { handler_.partner_went(); });
+    handler_.link_state_changed(false);
+    post([this] { handler_.peer_disconnected(); });
 }
 
-// ---- calls of the partner
+// ---- calls of the peer
 
 void Link::start_worker() {
     workers_.emplace_back([this] { run_worker(); });
@@ -263,7 +264,7 @@ void Link::run_worker() {
         {
             const std::lock_guard lock(mutex_);
             --idle_workers_;
-            // Somebody must stay free for the calls that this one leads the partner to make in turn.
+            // Somebody must stay free for the calls that this one leads the peer to make in turn.
             if (call && idle_workers_ == 0 && workers_.size() < options_.max_workers && !stopping_)
                 start_worker();
         }
@@ -273,21 +274,21 @@ void Link::run_worker() {
 }
 
 void Link::serve(shm::IncomingCall call) {
-    { // The partner may be up a moment before us, and what it asks for may call it in turn.
+    { // The peer may be up a moment before us, and what it asks for may call it in turn.
         watcher_.interrupt();
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, 1s, [this] { return up() || !refusal_.empty() || !session_ || stopping_; });
     }
-    Answer answer = Answer::failure(CallStatus::bad_arguments, "the request is malformed");
+    Reply reply = Reply::failure(CallStatus::bad_arguments, "the request is malformed");
     try {
-        if (const auto request = decode_request(call.arguments())) answer = handler_.serve(*request);
+        if (const auto request = decode_request(call.arguments())) reply = handler_.serve(*request);
     } catch (const std::exception& error) { // out of memory, say: the caller hears of it, the worker lives on
-        answer = Answer::failure(CallStatus::exception, error.what());
+        reply = Reply::failure(CallStatus::exception, error.what());
     }
-    call.reply(answer.status, answer.bytes);
+    call.reply(reply.status, reply.bytes);
 }
 
-Answer Link::call(const Request& request, std::chrono::milliseconds timeout) {
+Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
     std::shared_ptr<Session> now; // keeps the segment mapped during the call
     shm::CallClient* client = nullptr;
     {
@@ -295,7 +296,7 @@ Answer Link::call(const Request& request, std::chrono::milliseconds timeout) {
         now = session_;
         if (now && now->outgoing && up()) client = &*now->outgoing;
     }
-    if (!client) return Answer::failure(CallStatus::peer_died, "the partner is not there");
+    if (!client) return Reply::failure(CallStatus::peer_died, "the peer is not there");
     thread_local std::vector<std::byte> slot;
     encode(request, slot);
     auto reply = client->call(0, slot, timeout);

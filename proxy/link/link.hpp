@@ -32,12 +32,12 @@ struct LinkOptions {
     RingSizes rings{}; ///< of the data ports; of two large_bytes the larger counts
     std::size_t segment_bytes =
         4 * 1024 * 1024;      ///< that each half may lay out, beside the chunks of its rings
-    unsigned max_workers = 8; ///< calls of the partner that may run at once
+    unsigned max_workers = 8; ///< calls of the peer that may run at once
     shm::WaitOptions wait{};  ///< of calls, theirs and ours
 };
 
-/// One half of a link: shares its port table with the partner, moves data and calls, and survives the
-/// partner's death: what was bound is unbound, and bound again when a partner with a fitting table has come.
+/// One half of a link: shares its port table with the peer, moves data and calls, and survives the
+/// peer's death: what was bound is unbound, and bound again when a peer with a fitting table has come.
 class Link {
   public:
     /// `own` is the table to share, may be empty. The handler must outlive the link.
@@ -48,16 +48,16 @@ class Link {
     /// From here on a segment that somebody truncates ends the session and not the process: the one place
     /// that installs shm's handler of SIGBUS.
     void open();
-    /// Waits for the partner. Throws LinkError when it does not come in time or its table was refused.
-    void wait_up(std::chrono::milliseconds bound, const std::string& partner);
+    /// Waits for the peer. Throws LinkError when it does not come in time or its table was refused.
+    void wait_until_up(std::chrono::milliseconds bound, const std::string& peer);
     /// Ends all threads and leaves the segment. Afterwards nothing calls the handler any more.
     void close();
 
     bool up() const { return up_.load(std::memory_order_acquire); }
     const std::string& name() const { return options_.name; }
 
-    /// Calls the partner's handler. Never waits longer than `timeout`. [any-thread but the link's]
-    Answer call(const Request&, std::chrono::milliseconds timeout);
+    /// Calls the peer's handler. Never waits longer than `timeout`. [any-thread but the link's]
+    Reply call(const Request&, std::chrono::milliseconds timeout);
 
     /// Runs `task` in the task thread, after those posted before; nowhere once the link is closing.
     /// [any-thread]
@@ -72,12 +72,12 @@ class Link {
     std::shared_ptr<Session> join() const;
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds bound, const std::string& why);
-    std::string why_over(const Session&);
-    bool damaged();
-    bool outgrown(const Session&);
-    void try_bring_up(const std::shared_ptr<Session>&);
+    std::string end_reason(const Session&);
+    bool has_corrupt_ring();
+    bool peer_needs_larger_chunks(const Session&);
+    void try_connect(const std::shared_ptr<Session>&);
     void bind(Session&, const PortTable&, bool own);
-    void take_down(const std::string& why);
+    void disconnect(const std::string& why);
     std::shared_ptr<Session> session() const;
 
     void run_worker();
@@ -105,7 +105,7 @@ class Link {
     unsigned idle_workers_ = 0;
     unsigned refused_joins_ = 0;      // [link-thread]
     std::size_t large_bytes_;         // [link-thread] asked for by either half so far
-    std::size_t peer_loan_bytes_ = 0; // [link-thread] of the last partner, so that the next one finds them
+    std::size_t peer_loan_bytes_ = 0; // [link-thread] of the last peer, so that the next one finds them
 };
 
 } // namespace tandem::link

@@ -19,14 +19,14 @@ struct Session {
         : segment(std::move(joined)), incoming(calls, wait) {}
 
     std::shared_ptr<shm::Segment> segment;
-    shm::CallServer incoming;                ///< calls of the partner, in our half
-    std::optional<shm::CallClient> outgoing; ///< calls to the partner, in its half, once it has published
-    bool refused = false;                    ///< the partner's table does not fit: wait for another partner
+    shm::CallServer incoming;                ///< calls of the peer, in our half
+    std::optional<shm::CallClient> outgoing; ///< calls to the peer, in its half, once it has published
+    bool refused = false;                    ///< the peer's table does not fit: wait for another peer
 };
 
 /// What a half says of long messages, under large_name: the bytes that were asked of it by large_kib, and
 /// those of its rings' chunks (0 if nobody has asked yet; as many as can be, if it has no rings).
-struct LargeMessages {
+struct LargeMessageLimits {
     std::uint64_t asked, laid_out;
 };
 

@@ -25,9 +25,9 @@ Port get_port(wire::CdrReader& in) {
     Port port;
     port.kind = static_cast<PortKind>(in.get<std::uint32_t>());
     if (port.kind > PortKind::service_required)
-        throw LinkError("the partner's port table has a port of unknown kind");
+        throw LinkError("the peer's port table has a port of unknown kind");
     for (auto* text : {&port.name, &port.type, &port.signature, &port.instance}) *text = in.get_string();
-    port.operations = get_operations(in);
+    port.operations = get_service_operations(in);
     return port;
 }
 
@@ -56,7 +56,7 @@ PortTable decode_port_table(std::span<const std::byte> bytes) {
     for (std::size_t left = table.ports.capacity(); left > 0 && in.ok(); --left)
         table.ports.push_back(get_port(in));
     if (!in.ok())
-        throw LinkError("the partner's port table is damaged: it ends early or holds a malformed string");
+        throw LinkError("the peer's port table is damaged: it ends early or holds a malformed string");
     return table;
 }
 

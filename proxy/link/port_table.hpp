@@ -19,7 +19,7 @@ struct ServiceOperation {
     bool operator==(const ServiceOperation&) const = default;
 };
 
-/// One port that a half shares with its partner, which grows a mirror of the same name.
+/// One port that a half shares with its peer, which grows a mirror of the same name.
 struct Port {
     PortKind kind{};
     std::string name;

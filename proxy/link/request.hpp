@@ -9,7 +9,7 @@
 
 namespace tandem::link {
 
-/// One call across the link: a service port's operation, or with an empty port a control verb of the link
+/// One call across the link: a service port's operation, or with an empty port a control command of the link
 /// itself. In the slot: port, operation, signature (CDR strings), padding to 8, the arguments in CDR.
 struct Request {
     std::string_view port;

@@ -13,14 +13,14 @@ namespace {
 constexpr std::size_t ring_overhead = 128; // of the longest record, of which two fit
 constexpr std::uint32_t chunks = 4;        // the reader holds one, the writer fills one, two wait
 
-std::size_t large_of(const RingSizes& sizes) {
-    return sizes.large_bytes != 0 ? sizes.large_bytes : default_large;
+std::size_t effective_large_bytes(const RingSizes& sizes) {
+    return sizes.large_bytes != 0 ? sizes.large_bytes : default_large_bytes;
 }
 
 } // namespace
 
-PortRings plan_rings(const PortTable& table, shm::Side own, const RingSizes& sizes) {
-    PortRings plan;
+RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& sizes) {
+    RingPlan plan;
     for (const Port& port : table.ports) {
         if (port.kind != PortKind::data_out && port.kind != PortKind::data_in) continue;
         shm::RingOptions ring;
@@ -28,10 +28,10 @@ PortRings plan_rings(const PortTable& table, shm::Side own, const RingSizes& siz
         ring.capacity = sizes.ring_bytes;
         ring.max_record = sizes.ring_bytes / 2 - ring_overhead;
         ring.policy = shm::RingPolicy::drop_oldest;
-        const bool may_be_long =
-            wire::most_bytes(wire::parse_signature(port.signature)) > static_cast<double>(ring.max_record);
-        if (may_be_long && large_of(sizes) > ring.max_record) {
-            ring.chunk_bytes = large_of(sizes);
+        const bool may_be_long = wire::max_encoded_bytes(wire::parse_signature(port.signature)) >
+                                 static_cast<double>(ring.max_record);
+        if (may_be_long && effective_large_bytes(sizes) > ring.max_record) {
+            ring.chunk_bytes = effective_large_bytes(sizes);
             ring.chunks = chunks;
         }
         const auto memory = shm::ring_memory(port.name, ring);
@@ -41,7 +41,7 @@ PortRings plan_rings(const PortTable& table, shm::Side own, const RingSizes& siz
     return plan;
 }
 
-void check_room(const PortRings& plan, const RingSizes& sizes) {
+void check_available_memory(const RingPlan& plan, const RingSizes& sizes) {
     const std::size_t needed = chunks * sizes.large_bytes;
     const auto available = shm::available_bytes();
     if (plan.loan_bytes == 0 || !available || *available >= needed) return;

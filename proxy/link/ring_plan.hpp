@@ -13,16 +13,16 @@ namespace tandem::link {
 struct RingSizes {
     std::size_t ring_bytes = 256 * 1024;
     /// Longest message of a port whose type sets no bound; it travels in one of four chunks. 0: nobody has
-    /// asked for anything, so default_large, if there is memory for it when it comes.
+    /// asked for anything, so default_large_bytes, if there is memory for it when it comes.
     std::size_t large_bytes = 0;
 };
 
 /// A picture of 1920 x 1080 with 4 bytes per pixel, and its header.
-constexpr std::size_t default_large = std::size_t{8} * 1024 * 1024;
-constexpr std::size_t most_large = std::size_t{1} << 30;
+constexpr std::size_t default_large_bytes = std::size_t{8} * 1024 * 1024;
+constexpr std::size_t max_large_bytes = std::size_t{1} << 30;
 
 /// The rings that a half lays out for its data ports.
-struct PortRings {
+struct RingPlan {
     struct Ring {
         std::string port;
         shm::RingOptions options;
@@ -30,9 +30,9 @@ struct PortRings {
     std::vector<Ring> rings;
     std::size_t loan_bytes = 0; ///< of their chunks, all together
 };
-PortRings plan_rings(const PortTable&, shm::Side own, const RingSizes&);
+RingPlan plan_rings(const PortTable&, shm::Side own, const RingSizes&);
 
 /// Throws shm::Error when /dev/shm has no room for the chunks of one port, if they were asked for.
-void check_room(const PortRings&, const RingSizes&);
+void check_available_memory(const RingPlan&, const RingSizes&);
 
 } // namespace tandem::link

@@ -16,7 +16,7 @@ inline void put(wire::CdrWriter& out, const std::vector<ServiceOperation>& opera
 }
 
 /// The reader's ok() says whether it was a list.
-inline std::vector<ServiceOperation> get_operations(wire::CdrReader& in) {
+inline std::vector<ServiceOperation> get_service_operations(wire::CdrReader& in) {
     std::vector<ServiceOperation> operations(in.get_count(8));
     for (auto& operation : operations) {
         operation.name = in.get_string();

@@ -9,7 +9,7 @@
 
 namespace tandem::link {
 
-shm::WaitOptions wait_options() {
+shm::WaitOptions wait_options_from_environment() {
     using enum shm::WaitMode;
     constexpr std::pair<std::string_view, shm::WaitMode> modes[] = {
         {"spin", spin}, {"spin-then-futex", spin_then_futex}, {"futex", futex}, {"same-core", same_core}};

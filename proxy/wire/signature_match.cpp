@@ -26,17 +26,17 @@ std::string untimed(const Type& message) {
 
 } // namespace
 
-Match match(std::string_view from, std::string_view to) {
+SignatureMatch match_signatures(std::string_view from, std::string_view to) {
     const Type a = parse_signature(from), b = parse_signature(to);
-    if (a == b) return Match::equal;
-    if (starts_with_time(a) && untimed(a) == to_signature(b)) return Match::strip_time;
-    if (starts_with_time(b) && untimed(b) == to_signature(a)) return Match::add_time;
-    return Match::mismatch;
+    if (a == b) return SignatureMatch::equal;
+    if (starts_with_time(a) && untimed(a) == to_signature(b)) return SignatureMatch::strip_time;
+    if (starts_with_time(b) && untimed(b) == to_signature(a)) return SignatureMatch::add_time;
+    return SignatureMatch::mismatch;
 }
 
 bool is_timed(std::string_view signature) { return starts_with_time(parse_signature(signature)); }
 
-Operation parse_operation(std::string_view signature) {
+Operation parse_operation_signature(std::string_view signature) {
     const auto colon = signature.find(':');
     if (colon == std::string_view::npos || signature.find(':', colon + 1) != std::string_view::npos)
         throw SignatureError(

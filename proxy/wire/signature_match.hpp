@@ -7,7 +7,7 @@
 namespace tandem::wire {
 
 /// How a message of one signature becomes one of another.
-enum class Match {
+enum class SignatureMatch {
     equal,      ///< byte for byte
     add_time,   ///< the receiver's leading `Time tm` is filled from the message header
     strip_time, ///< the sender's leading `Time tm` travels in the message header
@@ -15,7 +15,7 @@ enum class Match {
 };
 
 /// Compares two message signatures; throws SignatureError if one does not parse.
-Match match(std::string_view from, std::string_view to);
+SignatureMatch match_signatures(std::string_view from, std::string_view to);
 
 /// True if the message starts with RTM's `Time tm`, the structure `(uu)`, and holds more than that.
 bool is_timed(std::string_view signature);
@@ -25,6 +25,6 @@ struct Operation {
     std::string arguments, result;
     bool operator==(const Operation&) const = default;
 };
-Operation parse_operation(std::string_view signature);
+Operation parse_operation_signature(std::string_view signature);
 
 } // namespace tandem::wire

@@ -11,11 +11,11 @@ namespace tandem::wire {
 constexpr std::uint64_t pack_time(std::uint32_t sec, std::uint32_t nsec) {
     return std::uint64_t{sec} << 32 | nsec;
 }
-constexpr std::uint32_t seconds_of(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp >> 32); }
-constexpr std::uint32_t nanoseconds_of(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp); }
+constexpr std::uint32_t stamp_seconds(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp >> 32); }
+constexpr std::uint32_t stamp_nanoseconds(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp); }
 
 /// Wall-clock time of now, the stamp of a message whose sender gives none.
-inline std::uint64_t stamp_now() {
+inline std::uint64_t wall_clock_stamp() {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
     return pack_time(static_cast<std::uint32_t>(now.tv_sec), static_cast<std::uint32_t>(now.tv_nsec));

@@ -134,13 +134,14 @@ std::size_t primitive_size(Kind kind) {
     }
 }
 
-double most_bytes(const Type& type) {
+double max_encoded_bytes(const Type& type) {
     const std::size_t size = primitive_size(type.kind);
     if (size != 0) return static_cast<double>(2 * size - 1);
     if (type.kind == Kind::structure)
-        return std::accumulate(type.children.begin(), type.children.end(), 0.0,
-                               [](double sum, const Type& member) { return sum + most_bytes(member); });
-    if (type.kind == Kind::array) return type.count * most_bytes(type.children.front());
+        return std::accumulate(
+            type.children.begin(), type.children.end(), 0.0,
+            [](double sum, const Type& member) { return sum + max_encoded_bytes(member); });
+    if (type.kind == Kind::array) return type.count * max_encoded_bytes(type.children.front());
     return std::numeric_limits<double>::infinity();
 }
 

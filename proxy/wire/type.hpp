@@ -55,6 +55,6 @@ std::size_t primitive_size(Kind kind);
 
 /// Bytes that a value takes at most, padding included (rather too many than too few); infinity when the type
 /// sets no bound.
-double most_bytes(const Type& type);
+double max_encoded_bytes(const Type& type);
 
 } // namespace tandem::wire

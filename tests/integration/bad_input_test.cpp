@@ -25,7 +25,7 @@ TEST_CASE("ports of types that do not fit are refused with both signatures") {
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
-TEST_CASE("a port that the partner does not have is named, with those it has") {
+TEST_CASE("a port that the peer does not have is named, with those it has") {
     TwoHosts hosts;
     hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "wort"));
     hosts.start_rtm();
@@ -33,7 +33,7 @@ TEST_CASE("a port that the partner does not have is named, with those it has") {
     check_refused(hosts, "opros", {"app.xml:", "'wort'", "numbers", "word"});
 }
 
-TEST_CASE("a host whose partner never comes gives up and says who did not come") {
+TEST_CASE("a host whose peer never comes gives up and says who did not come") {
     TwoHosts hosts;
     hosts.set_wait("0.2");
     hosts.start_opros();

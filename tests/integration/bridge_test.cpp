@@ -43,7 +43,7 @@ TEST_CASE("a killed host that is started again is bound again, and nothing is le
     REQUIRE(hosts.says("opros", "reply: hello 5 "));
     for (int round = 1; round <= 2; ++round) {
         hosts.kill("rtm");
-        CHECK(hosts.says("opros", "is down: the partner process has gone"));
+        CHECK(hosts.says("opros", "is down: the peer process has gone"));
         const auto before = hosts.output("opros").size();
         hosts.start_rtm();
         CHECK(hosts.says("opros", "reply:", before));

@@ -67,7 +67,7 @@ TEST_CASE("a host killed with pictures under way is replaced and pictures pass a
     hosts.start_opros();
     CHECK(hosts.back_whole(64 << 20));
     hosts.kill("rtm");
-    CHECK(hosts.says("opros", "is down: the partner process has gone"));
+    CHECK(hosts.says("opros", "is down: the peer process has gone"));
     const auto from = hosts.output("opros").size();
     hosts.start_rtm();
     CHECK(hosts.back_whole(6 << 20, from));

@@ -46,7 +46,7 @@ class CameraComp : public Component {
                   << (back == last_ ? "whole" : "broken") << std::endl;
     }
 
-    static constexpr int patience = 100; // cycles, for a picture that is lost while there is no partner
+    static constexpr int patience = 100; // cycles, for a picture that is lost while there is no peer
     int cycles_ = 0;
     std::size_t taken_ = 0, returned_ = 0;
     Picture last_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// AdaptorComp, driven as a host drives it, against a partner that is only a link.
+// AdaptorComp, driven as a host drives it, against a peer that is only a link.
 #include "chair_service.hpp"
 #include "proxy/adaptor/adaptor_comp.hpp"
 #include "proxy/link/control.hpp"
@@ -19,17 +19,17 @@
 
 using namespace tandem;
 using namespace std::chrono_literals;
-using link::Answer;
 using link::CallStatus;
 using link::PortKind;
+using link::Reply;
 
 namespace {
 
 constexpr auto soon = 10s;
 
 /// The other half without RTM: remembers what it is told.
-struct Partner : link::LinkHandler {
-    explicit Partner(const std::string& name)
+struct Peer : link::LinkHandler {
+    explicit Peer(const std::string& name)
         : link(shm::Side::second, {name},
                {"Joystick0",
                 {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
@@ -44,30 +44,30 @@ struct Partner : link::LinkHandler {
                *this) {
         link.open();
     }
-    ~Partner() override { link.close(); }
-    std::string accept(const link::PortTable&) override { return ""; }
-    void link_changed(bool) override {}
-    void partner_came() override {}
-    void partner_went() override {}
-    Answer serve(const link::Request& request) override {
+    ~Peer() override { link.close(); }
+    std::string check_peer_ports(const link::PortTable&) override { return ""; }
+    void link_state_changed(bool) override {}
+    void peer_connected() override {}
+    void peer_disconnected() override {}
+    Reply serve(const link::Request& request) override {
         const std::lock_guard lock(mutex);
-        told.push_back(std::string(request.port) + "." + std::string(request.operation));
-        if (request.operation == refuse) return Answer::failure(CallStatus::exception, "onActivated failed");
+        received.push_back(std::string(request.port) + "." + std::string(request.operation));
+        if (request.operation == refuse) return Reply::failure(CallStatus::exception, "onActivated failed");
         if (request.operation != "limits") return {};
         const auto axis = wire::CdrReader(request.arguments).get<std::int32_t>();
-        Answer answer;
-        wire::CdrWriter out(answer.bytes);
+        Reply reply;
+        wire::CdrWriter out(reply.bytes);
         out.put<std::uint32_t>(1);
         out.put(axis * 1.5);
-        return answer;
+        return reply;
     }
-    bool was_told(const std::string& what) {
+    bool has_received(const std::string& what) {
         const std::lock_guard lock(mutex);
-        return std::find(told.begin(), told.end(), what) != told.end();
+        return std::find(received.begin(), received.end(), what) != received.end();
     }
 
     std::mutex mutex;
-    std::vector<std::string> told;
+    std::vector<std::string> received;
     std::string refuse;
     link::Link link;
 };
@@ -88,13 +88,13 @@ struct Connector : ServicePortConnector {
 
 struct Scene {
     explicit Scene(const std::string& what, const std::string& large_kib = "")
-        : name(fmt::format("test-adaptor-{}-{}", what, getpid())), partner(name) {
+        : name(fmt::format("test-adaptor-{}-{}", what, getpid())), peer(name) {
         component.setId("Adaptor");
         component.setProperty("link", name);
         component.setProperty("call_timeout", "5000");
         if (!large_kib.empty()) component.setProperty("large_kib", large_kib);
         REQUIRE(component.initialize() == OPROS_SUCCESS);
-        partner.link.wait_up(soon, "adaptor"); // it may learn of the adaptor a little later
+        peer.link.wait_until_up(soon, "adaptor"); // it may learn of the adaptor a little later
     }
     ~Scene() { component.destroy(); }
     template <class P>
@@ -103,7 +103,7 @@ struct Scene {
     }
 
     std::string name;
-    Partner partner;
+    Peer peer;
     adaptor::AdaptorComp component;
 };
 
@@ -149,7 +149,7 @@ class Chair : public IChair {
 
 } // namespace
 
-TEST_CASE("the adaptor grows the partner's ports") {
+TEST_CASE("the adaptor grows the peer's ports") {
     Scene scene("ports");
     CHECK(scene.component.getPort("linkState") != nullptr);
     CHECK(scene.port<OutputDataPortInterface>("reference").getRole() == OPROS_DATA_PORT_OUTPUT);
@@ -165,7 +165,7 @@ TEST_CASE("a value pushed to a mirrored input arrives without the time, which is
     REQUIRE(position.checkType(sample));
     opros_any value{std::vector<double>{1, 2, 3}};
     CHECK(position.push(value) == OPROS_SUCCESS);
-    auto& reader = scene.partner.link.reader("position");
+    auto& reader = scene.peer.link.reader("position");
     REQUIRE(eventually([&] { return !reader.empty(); }));
     std::vector<double> got;
     reader.read(false, [&](const shm::Record& record) {
@@ -183,7 +183,7 @@ TEST_CASE("a connected input port polls the ring itself") {
     REQUIRE(reference.checkType(&input));
     CHECK(input.pop() == nullptr);
     for (int i = 1; i <= 3; ++i)
-        REQUIRE(scene.partner.link.writer("reference").write(0, [&](wire::CdrWriter& out) {
+        REQUIRE(scene.peer.link.writer("reference").write(0, [&](wire::CdrWriter& out) {
             out.put<std::uint32_t>(1);
             out.put(double(i));
         }));
@@ -202,13 +202,13 @@ TEST_CASE("a value with the time in it has it in the header on the way and back 
     opros_any value{Stamped{1700000000, 999999999, {1, 2, 3}}};
     REQUIRE(position.checkType(value));
     REQUIRE(position.push(value) == OPROS_SUCCESS);
-    auto& reader = scene.partner.link.reader("position");
+    auto& reader = scene.peer.link.reader("position");
     REQUIRE(eventually([&] { return !reader.empty(); }));
-    auto& writer = scene.partner.link.writer("reference");
+    auto& writer = scene.peer.link.writer("reference");
     reader.read(false, [&](const shm::Record& record) {
         CHECK(record.stamp_ns == wire::pack_time(1700000000, 999999999));
         CHECK(record.bytes.size() == 32); // count, padding, three doubles
-        REQUIRE(writer.write_exactly(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
+        REQUIRE(writer.write_sized(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
             std::copy(record.bytes.begin(), record.bytes.end(), room.begin());
             return true;
         }));
@@ -226,12 +226,12 @@ TEST_CASE("64 MiB of doubles pass through the mirrored ports with and without th
     Scene scene("large", "66000");
     auto& position = scene.port<InputDataPortInterface>("position");
     auto& reference = scene.port<OutputDataPortInterface>("reference");
-    auto& reader = scene.partner.link.reader("position");
-    auto& writer = scene.partner.link.writer("reference");
+    auto& reader = scene.peer.link.reader("position");
+    auto& writer = scene.peer.link.writer("reference");
     const auto echo = [&] {
         REQUIRE(eventually([&] { return !reader.empty(); }));
         reader.read(false, [&](const shm::Record& record) {
-            writer.write_exactly(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
+            writer.write_sized(record.bytes.size(), record.stamp_ns, [&](std::span<std::byte> room) {
                 std::copy(record.bytes.begin(), record.bytes.end(), room.begin());
                 return true;
             });
@@ -273,7 +273,7 @@ TEST_CASE("types that do not fit are refused at connection, with both signatures
     CHECK_THAT(position.typeError(), Catch::Contains("'s'") && Catch::Contains("'(uu)ad'"));
 }
 
-TEST_CASE("a required port calls the partner, and hears why a call failed") {
+TEST_CASE("a required port calls the peer, and hears why a call failed") {
     Scene scene("required");
     auto& joystick = scene.port<ProvidedServicePort>("joystick");
     ChairRequired required;
@@ -283,7 +283,7 @@ TEST_CASE("a required port calls the partner, and hears why a call failed") {
         dynamic_cast<RequiredMethodInterface&>(*at->second).Connect(&connector);
     }
     CHECK(required.limits(4) == std::vector<double>{6.0});
-    scene.partner.refuse = "limits";
+    scene.peer.refuse = "limits";
     CHECK_THROWS_AS(required.limits(4), MethodInvokeException);
     try {
         required.limits(4);
@@ -293,18 +293,18 @@ TEST_CASE("a required port calls the partner, and hears why a call failed") {
     }
 }
 
-TEST_CASE("the partner calls what an OPRoS component provides, by signature") {
+TEST_CASE("the peer calls what an OPRoS component provides, by signature") {
     Scene scene("provided");
     Chair chair;
     ChairProvided provided(&chair);
     REQUIRE(scene.port<RequiredServicePort>("chair").bindProvided(&provided) == "");
     std::vector<std::byte> arguments;
     wire::CdrWriter(arguments).put<std::int32_t>(3);
-    auto& link = scene.partner.link;
+    auto& link = scene.peer.link;
 
-    const auto answer = link.call({"chair", "limits", "i:ad", arguments}, soon);
-    REQUIRE(answer.status == CallStatus::ok);
-    wire::CdrReader results(answer.bytes);
+    const auto reply = link.call({"chair", "limits", "i:ad", arguments}, soon);
+    REQUIRE(reply.status == CallStatus::ok);
+    wire::CdrReader results(reply.bytes);
     CHECK(results.get_count(8) == 2);
     CHECK(results.get<double>() == 3);
 
@@ -323,15 +323,15 @@ TEST_CASE("the partner calls what an OPRoS component provides, by signature") {
 TEST_CASE("starting and stopping the adaptor activates and deactivates the RTC") {
     Scene scene("cycle");
     CHECK(scene.component.start() == OPROS_SUCCESS);
-    CHECK(scene.partner.was_told(".bind"));
-    CHECK(scene.partner.was_told(".activate"));
+    CHECK(scene.peer.has_received(".bind"));
+    CHECK(scene.peer.has_received(".activate"));
     CHECK(scene.component.stop() == OPROS_SUCCESS);
-    CHECK(scene.partner.was_told(".deactivate"));
+    CHECK(scene.peer.has_received(".deactivate"));
 }
 
 TEST_CASE("an RTC that cannot be activated keeps the adaptor from starting") {
     Scene scene("refused");
-    scene.partner.refuse = "activate";
+    scene.peer.refuse = "activate";
     CHECK(scene.component.start() != OPROS_SUCCESS);
     CHECK(scene.component.getStatus() != OPROS_CS_ACTIVE);
 }
@@ -339,8 +339,8 @@ TEST_CASE("an RTC that cannot be activated keeps the adaptor from starting") {
 TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
     Scene scene("error");
     REQUIRE(scene.component.start() == OPROS_SUCCESS);
-    scene.partner.link.call(
-        {"", link::control::failed, "", link::control::encode("RTC 'Joystick0' went to ERROR")}, soon);
+    scene.peer.link.call(
+        {"", link::control::failed, "", link::control::encode_string("RTC 'Joystick0' went to ERROR")}, soon);
     CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
 }
 
@@ -348,25 +348,25 @@ TEST_CASE("an adaptor in ERROR that is reset or recovered resets the RTC and act
     const bool by_reset = GENERATE(true, false);
     Scene scene("again");
     REQUIRE(scene.component.start() == OPROS_SUCCESS);
-    scene.partner.link.call({"", link::control::failed, "", link::control::encode("RTC went to ERROR")},
-                            soon);
+    scene.peer.link.call({"", link::control::failed, "", link::control::encode_string("RTC went to ERROR")},
+                         soon);
     REQUIRE(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
     {
-        const std::lock_guard lock(scene.partner.mutex);
-        scene.partner.told.clear();
+        const std::lock_guard lock(scene.peer.mutex);
+        scene.peer.received.clear();
     }
-    scene.partner.refuse = "reset";
+    scene.peer.refuse = "reset";
     CHECK((by_reset ? scene.component.reset() : scene.component.recover()) != OPROS_SUCCESS);
     CHECK(scene.component.getStatus() == OPROS_CS_ERROR);
-    CHECK_FALSE(scene.partner.was_told(".activate"));
-    scene.partner.refuse.clear();
+    CHECK_FALSE(scene.peer.has_received(".activate"));
+    scene.peer.refuse.clear();
     if (by_reset)
         CHECK(scene.component.reset() == OPROS_SUCCESS);
     else
         CHECK((scene.component.recover() == OPROS_SUCCESS && scene.component.start() == OPROS_SUCCESS));
     CHECK(scene.component.getStatus() == OPROS_CS_ACTIVE);
-    CHECK(scene.partner.was_told(".reset"));
-    CHECK(scene.partner.was_told(".activate"));
+    CHECK(scene.peer.has_received(".reset"));
+    CHECK(scene.peer.has_received(".activate"));
 }
 
 TEST_CASE("an adaptor without a link name, or with a number that is none, does not initialize") {
@@ -377,7 +377,7 @@ TEST_CASE("an adaptor without a link name, or with a number that is none, does n
     CHECK_THROWS_WITH(adaptor::read_settings({}), Catch::Contains("'link' is missing"));
 }
 
-TEST_CASE("an adaptor whose partner never comes gives up after its wait") {
+TEST_CASE("an adaptor whose peer never comes gives up after its wait") {
     adaptor::AdaptorComp lonely;
     lonely.setProperty("link", fmt::format("test-adaptor-lonely-{}", getpid()));
     lonely.setProperty("wait", "0.05");

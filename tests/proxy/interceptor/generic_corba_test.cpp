@@ -19,7 +19,7 @@ using interceptor::CallTarget;
 using interceptor::generic_call;
 using interceptor::GenericServant;
 using interceptor::Orb;
-using Status = interceptor::GenericResult::Status;
+using Status = interceptor::GenericCallResult::Status;
 
 namespace {
 
@@ -48,7 +48,7 @@ class Forward : public CallTarget {
     explicit Forward(CORBA::Object_ptr object) : object_(CORBA::Object::_duplicate(object)) {
         for (auto [name, signature] :
              {std::pair{"add", "di:d"}, {"scale", "adf:ad"}, {"rename", seats_signature}, {"drive", "d:"}}) {
-            const auto operation = wire::parse_operation(signature);
+            const auto operation = wire::parse_operation_signature(signature);
             operations_[name] = {wire::parse_signature(operation.arguments),
                                  wire::parse_signature(operation.result), signature};
         }

@@ -69,16 +69,16 @@ struct Linked {
     explicit Linked(const std::string& what, LinkOptions first = {}, LinkOptions second = {})
         : name(unique_name(what)) {
         first.name = second.name = name;
-        a = std::make_unique<Half>(shm::Side::first, first, PortTable{});
-        b = std::make_unique<Half>(shm::Side::second, second, joystick_table());
+        a = std::make_unique<LinkSide>(shm::Side::first, first, PortTable{});
+        b = std::make_unique<LinkSide>(shm::Side::second, second, joystick_table());
         a->link.open();
         b->link.open();
-        a->link.wait_up(soon, "partner");
-        b->link.wait_up(soon, "partner");
+        a->link.wait_until_up(soon, "peer");
+        b->link.wait_until_up(soon, "peer");
         REQUIRE(eventually([&] { return a->link.up() && b->link.up(); }));
     }
     std::string name;
-    std::unique_ptr<Half> a, b;
+    std::unique_ptr<LinkSide> a, b;
 };
 
 LinkOptions large(std::size_t bytes) {
@@ -122,11 +122,11 @@ TEST_CASE("64 MiB pass both ways whichever half asks for it") {
     CHECK(receive_image(link.b->link.reader("position")) == 9);
 }
 
-TEST_CASE("a long message lies where the partner reads it") {
+TEST_CASE("a long message lies where the peer reads it") {
     Linked link("place");
     std::span<std::byte> room;
     auto& writer = link.b->link.writer("reference");
-    REQUIRE(writer.write_exactly(mib, 5, [&](std::span<std::byte> bytes) {
+    REQUIRE(writer.write_sized(mib, 5, [&](std::span<std::byte> bytes) {
         room = bytes;
         std::fill(room.begin(), room.end(), std::byte{'a'});
         return true;
@@ -217,11 +217,11 @@ TEST_CASE("a half that comes back finds chunks though the other one held one and
         options.name = link.name;
         if (reader_leaves) {
             link.a.reset();
-            link.a = std::make_unique<Half>(shm::Side::first, options, PortTable{});
+            link.a = std::make_unique<LinkSide>(shm::Side::first, options, PortTable{});
             link.a->link.open();
         } else {
             link.b.reset();
-            link.b = std::make_unique<Half>(shm::Side::second, options, joystick_table());
+            link.b = std::make_unique<LinkSide>(shm::Side::second, options, joystick_table());
             link.b->link.open();
         }
         // The one that stayed learns a moment later that its session is over.
@@ -246,11 +246,11 @@ TEST_CASE("ports whose type sets a bound below the ring's get no chunks") {
     REQUIRE(plan.rings.size() == 3);
     CHECK(plan.rings[0].options.chunks == 0);
     CHECK(plan.rings[1].options.chunks == 4);
-    CHECK(plan.rings[1].options.chunk_bytes == default_large);
+    CHECK(plan.rings[1].options.chunk_bytes == default_large_bytes);
     CHECK(plan.rings[1].options.writer == shm::Side::second);
     CHECK(plan.rings[2].options.chunks == 4);
     CHECK(plan.rings[2].options.writer == shm::Side::first);
-    CHECK(plan.loan_bytes >= 8 * default_large);
+    CHECK(plan.loan_bytes >= 8 * default_large_bytes);
     CHECK(plan_rings(table, shm::Side::second, {.large_bytes = 1000}).loan_bytes == 0);
 }
 
@@ -263,7 +263,7 @@ int images_in_small_shm() {
     Linked link("narrow");
     auto& writer = link.b->link.writer("reference");
     auto& reader = link.a->link.reader("reference");
-    const auto pixels = image(3, default_large - 100);
+    const auto pixels = image(3, default_large_bytes - 100);
     if (!send_image(writer, 3, pixels) || receive_image(reader) != 3) return 1;
     for (int i = 0; i < 3; ++i) // the reader holds the first one until its next read
         if (send_image(writer, 3, pixels)) return 2;
@@ -280,7 +280,7 @@ int asks_for_too_much() {
     if (!shm::test::enter_small_shm(24)) return shm::test::not_permitted;
     LinkOptions options = large(8 * mib);
     options.name = unique_name("much");
-    Half half(shm::Side::second, options, joystick_table());
+    LinkSide half(shm::Side::second, options, joystick_table());
     try {
         half.link.open();
         return 1;

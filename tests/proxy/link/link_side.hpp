@@ -43,34 +43,34 @@ inline PortTable joystick_table() {
              {PortKind::data_in, "position", "T", "ad", "", {}}}};
 }
 
-struct Half : LinkHandler {
-    Half(shm::Side side, LinkOptions options, PortTable table)
+struct LinkSide : LinkHandler {
+    LinkSide(shm::Side side, LinkOptions options, PortTable table)
         : link(side, std::move(options), std::move(table), *this) {}
-    ~Half() override { link.close(); }
+    ~LinkSide() override { link.close(); }
 
-    std::string accept(const PortTable& partner) override {
-        table = partner;
+    std::string check_peer_ports(const PortTable& peer) override {
+        table = peer;
         return refusal;
     }
-    void link_changed(bool up) override { ++(up ? ups : downs); }
-    void partner_came() override { ++came; }
-    void partner_went() override { ++went; }
-    Answer serve(const Request& request) override { return on_call(request); }
+    void link_state_changed(bool up) override { ++(up ? ups : downs); }
+    void peer_connected() override { ++came; }
+    void peer_disconnected() override { ++went; }
+    Reply serve(const Request& request) override { return on_call(request); }
 
     PortTable table;
     std::string refusal;
-    std::function<Answer(const Request&)> on_call = [](const Request& request) {
-        return Answer{CallStatus::ok, {request.arguments.begin(), request.arguments.end()}};
+    std::function<Reply(const Request&)> on_call = [](const Request& request) {
+        return Reply{CallStatus::ok, {request.arguments.begin(), request.arguments.end()}};
     };
     std::atomic<int> ups{0}, downs{0}, came{0}, went{0};
     Link link;
 };
 
-inline std::unique_ptr<Half> adaptor(const std::string& name) {
-    return std::make_unique<Half>(shm::Side::first, LinkOptions{name}, PortTable{});
+inline std::unique_ptr<LinkSide> adaptor(const std::string& name) {
+    return std::make_unique<LinkSide>(shm::Side::first, LinkOptions{name}, PortTable{});
 }
-inline std::unique_ptr<Half> interceptor(const std::string& name) {
-    return std::make_unique<Half>(shm::Side::second, LinkOptions{name}, joystick_table());
+inline std::unique_ptr<LinkSide> interceptor(const std::string& name) {
+    return std::make_unique<LinkSide>(shm::Side::second, LinkOptions{name}, joystick_table());
 }
 
 inline bool send(ChannelWriter& writer, double value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both halves of a link in one process, and the partner as a process that is killed.
+// Both halves of a link in one process, and the peer as a process that is killed.
 #include "link_side.hpp"
 
 #include <csignal>
@@ -15,8 +15,8 @@ TEST_CASE("data flow both ways whichever half opens first, and nothing is left b
         auto a = adaptor(name), b = interceptor(name);
         (adaptor_first ? a : b)->link.open();
         (adaptor_first ? b : a)->link.open();
-        a->link.wait_up(soon, "partner");
-        b->link.wait_up(soon, "partner");
+        a->link.wait_until_up(soon, "peer");
+        b->link.wait_until_up(soon, "peer");
         CHECK(a->table == joystick_table());
         for (int i = 0; i < 100; ++i) {
             REQUIRE(send(b->link.writer("reference"), i));
@@ -38,23 +38,23 @@ TEST_CASE("calls go both ways, also from within a call") {
     b->on_call = [&](const Request& request) {
         return b->link.call({"p", "front", "", request.arguments}, soon);
     };
-    a->on_call = [](const Request& request) { return Answer{CallStatus::ok, bytes_of(request.operation)}; };
+    a->on_call = [](const Request& request) { return Reply{CallStatus::ok, bytes_of(request.operation)}; };
     a->link.open();
     b->link.open();
-    a->link.wait_up(soon, "partner");
-    b->link.wait_up(soon, "partner");
-    const auto answer = a->link.call({"p", "back", ":", {}}, soon);
-    CHECK(answer.status == CallStatus::ok);
-    CHECK(answer.text() == "front");
+    a->link.wait_until_up(soon, "peer");
+    b->link.wait_until_up(soon, "peer");
+    const auto reply = a->link.call({"p", "back", ":", {}}, soon);
+    CHECK(reply.status == CallStatus::ok);
+    CHECK(reply.text() == "front");
 }
 
 TEST_CASE("calls nested deeper than there were workers do not block each other") {
     const auto name = unique_name("nested");
     auto a = adaptor(name), b = interceptor(name);
-    const auto bounce = [](Half& here) {
+    const auto bounce = [](LinkSide& here) {
         return [&here](const Request& request) {
             const int depth = std::stoi(std::string(request.operation));
-            if (depth == 0) return Answer{CallStatus::ok, bytes_of("bottom")};
+            if (depth == 0) return Reply{CallStatus::ok, bytes_of("bottom")};
             return here.link.call({"p", std::to_string(depth - 1), "", {}}, soon);
         };
     };
@@ -62,8 +62,8 @@ TEST_CASE("calls nested deeper than there were workers do not block each other")
     b->on_call = bounce(*b);
     a->link.open();
     b->link.open();
-    a->link.wait_up(soon, "partner");
-    b->link.wait_up(soon, "partner");
+    a->link.wait_until_up(soon, "peer");
+    b->link.wait_until_up(soon, "peer");
     CHECK(a->link.call({"p", "9", "", {}}, soon).text() == "bottom");
 }
 
@@ -77,26 +77,26 @@ TEST_CASE("a call says why it failed") {
     std::atomic<bool> release{false};
     b->on_call = [&](const Request& request) {
         if (request.operation == "slow") eventually([&] { return release.load(); });
-        return Answer::failure(CallStatus::exception, "the motor is hot");
+        return Reply::failure(CallStatus::exception, "the motor is hot");
     };
     b->link.open();
-    a->link.wait_up(soon, "partner");
-    const auto answer = a->link.call({"p", "o", "", {}}, soon);
-    CHECK(answer.status == CallStatus::exception);
-    CHECK(answer.text() == "the motor is hot");
+    a->link.wait_until_up(soon, "peer");
+    const auto reply = a->link.call({"p", "o", "", {}}, soon);
+    CHECK(reply.status == CallStatus::exception);
+    CHECK(reply.text() == "the motor is hot");
     CHECK(a->link.call({"p", "slow", "", {}}, 10ms).status == CallStatus::timeout);
     release = true;
 }
 
-TEST_CASE("a partner that leaves and comes back is bound again") {
+TEST_CASE("a peer that leaves and comes back is bound again") {
     const auto name = unique_name("back");
     auto a = adaptor(name);
     a->link.open();
     for (int round = 1; round <= 3; ++round) {
         auto b = interceptor(name);
         b->link.open();
-        a->link.wait_up(soon, "partner");
-        b->link.wait_up(soon, "partner");
+        a->link.wait_until_up(soon, "peer");
+        b->link.wait_until_up(soon, "peer");
         REQUIRE(send(b->link.writer("reference"), round));
         CHECK(receive(a->link.reader("reference")) == round);
         CHECK(eventually([&] { return a->came == round; }));
@@ -104,7 +104,7 @@ TEST_CASE("a partner that leaves and comes back is bound again") {
         CHECK(eventually([&] { return a->downs == round && a->went == round; }));
         CHECK_FALSE(send(a->link.writer("position"), 0));
     }
-    CHECK(a->link.writer("position").unlinked() == 3);
+    CHECK(a->link.writer("position").dropped_without_peer() == 3);
     a.reset();
     CHECK(segments_of(name) == 0);
 }
@@ -117,8 +117,8 @@ TEST_CASE("a segment that is truncated while in use takes the link down and a ne
         auto a = adaptor(name), b = interceptor(name);
         a->link.open();
         b->link.open();
-        a->link.wait_up(soon, "partner");
-        b->link.wait_up(soon, "partner");
+        a->link.wait_until_up(soon, "peer");
+        b->link.wait_until_up(soon, "peer");
         REQUIRE(send(b->link.writer("reference"), 1));
         const auto generations = shm::list_generations(name);
         REQUIRE(truncate(shm::segment_path(name, generations.at(0)).c_str(), bytes) == 0);
@@ -136,13 +136,13 @@ TEST_CASE("a segment that is truncated while in use takes the link down and a ne
     CHECK(segments_of(name) == 0);
 }
 
-TEST_CASE("a table that does not fit is refused with the reason, and a better partner accepted later") {
+TEST_CASE("a table that does not fit is refused with the reason, and a better peer accepted later") {
     const auto name = unique_name("refused");
     auto a = adaptor(name), b = interceptor(name);
     a->refusal = "port 'reference': ad is not ai";
     a->link.open();
     b->link.open();
-    CHECK_THROWS_WITH(a->link.wait_up(soon, "partner"), "port 'reference': ad is not ai");
+    CHECK_THROWS_WITH(a->link.wait_until_up(soon, "peer"), "port 'reference': ad is not ai");
     b.reset();
     CHECK(eventually([&] { return segments_of(name) == 1; }));
     a->refusal.clear();
@@ -151,15 +151,15 @@ TEST_CASE("a table that does not fit is refused with the reason, and a better pa
     CHECK(eventually([&] { return a->link.up(); }));
 }
 
-TEST_CASE("a partner that never comes is named, with the link") {
+TEST_CASE("a peer that never comes is named, with the link") {
     const auto name = unique_name("nobody");
     auto a = adaptor(name);
     a->link.open();
-    CHECK_THROWS_WITH(a->link.wait_up(20ms, "InterceptorComp"),
+    CHECK_THROWS_WITH(a->link.wait_until_up(20ms, "InterceptorComp"),
                       Catch::Contains(name) && Catch::Contains("InterceptorComp did not come within 0.02 s"));
 }
 
-TEST_CASE("a killed partner is noticed, its calls end, and its successor is bound") {
+TEST_CASE("a killed peer is noticed, its calls end, and its successor is bound") {
     const auto name = unique_name("killed");
     int ready[2];
     REQUIRE(pipe(ready) == 0);
@@ -167,9 +167,9 @@ TEST_CASE("a killed partner is noticed, its calls end, and its successor is boun
         const pid_t child = fork(); // nothing but this thread runs in the parent's copy
         if (child == 0) {
             auto b = interceptor(name);
-            b->on_call = [](const Request&) { return std::this_thread::sleep_for(60s), Answer{}; };
+            b->on_call = [](const Request&) { return std::this_thread::sleep_for(60s), Reply{}; };
             b->link.open();
-            b->link.wait_up(soon, "partner");
+            b->link.wait_until_up(soon, "peer");
             [[maybe_unused]] const auto written = write(ready[1], "x", 1);
             for (int i = 0; i < 600; ++i) {
                 send(b->link.writer("reference"), i);
@@ -179,7 +179,7 @@ TEST_CASE("a killed partner is noticed, its calls end, and its successor is boun
         }
         return child;
     };
-    // Both partners are born before any thread of this process, and the second waits for its turn.
+    // Both peers are born before any thread of this process, and the second waits for its turn.
     const pid_t first = start_partner();
     int turn[2];
     REQUIRE(pipe(turn) == 0);
@@ -198,7 +198,7 @@ TEST_CASE("a killed partner is noticed, its calls end, and its successor is boun
     {
         auto a = adaptor(name);
         a->link.open();
-        a->link.wait_up(soon, "partner");
+        a->link.wait_until_up(soon, "peer");
         CHECK(eventually([&] { return receive(a->link.reader("reference")).has_value(); }));
         CallStatus ended = CallStatus::ok;
         std::thread caller([&] { ended = a->link.call({"p", "o", "", {}}, 60s).status; });

@@ -108,6 +108,6 @@ TEST_CASE("random bytes never crash a reader") {
 
 TEST_CASE("a time goes through the header bit for bit") {
     const auto stamp = pack_time(4'000'000'000u, 4'123'456'789u);
-    CHECK(seconds_of(stamp) == 4'000'000'000u);
-    CHECK(nanoseconds_of(stamp) == 4'123'456'789u);
+    CHECK(stamp_seconds(stamp) == 4'000'000'000u);
+    CHECK(stamp_nanoseconds(stamp) == 4'123'456'789u);
 }

@@ -31,16 +31,16 @@ TEST_CASE("nesting without end is refused and not recursed into") {
 }
 
 TEST_CASE("ports join when their signatures are equal up to RTM's leading time") {
-    CHECK(match("ad", "ad") == Match::equal);
-    CHECK(match("(uu)ad", "(uu)ad") == Match::equal);
-    CHECK(match("(uu)ad", "ad") == Match::strip_time);
-    CHECK(match("ad", "(uu)ad") == Match::add_time);
-    CHECK(match("(uu)(ddd)", "ddd") == Match::strip_time);
-    CHECK(match("(sid)", "sid") == Match::equal);
-    CHECK(match("ad", "af") == Match::mismatch);
-    CHECK(match("(uu)ad", "(uu)af") == Match::mismatch);
-    CHECK(match("i", "d") == Match::mismatch);
-    CHECK(match("(uu)", "") == Match::mismatch);
+    CHECK(match_signatures("ad", "ad") == SignatureMatch::equal);
+    CHECK(match_signatures("(uu)ad", "(uu)ad") == SignatureMatch::equal);
+    CHECK(match_signatures("(uu)ad", "ad") == SignatureMatch::strip_time);
+    CHECK(match_signatures("ad", "(uu)ad") == SignatureMatch::add_time);
+    CHECK(match_signatures("(uu)(ddd)", "ddd") == SignatureMatch::strip_time);
+    CHECK(match_signatures("(sid)", "sid") == SignatureMatch::equal);
+    CHECK(match_signatures("ad", "af") == SignatureMatch::mismatch);
+    CHECK(match_signatures("(uu)ad", "(uu)af") == SignatureMatch::mismatch);
+    CHECK(match_signatures("i", "d") == SignatureMatch::mismatch);
+    CHECK(match_signatures("(uu)", "") == SignatureMatch::mismatch);
 }
 
 TEST_CASE("a message is timed when more than the time is in it") {
@@ -51,18 +51,20 @@ TEST_CASE("a message is timed when more than the time is in it") {
 }
 
 TEST_CASE("what a message takes at most is known unless its type sets no bound") {
-    const auto most = [](const char* signature) { return most_bytes(parse_signature(signature)); };
-    CHECK(most("(uu)d") >= 16);
-    CHECK(most("(uu)d") < 64);
-    CHECK(most("(uu)[1000]d") >= 8008);
-    CHECK(most("[16777216][16777216][16777216]y") > 1e21);
-    for (const char* unbounded : {"ad", "(uu)s", "[3](di(aq))", "w"}) CHECK(std::isinf(most(unbounded)));
+    const auto max_bytes = [](const char* signature) {
+        return max_encoded_bytes(parse_signature(signature));
+    };
+    CHECK(max_bytes("(uu)d") >= 16);
+    CHECK(max_bytes("(uu)d") < 64);
+    CHECK(max_bytes("(uu)[1000]d") >= 8008);
+    CHECK(max_bytes("[16777216][16777216][16777216]y") > 1e21);
+    for (const char* unbounded : {"ad", "(uu)s", "[3](di(aq))", "w"}) CHECK(std::isinf(max_bytes(unbounded)));
 }
 
 TEST_CASE("an operation is arguments, colon, result") {
-    CHECK(parse_operation("ss:d") == Operation{"ss", "d"});
-    CHECK(parse_operation(":ad") == Operation{"", "ad"});
-    CHECK(parse_operation("i:") == Operation{"i", ""});
-    CHECK_THROWS_AS(parse_operation("i"), SignatureError);
-    CHECK_THROWS_AS(parse_operation("i:d:d"), SignatureError);
+    CHECK(parse_operation_signature("ss:d") == Operation{"ss", "d"});
+    CHECK(parse_operation_signature(":ad") == Operation{"", "ad"});
+    CHECK(parse_operation_signature("i:") == Operation{"i", ""});
+    CHECK_THROWS_AS(parse_operation_signature("i"), SignatureError);
+    CHECK_THROWS_AS(parse_operation_signature("i:d:d"), SignatureError);
 }
