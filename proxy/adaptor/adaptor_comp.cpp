@@ -79,7 +79,7 @@ ReturnType AdaptorComp::onStart() {
 ReturnType AdaptorComp::onStop() {
     started_ = false;
     // A peer that has gone has nothing left to deactivate.
-    return link_->up() ? drive(control::deactivate) : OPROS_SUCCESS;
+    return link_->is_up() ? drive(control::deactivate) : OPROS_SUCCESS;
 }
 
 ReturnType AdaptorComp::onReset() { return drive(control::reset); }
@@ -148,9 +148,9 @@ void AdaptorComp::link_state_changed(bool) { publish_link_state(); }
 void AdaptorComp::peer_connected() {
     if (!started_) return;
     spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
-    for (int attempt = 0; attempt < activation_attempts && started_ && link_->up(); ++attempt)
+    for (int attempt = 0; attempt < activation_attempts && started_ && link_->is_up(); ++attempt)
         if (drive(control::activate) == OPROS_SUCCESS) return;
-    if (link_->up() && started_.exchange(false))
+    if (link_->is_up() && started_.exchange(false))
         stopOnError(); // while it is down, the next peer is waited for
 }
 
@@ -213,7 +213,7 @@ void AdaptorComp::publish_link_state() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::lock_guard lock(link_state_mutex_);
-    const bool up = link_->up(); // looked at here, so that an older answer cannot overtake a newer one
+    const bool up = link_->is_up(); // looked at here, so that an older answer cannot overtake a newer one
     const double stamp = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
     link_state_.push(std::vector<double>{stamp, static_cast<double>(++link_state_sequence_), up ? 1.0 : 0.0});
 }

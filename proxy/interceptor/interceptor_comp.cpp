@@ -210,7 +210,7 @@ std::string InterceptorComp::activate() {
     std::string error = own_driver_->activate(); // the RTC may call through our ports from its onActivated on
     if (error.empty()) error = driver_->activate();
     if (!error.empty()) activated_by_link_ = false;
-    if (!link_->up()) peer_disconnected();
+    if (!link_->is_up()) peer_disconnected();
     return error;
 }
 

@@ -2,41 +2,32 @@
 #pragma once
 
 #include "proxy/link/port_table.hpp"
+#include "proxy/link/reply.hpp"
 #include "proxy/link/request.hpp"
-#include "shm/call/call_queue.hpp"
 
-#include <cstddef>
 #include <string>
-#include <vector>
 
 namespace tandem::link {
 
-using CallStatus = shm::CallStatus;
-
-/// What came of a call across the link: results in CDR when ok, otherwise one line of text.
-struct Reply {
-    CallStatus status = CallStatus::ok;
-    std::vector<std::byte> bytes;
-
-    static Reply failure(CallStatus status, std::string_view text) {
-        const auto* begin = reinterpret_cast<const std::byte*>(text.data());
-        return {status, std::vector<std::byte>(begin, begin + text.size())};
-    }
-    std::string text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-};
-
-/// What a half does when its peer comes, goes and calls.
+/// What the owner of a Link does when the peer connects, disconnects and calls. Each function names the
+/// thread that calls it; see the README of this folder for the threads.
 class LinkHandler {
   public:
     virtual ~LinkHandler() = default;
-    /// The peer's table; the result is empty, or one line why it does not fit. [link-thread, do not wait]
+
+    /// Compares the peer's ports with what this side needs. Returns an empty string to accept them, otherwise
+    /// one line that names the port and what was expected. [supervisor-thread] Must not wait for the peer.
     virtual std::string check_peer_ports(const PortTable& peer) = 0;
-    /// Data flow from now on, or no more. [link-thread, do not wait]
+
+    /// Data flow from now on (`up`), or no longer. [supervisor-thread] Must not wait for the peer: while this
+    /// function runs, nobody watches whether it is alive.
     virtual void link_state_changed(bool up) = 0;
-    /// After link_state_changed(true) / (false), where calls may be made and waited for. [task-thread]
+
+    /// Follow link_state_changed(true) and link_state_changed(false). [task-thread] May call the peer.
     virtual void peer_connected() = 0;
     virtual void peer_disconnected() = 0;
-    /// A call of the peer. [worker-thread]
+
+    /// Executes one call of the peer. [worker-thread] Several at once; may call the peer in turn.
     virtual Reply serve(const Request&) = 0;
 };
 

@@ -1,39 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/link/port_table.hpp"
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 #include "shm/segment.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace tandem::link {
 
-/// What one generation of the segment is to one half. Whoever works in it holds a pointer, so that it stays
-/// mapped.
-struct Session {
-    Session(std::shared_ptr<shm::Segment> joined, const shm::CallQueueHandle& calls,
-            const shm::WaitOptions& wait)
-        : segment(std::move(joined)), incoming(calls, wait) {}
-
-    std::shared_ptr<shm::Segment> segment;
-    shm::CallServer incoming;                ///< calls of the peer, in our half
-    std::optional<shm::CallClient> outgoing; ///< calls to the peer, in its half, once it has published
-    bool refused = false;                    ///< the peer's table does not fit: wait for another peer
-};
-
-/// What a half says of long messages, under large_name: the bytes that were asked of it by large_kib, and
-/// those of its rings' chunks (0 if nobody has asked yet; as many as can be, if it has no rings).
+/// What a side publishes about messages that are too long for a ring, as a blob in the segment.
 struct LargeMessageLimits {
-    std::uint64_t asked, laid_out;
+    std::uint64_t requested; ///< bytes that the user asked for with `large_kib`; 0: did not ask
+    std::uint64_t available; ///< bytes of a chunk in its rings; max_large_bytes if it has created no rings
 };
 
-/// Names of a half's objects in the segment.
+/// Names of a side's objects in the segment.
 inline const std::string table_name = "table";
 inline const std::string calls_name = "calls";
-inline const std::string large_name = "large";
+inline const std::string limits_name = "large";
 inline std::string ring_name(const std::string& port) { return "port " + port; }
+
+/// One generation of the link's segment, from joining it until the peer or the segment is lost. Every thread
+/// that works in the segment holds a shared_ptr to the session, so the memory stays mapped until the last of
+/// them is done. SessionJoiner creates it; LinkState says which one is current.
+class LinkSession {
+  public:
+    /// `incoming_calls` is this side's call queue in the segment, which the peer calls.
+    LinkSession(std::shared_ptr<shm::Segment> segment, const shm::CallQueueHandle& incoming_calls,
+                const shm::WaitOptions& wait);
+
+    const std::shared_ptr<shm::Segment>& segment() const { return segment_; }
+    shm::Side peer_side() const { return shm::other(segment_->side()); }
+
+    /// Why the session cannot go on, one line; empty while it can. A few system calls. [any-thread]
+    std::string end_reason() const;
+
+    /// What the peer has published. Throw LinkError or shm::Error, one line, if it is missing or damaged.
+    PortTable read_peer_table() const;
+    /// Nothing if the peer has published no limits that can be read.
+    std::optional<LargeMessageLimits> read_peer_limits() const;
+
+    /// Opens the peer's call queue. Throws LinkError if there is none. [supervisor-thread], before other
+    /// threads learn from LinkState that the link is up.
+    void open_outgoing_calls();
+
+    shm::CallServer& incoming_calls() { return incoming_calls_; }
+    /// nullptr before open_outgoing_calls().
+    shm::CallClient* outgoing_calls() { return outgoing_calls_ ? &*outgoing_calls_ : nullptr; }
+    /// Ends the calls under way, in both directions, with CallStatus::shut_down, and all later ones.
+    void shut_down_calls();
+
+  private:
+    std::shared_ptr<shm::Segment> segment_;
+    shm::WaitOptions wait_;
+    shm::CallServer incoming_calls_;
+    std::optional<shm::CallClient> outgoing_calls_;
+};
 
 } // namespace tandem::link

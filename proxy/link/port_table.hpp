@@ -13,6 +13,8 @@ namespace tandem::link {
 /// What a port is to the component that has it.
 enum class PortKind : std::uint32_t { data_out, data_in, service_provided, service_required };
 
+inline bool is_data_port(PortKind kind) { return kind == PortKind::data_out || kind == PortKind::data_in; }
+
 struct ServiceOperation {
     std::string name;
     std::string signature; ///< `arguments:result`, see proxy/wire

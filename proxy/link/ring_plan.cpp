@@ -22,7 +22,7 @@ std::size_t effective_large_bytes(const RingSizes& sizes) {
 RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& sizes) {
     RingPlan plan;
     for (const Port& port : table.ports) {
-        if (port.kind != PortKind::data_out && port.kind != PortKind::data_in) continue;
+        if (!is_data_port(port.kind)) continue;
         shm::RingOptions ring;
         ring.writer = port.kind == PortKind::data_out ? own : shm::other(own);
         ring.capacity = sizes.ring_bytes;
@@ -35,7 +35,7 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
             ring.chunks = chunks;
         }
         const auto memory = shm::ring_memory(port.name, ring);
-        plan.loan_bytes += memory.all - memory.at_once;
+        plan.chunk_bytes += memory.all - memory.at_once;
         plan.rings.push_back({port.name, ring});
     }
     return plan;
@@ -44,7 +44,7 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
 void check_available_memory(const RingPlan& plan, const RingSizes& sizes) {
     const std::size_t needed = chunks * sizes.large_bytes;
     const auto available = shm::available_bytes();
-    if (plan.loan_bytes == 0 || !available || *available >= needed) return;
+    if (plan.chunk_bytes == 0 || !available || *available >= needed) return;
     throw shm::Error(
         fmt::format("{}: {} bytes needed for {} messages of large_kib = {}, {} available; enlarge it, "
                     "free some, or lower large_kib",

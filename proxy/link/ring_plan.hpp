@@ -28,7 +28,7 @@ struct RingPlan {
         shm::RingOptions options;
     };
     std::vector<Ring> rings;
-    std::size_t loan_bytes = 0; ///< of their chunks, all together
+    std::size_t chunk_bytes = 0; ///< of their chunks, all together
 };
 RingPlan plan_rings(const PortTable&, shm::Side own, const RingSizes&);
 

@@ -75,7 +75,7 @@ struct Linked {
         b->link.open();
         a->link.wait_until_up(soon, "peer");
         b->link.wait_until_up(soon, "peer");
-        REQUIRE(eventually([&] { return a->link.up() && b->link.up(); }));
+        REQUIRE(eventually([&] { return a->link.is_up() && b->link.is_up(); }));
     }
     std::string name;
     std::unique_ptr<LinkSide> a, b;
@@ -226,7 +226,7 @@ TEST_CASE("a half that comes back finds chunks though the other one held one and
         }
         // The one that stayed learns a moment later that its session is over.
         REQUIRE(eventually([&] {
-            return link.a->link.up() && link.b->link.up() && send(link.b->link.writer("reference"), number) &&
+            return link.a->link.is_up() && link.b->link.is_up() && send(link.b->link.writer("reference"), number) &&
                    receive(link.a->link.reader("reference")) == number;
         }));
     }
@@ -250,8 +250,8 @@ TEST_CASE("ports whose type sets a bound below the ring's get no chunks") {
     CHECK(plan.rings[1].options.writer == shm::Side::second);
     CHECK(plan.rings[2].options.chunks == 4);
     CHECK(plan.rings[2].options.writer == shm::Side::first);
-    CHECK(plan.loan_bytes >= 8 * default_large_bytes);
-    CHECK(plan_rings(table, shm::Side::second, {.large_bytes = 1000}).loan_bytes == 0);
+    CHECK(plan.chunk_bytes >= 8 * default_large_bytes);
+    CHECK(plan_rings(table, shm::Side::second, {.large_bytes = 1000}).chunk_bytes == 0);
 }
 
 namespace {

@@ -127,7 +127,7 @@ TEST_CASE("a segment that is truncated while in use takes the link down and a ne
         receive(a->link.reader("reference"));
         a->link.call({"p", "o", "", {}}, 10ms);
         CHECK(eventually([&] { return a->downs == 1 && b->downs == 1; }));
-        CHECK(eventually([&] { return a->link.up() && b->link.up(); }));
+        CHECK(eventually([&] { return a->link.is_up() && b->link.is_up(); }));
         // What was on its way is lost, what comes now arrives, and nothing else does.
         CHECK(eventually([&] { return send(b->link.writer("reference"), 3); }));
         CHECK(eventually([&] { return receive(a->link.reader("reference")) == 3; }));
@@ -148,7 +148,7 @@ TEST_CASE("a table that does not fit is refused with the reason, and a better pe
     a->refusal.clear();
     b = interceptor(name);
     b->link.open();
-    CHECK(eventually([&] { return a->link.up(); }));
+    CHECK(eventually([&] { return a->link.is_up(); }));
 }
 
 TEST_CASE("a peer that never comes is named, with the link") {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/call_workers.hpp"
+
+#include <chrono>
+
+namespace tandem::link {
+
+using namespace std::chrono_literals;
+
+CallWorkers::CallWorkers(const LinkState& state, LinkHandler& handler, unsigned max_workers,
+                         std::function<void()> wake_supervisor)
+    : state_(state), handler_(handler), max_workers_(max_workers),
+      wake_supervisor_(std::move(wake_supervisor)) {}
+
+void CallWorkers::start() {
+    const std::lock_guard lock(mutex_);
+    start_worker();
+}
+
+void CallWorkers::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true; // from here on threads_ does not grow, and can be read without the lock
+    }
+    for (auto& thread : threads_) thread.join();
+    threads_.clear();
+}
+
+void CallWorkers::start_worker() {
+    threads_.emplace_back([this] { run(); });
+}
+
+void CallWorkers::run() {
+    while (!state_.is_closing())
+        if (auto call = take_call()) serve(std::move(*call));
+}
+
+/// The session is released before the call is served: a call may take long, and meanwhile the session must be
+/// able to end and the next one to be joined.
+std::optional<shm::IncomingCall> CallWorkers::take_call() {
+    {
+        const std::lock_guard lock(mutex_);
+        ++idle_;
+    }
+    const auto session = state_.wait_for_session(100ms);
+    auto call = session ? session->incoming_calls().take(100ms) : std::nullopt;
+    const std::lock_guard lock(mutex_);
+    --idle_;
+    // One worker must stay idle for the calls that this call leads the peer to make in turn.
+    if (call && idle_ == 0 && threads_.size() < max_workers_ && !stopping_) start_worker();
+    return call;
+}
+
+void CallWorkers::serve(shm::IncomingCall call) {
+    // The peer may connect a moment before this side does, and what it calls may call the peer in turn, which
+    // fails while this side is not up. A call that comes later than that costs no wake.
+    if (!state_.is_up()) {
+        wake_supervisor_();
+        state_.wait_until_session_is_up(1s);
+    }
+    Reply reply = Reply::failure(CallStatus::bad_arguments, "the request is malformed");
+    try {
+        if (const auto request = decode_request(call.arguments())) reply = handler_.serve(*request);
+    } catch (const std::exception& error) { // out of memory, for instance: the worker must survive it
+        reply = Reply::failure(CallStatus::exception, error.what());
+    }
+    call.reply(reply.status, reply.bytes);
+}
+
+} // namespace tandem::link

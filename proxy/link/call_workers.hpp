@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/link_handler.hpp"
+#include "proxy/link/link_state.hpp"
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+namespace tandem::link {
+
+/// The worker threads that execute the peer's calls. They start with one; another one is started whenever the
+/// last idle worker takes a call, up to a maximum, so that calls nested in both directions cannot block each
+/// other. The workers outlive sessions: they take calls from whichever session is current.
+class CallWorkers {
+  public:
+    /// `wake_supervisor` makes the supervisor thread look for the peer now. All references must outlive this
+    /// object.
+    CallWorkers(const LinkState& state, LinkHandler& handler, unsigned max_workers,
+                std::function<void()> wake_supervisor);
+    ~CallWorkers() { stop(); }
+    CallWorkers(const CallWorkers&) = delete;
+    CallWorkers& operator=(const CallWorkers&) = delete;
+
+    void start();
+    /// After LinkState::start_closing(): waits for the calls that are being executed. [not in a worker]
+    void stop();
+
+  private:
+    void run();
+    std::optional<shm::IncomingCall> take_call();
+    void serve(shm::IncomingCall call);
+    void start_worker(); ///< with mutex_ held
+
+    const LinkState& state_;
+    LinkHandler& handler_;
+    const unsigned max_workers_;
+    const std::function<void()> wake_supervisor_;
+    std::mutex mutex_; ///< the members below
+    std::vector<std::thread> threads_;
+    unsigned idle_ = 0; ///< workers that execute no call
+    bool stopping_ = false;
+};
+
+} // namespace tandem::link

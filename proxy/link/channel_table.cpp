@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/channel_table.hpp"
+
+#include "proxy/link/link_error.hpp"
+#include "proxy/link/link_session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tandem::link {
+
+ChannelWriter& ChannelTable::writer(const std::string& port) {
+    const std::lock_guard lock(mutex_);
+    return writers_.try_emplace(port, port).first->second;
+}
+
+ChannelReader& ChannelTable::reader(const std::string& port) {
+    const std::lock_guard lock(mutex_);
+    return readers_[port];
+}
+
+void ChannelTable::bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports,
+                        shm::Side owner) {
+    const bool own_ports = owner == segment->side();
+    for (const Port& port : ports.ports) {
+        if (!is_data_port(port.kind)) continue;
+        const auto ring = segment->find_ring(owner, ring_name(port.name));
+        if (!ring) throw LinkError(fmt::format("port '{}' is in the port table but has no ring", port.name));
+        // This side writes what leaves its own out ports, and what enters the peer's in ports.
+        if ((port.kind == PortKind::data_out) == own_ports)
+            writer(port.name).bind(segment, shm::RingWriter(*ring));
+        else
+            reader(port.name).bind(segment, shm::RingReader(*ring));
+    }
+}
+
+void ChannelTable::unbind_all() {
+    const std::lock_guard lock(mutex_);
+    for (auto& [name, writer] : writers_) writer.unbind();
+    for (auto& [name, reader] : readers_) reader.unbind();
+}
+
+bool ChannelTable::has_corrupt_ring() const {
+    const std::lock_guard lock(mutex_);
+    const auto corrupt = [](const auto& channel) { return channel.second.corrupt(); };
+    return std::any_of(writers_.begin(), writers_.end(), corrupt) ||
+           std::any_of(readers_.begin(), readers_.end(), corrupt);
+}
+
+} // namespace tandem::link

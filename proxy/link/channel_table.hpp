@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/channel.hpp"
+#include "proxy/link/port_table.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace tandem::link {
+
+/// The channels of one link, by port name. A channel is created when it is first asked for and lives as long
+/// as the table, so the references stay valid while sessions come and go. [any-thread]
+class ChannelTable {
+  public:
+    ChannelWriter& writer(const std::string& port);
+    ChannelReader& reader(const std::string& port);
+
+    /// Binds the channels of the data ports in `ports` to their rings in the segment. `owner` is the side
+    /// whose ports they are, and which created the rings. Throws LinkError if a port has no ring, shm::Error
+    /// if a ring is damaged; channels that were bound before stay bound until unbind_all().
+    void bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports, shm::Side owner);
+    void unbind_all();
+
+    /// True if a bound ring holds words that its protocol cannot produce: a process outside of the link has
+    /// written there, and nothing more would pass through that ring.
+    bool has_corrupt_ring() const;
+
+  private:
+    mutable std::mutex mutex_; ///< the maps; each channel has its own lock
+    std::map<std::string, ChannelWriter> writers_;
+    std::map<std::string, ChannelReader> readers_;
+};
+
+} // namespace tandem::link

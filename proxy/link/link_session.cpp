@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/link_session.hpp"
+
+#include "proxy/link/link_error.hpp"
+
+#include <cstring>
+
+namespace tandem::link {
+
+LinkSession::LinkSession(std::shared_ptr<shm::Segment> segment, const shm::CallQueueHandle& incoming_calls,
+                         const shm::WaitOptions& wait)
+    : segment_(std::move(segment)), wait_(wait), incoming_calls_(incoming_calls, wait) {}
+
+std::string LinkSession::end_reason() const {
+    // A truncated file reads as zeros, which the other checks would take for something else: so it is first.
+    if (segment_->truncated())
+        return segment_->path() + " was truncated by another process; the link starts afresh";
+    if (segment_->peer() == shm::PeerState::dead) return "the peer process has gone";
+    if (segment_->superseded())
+        return segment_->path() + " was removed or superseded; the link starts afresh";
+    return "";
+}
+
+PortTable LinkSession::read_peer_table() const {
+    const auto bytes = segment_->copy_blob(peer_side(), table_name);
+    if (!bytes) throw LinkError("the peer published no port table");
+    return decode_port_table(*bytes);
+}
+
+std::optional<LargeMessageLimits> LinkSession::read_peer_limits() const {
+    const auto bytes = segment_->copy_blob(peer_side(), limits_name);
+    LargeMessageLimits limits{};
+    if (!bytes || bytes->size() != sizeof limits) return std::nullopt;
+    std::memcpy(&limits, bytes->data(), sizeof limits);
+    return limits;
+}
+
+void LinkSession::open_outgoing_calls() {
+    const auto queue = segment_->find_call_queue(peer_side(), calls_name);
+    if (!queue) throw LinkError("the peer published no call queue");
+    outgoing_calls_.emplace(*queue, wait_);
+}
+
+void LinkSession::shut_down_calls() {
+    incoming_calls_.shut_down();
+    if (outgoing_calls_) outgoing_calls_->shut_down();
+}
+
+} // namespace tandem::link

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/channel_table.hpp"
+#include "proxy/link/link_handler.hpp"
+#include "proxy/link/link_state.hpp"
+#include "proxy/link/session_joiner.hpp"
+#include "proxy/link/task_queue.hpp"
+#include "shm/segment/watcher.hpp"
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace tandem::link {
+
+/// The supervisor thread of a link: joins the segment, beats the heart, connects when a peer has published a
+/// port table that fits, disconnects when the peer or the segment is lost, and begins again. It is the only
+/// thread that starts and ends sessions, and it never waits for the peer.
+class PeerSupervisor {
+  public:
+    /// All references must outlive this object.
+    PeerSupervisor(shm::Side side, const LinkOptions& options, const PortTable& own_ports,
+                   LinkHandler& handler, LinkState& state, ChannelTable& channels, TaskQueue& tasks);
+    ~PeerSupervisor() { stop(); }
+    PeerSupervisor(const PeerSupervisor&) = delete;
+    PeerSupervisor& operator=(const PeerSupervisor&) = delete;
+
+    /// Joins the first session in the caller's thread, so that an error reaches it, and starts the thread.
+    /// Throws shm::Error.
+    void start();
+    /// After LinkState::start_closing(): disconnects without telling the handler, and ends the thread.
+    void stop();
+    /// Makes the thread look at the segment now. A system call. [any-thread]
+    void wake() { watcher_.interrupt(); }
+
+  private:
+    void run();
+    void rejoin();
+    void wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason);
+    std::string end_reason(const LinkSession& session) const;
+    void try_connect(LinkSession& session);
+    bool chunks_suffice(const LinkSession& session);
+    std::string connect(LinkSession& session);
+    void disconnect(const std::string& reason);
+
+    const shm::Side side_;
+    const LinkOptions& options_;
+    const PortTable& own_ports_;
+    LinkHandler& handler_;
+    LinkState& state_;
+    ChannelTable& channels_;
+    TaskQueue& tasks_;
+    shm::Watcher watcher_; ///< wakes the thread when a process joins or leaves the segment
+    SessionJoiner joiner_;
+    bool peer_refused_ = false;   ///< in this session; another peer can only come in another session
+    unsigned failed_rejoins_ = 0; ///< since the last session
+    std::thread thread_;
+};
+
+} // namespace tandem::link

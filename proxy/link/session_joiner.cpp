@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/session_joiner.hpp"
+
+#include "proxy/link/ring_plan.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tandem::link {
+namespace {
+
+// Version of what both sides must agree on beside the segment's layout; raise it when the port table, the
+// requests or the records change. A segment of another version is refused.
+constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0002; // "tandem", 2
+
+template <class T>
+void publish_blob(shm::Segment& segment, const std::string& name, const T* data, std::size_t bytes) {
+    std::memcpy(segment.add_blob(name, bytes).data(), data, bytes);
+}
+
+} // namespace
+
+SessionJoiner::SessionJoiner(shm::Side side, const LinkOptions& options, const PortTable& own_ports)
+    : side_(side), options_(options), own_ports_(own_ports), large_bytes_(options.rings.large_bytes) {}
+
+std::shared_ptr<LinkSession> SessionJoiner::join() const {
+    RingSizes sizes = options_.rings;
+    sizes.large_bytes = large_bytes_;
+    const RingPlan plan = plan_rings(own_ports_, side_, sizes);
+    check_available_memory(plan, sizes);
+
+    shm::JoinOptions join_options;
+    join_options.arena_bytes = options_.segment_bytes;
+    join_options.loan_bytes = plan.chunk_bytes;
+    join_options.peer_loan_bytes = peer_chunk_bytes_;
+    // Most ports whose messages may be long never send a long one: their chunks take no memory until used.
+    join_options.sparse = true;
+    join_options.contract = protocol_version;
+    std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
+
+    for (const auto& ring : plan.rings) segment->add_ring(ring_name(ring.port), ring.options);
+    shm::CallQueueOptions queue;
+    queue.callers = shm::other(side_);
+    const auto incoming_calls = segment->add_call_queue(calls_name, queue);
+    const auto table = encode(own_ports_);
+    publish_blob(*segment, table_name, table.data(), table.size());
+    const LargeMessageLimits limits{options_.rings.large_bytes,
+                                    plan.rings.empty() ? max_large_bytes : large_bytes_};
+    publish_blob(*segment, limits_name, &limits, sizeof limits);
+    segment->publish(); // last, since the peer reads everything as soon as it sees this
+    return std::make_shared<LinkSession>(segment, incoming_calls, options_.wait);
+}
+
+bool SessionJoiner::peer_needs_larger_chunks(const LargeMessageLimits& peer) {
+    // What lies in the segment may be damaged: a request above the maximum is ignored.
+    if (peer.requested <= large_bytes_ || peer.requested > max_large_bytes) return false;
+    large_bytes_ = peer.requested;
+    // A side without data ports creates no rings, so there is nothing to enlarge.
+    return std::any_of(own_ports_.ports.begin(), own_ports_.ports.end(),
+                       [](const Port& port) { return is_data_port(port.kind); });
+}
+
+void SessionJoiner::remember_peer_memory(const LinkSession& session) {
+    const std::size_t arena = session.segment()->arena_bytes(session.peer_side());
+    peer_chunk_bytes_ = arena - std::min(arena, options_.segment_bytes);
+}
+
+} // namespace tandem::link

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/task_queue.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+
+namespace tandem::link {
+
+void TaskQueue::start() {
+    thread_ = std::thread([this] { run(); });
+}
+
+void TaskQueue::stop() {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+        changed_.notify_all();
+    }
+    if (thread_.joinable()) thread_.join();
+}
+
+void TaskQueue::post(std::function<void()> task) {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+    changed_.notify_all();
+}
+
+void TaskQueue::run() {
+    std::unique_lock lock(mutex_);
+    while (!stopping_) {
+        changed_.wait_for(lock, std::chrono::seconds(1), [this] { return !tasks_.empty() || stopping_; });
+        if (stopping_ || tasks_.empty()) continue;
+        const auto task = std::move(tasks_.front());
+        tasks_.pop_front();
+        lock.unlock(); // a task may post another one
+        try {
+            task();
+        } catch (const std::exception& error) {
+            spdlog::error("link '{}': {}", owner_, error.what());
+        }
+        lock.lock();
+    }
+}
+
+} // namespace tandem::link
