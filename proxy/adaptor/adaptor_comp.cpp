@@ -9,7 +9,6 @@
 #include <spdlog/spdlog.h>
 
 #include <ctime>
-#include <set>
 
 namespace tandem::adaptor {
 namespace control = link::control;
@@ -19,8 +18,11 @@ using link::Reply;
 
 namespace {
 
+// After a reconnection: the RTC's host may still be starting when the link is up already.
 constexpr int activation_attempts = 3;
+constexpr const char* peer_name = "InterceptorComp of the RTM host";
 
+/// Returns an error if two ports of the peer would get mirrors of the same name.
 std::string check_names(const link::PortTable& peer, const std::string& link) {
     std::set<std::string> names{"linkState"};
     for (const auto& port : peer.ports)
@@ -35,13 +37,13 @@ std::string check_names(const link::PortTable& peer, const std::string& link) {
 AdaptorComp::AdaptorComp() : Component("AdaptorComp") { addPort("linkState", &link_state_); }
 
 AdaptorComp::~AdaptorComp() {
-    if (link_) link_->close();
+    if (link_) link_->close(); // before any member goes: the link's threads use them
 }
 
-// ---- life cycle, in the host's thread
+// ---- life cycle, in the host's threads
 
 ReturnType AdaptorComp::onInitialize() {
-    if (link_) return OPROS_SUCCESS; // reset() comes here again; what stands connected keeps its link
+    if (link_) return OPROS_SUCCESS; // reset() comes here again; the link and the mirrors stay as they are
     try {
         settings_ = read_settings(getPropertyMap());
         link::LinkOptions options;
@@ -52,7 +54,8 @@ ReturnType AdaptorComp::onInitialize() {
         link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
                                              static_cast<LinkHandler&>(*this));
         link_->open();
-        link_->wait_until_up(settings_.wait, "InterceptorComp of the RTM host");
+        // The host connects ports as soon as this function returns, so the peer's table must be here by then.
+        link_->wait_until_up(settings_.wait, peer_name);
         create_mirror_ports();
         return OPROS_SUCCESS;
     } catch (const std::runtime_error& error) {
@@ -64,13 +67,14 @@ ReturnType AdaptorComp::onInitialize() {
 
 ReturnType AdaptorComp::onStart() {
     try {
-        link_->wait_until_up(settings_.wait, "InterceptorComp of the RTM host");
+        link_->wait_until_up(settings_.wait, peer_name);
     } catch (const link::LinkError& error) {
         spdlog::error("{}: {}", getId(), error.what());
         return OPROS_CALL_API_ERROR;
     }
     rtc_failed_ = false;
-    const auto code = drive(control::activate);
+    const auto code = drive_rtc(control::activate);
+    // The RTC may have gone to ERROR between its activation and this line; the report came to serve().
     started_ = code == OPROS_SUCCESS && !rtc_failed_;
     publish_link_state();
     return started_ || code != OPROS_SUCCESS ? code : OPROS_CALL_API_ERROR;
@@ -79,11 +83,11 @@ ReturnType AdaptorComp::onStart() {
 ReturnType AdaptorComp::onStop() {
     started_ = false;
     // A peer that has gone has nothing left to deactivate.
-    return link_->is_up() ? drive(control::deactivate) : OPROS_SUCCESS;
+    return link_->is_up() ? drive_rtc(control::deactivate) : OPROS_SUCCESS;
 }
 
-ReturnType AdaptorComp::onReset() { return drive(control::reset); }
-ReturnType AdaptorComp::onRecover() { return drive(control::reset); }
+ReturnType AdaptorComp::onReset() { return drive_rtc(control::reset); }
+ReturnType AdaptorComp::onRecover() { return drive_rtc(control::reset); }
 
 ReturnType AdaptorComp::onError() {
     started_ = false;
@@ -99,10 +103,10 @@ ReturnType AdaptorComp::onDestroy() {
 
 void AdaptorComp::create_mirror_ports() {
     const std::lock_guard lock(mutex_);
-    for (const auto& port : table_.ports) create_mirror_port(port);
-    mirror_ports_created_ = true;
-    spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link, table_.ports.size(),
-                 table_.component);
+    for (const auto& port : peer_ports_.ports) create_mirror_port(port);
+    mirrors_created_ = true;
+    spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
+                 peer_ports_.ports.size(), peer_ports_.component);
 }
 
 void AdaptorComp::create_mirror_port(const link::Port& port) {
@@ -111,10 +115,14 @@ void AdaptorComp::create_mirror_port(const link::Port& port) {
         inputs_.push_back(std::make_unique<MirrorInPort>(port, link_->writer(port.name)));
         addPort(port.name, inputs_.back().get());
         break;
-    case PortKind::data_out:
-        outputs_.push_back(std::make_unique<MirrorOutPort>(port, link_->reader(port.name)));
+    case PortKind::data_out: {
+        const auto set_listener = [this, name = port.name](DataPortListener* listener) {
+            listen_to(name, listener);
+        };
+        outputs_.push_back(std::make_unique<MirrorOutPort>(port, link_->reader(port.name), set_listener));
         addPort(port.name, outputs_.back().get());
         break;
+    }
     case PortKind::service_provided:
         addPort(port.name, new MirrorProvidedPort(port, *link_, settings_.call_timeout));
         break;
@@ -125,36 +133,36 @@ void AdaptorComp::create_mirror_port(const link::Port& port) {
     }
 }
 
-/// A peer that came back must still have every port that stands connected here.
+/// Before the mirrors are created, any table is accepted whose names can be used. Afterwards the ports are
+/// connected, so a peer that came back must still have every one of them with the same type.
 std::string AdaptorComp::check_peer_ports(const link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
-    if (!mirror_ports_created_) {
-        table_ = peer;
+    if (!mirrors_created_) {
+        peer_ports_ = peer;
         return check_names(peer, settings_.link);
     }
-    for (const auto& port : table_.ports) {
-        const auto* now = peer.find(port.name);
-        if (now && *now == port) continue;
+    for (const auto& port : peer_ports_.ports) {
+        const auto* found = peer.find(port.name);
+        if (found && *found == port) continue;
         return fmt::format("link '{}': port '{}' of the peer that came back {}; start this host again",
-                           settings_.link, port.name, now ? "has another type than before" : "is gone");
+                           settings_.link, port.name, found ? "has another type than before" : "is gone");
     }
     return "";
 }
 
-// ---- the peer comes, goes, calls
+// ---- the peer connects, disconnects, calls
 
 void AdaptorComp::link_state_changed(bool) { publish_link_state(); }
 
 void AdaptorComp::peer_connected() {
+    publish_listened_ports();
     if (!started_) return;
     spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
     for (int attempt = 0; attempt < activation_attempts && started_ && link_->is_up(); ++attempt)
-        if (drive(control::activate) == OPROS_SUCCESS) return;
-    if (link_->is_up() && started_.exchange(false))
-        stopOnError(); // while it is down, the next peer is waited for
+        if (drive_rtc(control::activate) == OPROS_SUCCESS) return;
+    // If the link went down meanwhile, the next peer gets the same attempts.
+    if (link_->is_up() && started_.exchange(false)) stopOnError();
 }
-
-void AdaptorComp::peer_disconnected() {}
 
 Reply AdaptorComp::serve(const link::Request& request) {
     if (request.port.empty()) {
@@ -169,7 +177,7 @@ Reply AdaptorComp::serve(const link::Request& request) {
     return Reply::failure(CallStatus::no_such_operation, "no such service port");
 }
 
-/// The peer may call before this half has grown its ports.
+/// nullptr also while the mirrors are not created yet: the peer may call as soon as the link is up.
 MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
     const std::lock_guard lock(mutex_);
     for (auto* port : required_)
@@ -177,43 +185,79 @@ MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
     return nullptr;
 }
 
-// ---- driving the peer
+// ---- commands to the peer
 
-/// An activation may wait for two execution contexts, and for a call that the RTC makes in it.
+/// An activation waits for the execution contexts of two components, and for a call that the RTC may make
+/// from its onActivated: so it gets the time of several calls.
 std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) const {
     return command == control::activate ? 4 * settings_.call_timeout : settings_.call_timeout;
 }
 
-Reply AdaptorComp::control(std::string_view command, std::span<const std::byte> arguments) {
+Reply AdaptorComp::send_command(std::string_view command, std::span<const std::byte> arguments) {
     return link_->call({"", command, "", arguments}, timeout_of(command));
 }
 
+/// Tells the peer which operations are provided here for the services that the RTC requires. Returns an empty
+/// string or why the peer refused them.
 std::string AdaptorComp::publish_bindings() {
     for (const auto* port : required_) {
-        const auto reply = control(
+        const auto reply = send_command(
             control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
-        if (reply.status != CallStatus::ok) return describe(reply, settings_.call_timeout);
+        if (reply.status != CallStatus::ok) return describe_failure(reply, settings_.call_timeout);
     }
     return "";
 }
 
-ReturnType AdaptorComp::drive(std::string_view command) {
+/// Executes a life-cycle command on the RTC; logs one line if that fails.
+ReturnType AdaptorComp::drive_rtc(std::string_view command) {
+    // The RTC may call a service from its onActivated on, so the operations must be known before.
     std::string error = command == control::activate ? publish_bindings() : "";
     if (error.empty()) {
-        const auto reply = control(command);
+        const auto reply = send_command(command);
         if (reply.status == CallStatus::ok) return OPROS_SUCCESS;
-        error = describe(reply, timeout_of(command));
+        error = describe_failure(reply, timeout_of(command));
     }
-    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command, table_.component,
+    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command, peer_ports_.component,
                   error);
     return OPROS_CALL_API_ERROR;
+}
+
+/// Called by a MirrorOutPort under the lock of the input port that is connected with it: does not wait.
+void AdaptorComp::listen_to(const std::string& port, DataPortListener* listener) {
+    if (listener)
+        link_->set_arrival_listener(port, [listener] { listener->arrived(); });
+    else
+        link_->set_arrival_listener(port, {});
+    {
+        const std::lock_guard lock(listened_ports_mutex_);
+        if (listener)
+            listened_ports_.insert(port);
+        else
+            listened_ports_.erase(port);
+    }
+    link_->post([this] { publish_listened_ports(); });
+}
+
+/// Asks the peer to ring the doorbell for the ports that event-driven components wait for. [task-thread]
+void AdaptorComp::publish_listened_ports() {
+    std::vector<std::string> ports;
+    {
+        const std::lock_guard lock(listened_ports_mutex_);
+        ports.assign(listened_ports_.begin(), listened_ports_.end());
+    }
+    if (!link_->is_up()) return; // peer_connected() comes here again
+    const auto reply = send_command(control::listen, control::encode(ports));
+    if (reply.status != CallStatus::ok && link_->is_up())
+        spdlog::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
+                     settings_.link, describe_failure(reply, settings_.call_timeout));
 }
 
 void AdaptorComp::publish_link_state() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
     const std::lock_guard lock(link_state_mutex_);
-    const bool up = link_->is_up(); // looked at here, so that an older answer cannot overtake a newer one
+    // Asked under the lock, so that of two threads the one with the newer state sends last.
+    const bool up = link_->is_up();
     const double stamp = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
     link_state_.push(std::vector<double>{stamp, static_cast<double>(++link_state_sequence_), up ? 1.0 : 0.0});
 }

@@ -13,21 +13,23 @@
 
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace tandem::adaptor {
 
-/// The OPRoS half of the proxy: an ordinary OPRoS component that grows the ports of the RTC behind
-/// InterceptorComp. Starting and stopping it activates and deactivates that RTC; an RTC in ERROR puts it in
-/// ERROR. `linkState` gives {stamp [s], sequence, 1 up / 0 down} whenever the peer comes or goes, and at
-/// start.
+/// The OPRoS half of the proxy: an ordinary OPRoS component that creates mirrors of the ports of the RTC
+/// behind InterceptorComp. Starting and stopping it activates and deactivates that RTC; an RTC in ERROR puts
+/// it in ERROR. Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down}
+/// when the link comes up or goes down, and when the component is started.
 class AdaptorComp final : public Component, private link::LinkHandler {
   public:
     AdaptorComp();
     ~AdaptorComp() override;
 
   protected:
+    // Life cycle, in the host's threads.
     ReturnType onInitialize() override;
     ReturnType onStart() override;
     ReturnType onStop() override;
@@ -35,38 +37,46 @@ class AdaptorComp final : public Component, private link::LinkHandler {
     ReturnType onError() override;
     ReturnType onRecover() override;
     ReturnType onDestroy() override;
+    // It has nothing to execute: data and calls cross the link in the threads of those who ask for them.
     ReturnType onEvent(Event*) override { return OPROS_SUCCESS; }
     ReturnType onExecute() override { return OPROS_SUCCESS; }
     ReturnType onUpdated() override { return OPROS_SUCCESS; }
     ReturnType onPeriodChanged() override { return OPROS_SUCCESS; }
 
   private:
+    // LinkHandler, in the link's threads.
     std::string check_peer_ports(const link::PortTable&) override;
     void link_state_changed(bool up) override;
     void peer_connected() override;
-    void peer_disconnected() override;
+    void peer_disconnected() override {}
     link::Reply serve(const link::Request&) override;
 
     void create_mirror_ports();
     void create_mirror_port(const link::Port&);
     MirrorRequiredPort* find_required_port(std::string_view name);
-    ReturnType drive(std::string_view command);
-    std::string publish_bindings();
+
+    ReturnType drive_rtc(std::string_view command);
+    link::Reply send_command(std::string_view command, std::span<const std::byte> arguments = {});
     std::chrono::milliseconds timeout_of(std::string_view command) const;
-    link::Reply control(std::string_view command, std::span<const std::byte> arguments = {});
+    std::string publish_bindings();
+    void listen_to(const std::string& port, DataPortListener* listener);
+    void publish_listened_ports();
     void publish_link_state();
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
-    std::mutex mutex_; ///< table_, mirror_ports_created_, required_ while it grows
-    link::PortTable table_;
-    bool mirror_ports_created_ = false;
+    std::mutex mutex_; ///< peer_ports_, mirrors_created_, and required_ until the mirrors are created
+    link::PortTable peer_ports_;
+    bool mirrors_created_ = false;
     std::atomic<bool> started_{false}, rtc_failed_{false};
+
+    std::mutex listened_ports_mutex_;
+    std::set<std::string> listened_ports_; ///< whose messages event-driven components wait for
 
     std::vector<std::unique_ptr<MirrorInPort>> inputs_;
     std::vector<std::unique_ptr<MirrorOutPort>> outputs_;
     std::vector<MirrorRequiredPort*> required_; ///< service ports belong to the component, which deletes them
-    std::mutex link_state_mutex_;
+    std::mutex link_state_mutex_;               ///< the members below
     OutputDataPort<std::vector<double>> link_state_;
     std::uint64_t link_state_sequence_ = 0;
 };

@@ -15,14 +15,15 @@ using opros::archive::oarchive;
 
 namespace {
 
+/// Whether a primitive has a counterpart in CDR as both models use it.
 template <class T>
-constexpr bool crosses = !std::is_same_v<T, wchar_t> && !std::is_same_v<T, long double>;
+constexpr bool is_transferable = !std::is_same_v<T, wchar_t> && !std::is_same_v<T, long double>;
 
 template <class T>
 void put(wire::CdrWriter& out, T value) {
     if constexpr (std::is_same_v<T, bool>)
         out.put_bool(value);
-    else if constexpr (crosses<T>)
+    else if constexpr (is_transferable<T>)
         out.put(value);
     else
         throw archive_type_exception();
@@ -30,7 +31,7 @@ void put(wire::CdrWriter& out, T value) {
 
 template <class T>
 void put_all(wire::CdrWriter& out, const T* p, long size) {
-    if constexpr (!crosses<T>)
+    if constexpr (!is_transferable<T>)
         throw archive_type_exception();
     else if (size > 0)
         out.put_block(p, sizeof(T) * static_cast<std::size_t>(size), sizeof(T));
@@ -40,7 +41,7 @@ template <class T>
 void get(wire::CdrReader& in, T& value) {
     if constexpr (std::is_same_v<T, bool>)
         value = in.get_bool();
-    else if constexpr (crosses<T>)
+    else if constexpr (is_transferable<T>)
         value = in.get<T>();
     else
         throw archive_type_exception();
@@ -48,10 +49,10 @@ void get(wire::CdrReader& in, T& value) {
 
 template <class T>
 void get_all(wire::CdrReader& in, T* p, long size) {
-    if constexpr (!crosses<T>) {
+    if constexpr (!is_transferable<T>) {
         throw archive_type_exception();
     } else if constexpr (std::is_same_v<T, bool>) {
-        for (long i = 0; i < size; ++i) p[i] = in.get_bool();
+        for (long i = 0; i < size; ++i) p[i] = in.get_bool(); // one by one: a byte of 2 is not a bool
     } else if (size > 0) {
         const auto block = in.get_block(sizeof(T) * static_cast<std::size_t>(size), sizeof(T));
         if (!block.empty()) std::memcpy(p, block.data(), block.size());
@@ -60,9 +61,10 @@ void get_all(wire::CdrReader& in, T* p, long size) {
 
 } // namespace
 
-/// The time is the first thing that its value writes, as two unsigned ints: the signatures say so.
+/// Takes `value` as a word of the leading time if one is still missing. The signatures were compared before,
+/// so the first two words that the value writes are known to be RTM's seconds and nanoseconds.
 template <class T>
-bool CdrOarchive::is_time_word(T value) {
+bool CdrOarchive::store_time_word(T value) {
     if (!std::is_same_v<T, unsigned int> || time_words_left_ == 0) return false;
     const bool seconds = time_words_left_-- == 2;
     const auto word = static_cast<std::uint32_t>(value);
@@ -70,8 +72,9 @@ bool CdrOarchive::is_time_word(T value) {
     return true;
 }
 
+/// The same in the other direction.
 template <class T>
-bool CdrIarchive::is_time_word(T& value) {
+bool CdrIarchive::load_time_word(T& value) {
     if (!std::is_same_v<T, unsigned int> || time_words_left_ == 0) return false;
     value =
         static_cast<T>(time_words_left_-- == 2 ? wire::stamp_seconds(time_) : wire::stamp_nanoseconds(time_));
@@ -80,7 +83,7 @@ bool CdrIarchive::is_time_word(T& value) {
 
 #define TANDEM_SAVE(type)                                                                                    \
     oarchive& CdrOarchive::save(type value) {                                                                \
-        if (!is_time_word(value)) put(out_, value);                                                          \
+        if (!store_time_word(value)) put(out_, value);                                                       \
         return *this;                                                                                        \
     }                                                                                                        \
     oarchive& CdrOarchive::save_array(const type* p, long size) {                                            \
@@ -91,7 +94,7 @@ OPROS_FOR_EACH_PRIMITIVE(TANDEM_SAVE)
 #undef TANDEM_SAVE
 
 oarchive& CdrOarchive::save(const std::string& value) {
-    // CORBA strings cannot hold a NUL; what follows one would be lost on the way without a word.
+    // CORBA strings cannot hold a NUL: the receiver would silently lose what follows it.
     if (value.find('\0') != std::string::npos) throw archive_type_exception();
     out_.put_string(value);
     return *this;
@@ -116,7 +119,7 @@ void CdrIarchive::check() const {
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& CdrIarchive::load(type& value) {                                                               \
-        if (is_time_word(value)) return *this;                                                               \
+        if (load_time_word(value)) return *this;                                                             \
         get(in_, value);                                                                                     \
         check();                                                                                             \
         return *this;                                                                                        \

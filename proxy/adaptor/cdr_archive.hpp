@@ -7,13 +7,14 @@
 
 namespace tandem::adaptor {
 
-/// Lets a type's own serialization write CDR: classes leave no trace, a sequence is its count and its
-/// elements, as in the CDR of the IDL structure with the same members. `long` is 8 bytes. Throws
+/// Lets a type's own serialization write CDR. The bytes are those of the IDL structure with the same members:
+/// a class adds none, a sequence is its count and its elements, `long` is 8 bytes. Throws
 /// archive_type_exception for long double and wide characters, which have no counterpart.
 class CdrOarchive final : public opros::archive::oarchive {
   public:
     explicit CdrOarchive(wire::CdrWriter& out) : out_(out) {}
-    /// For a value that begins with RTM's time, which travels in the message's header: it goes to `stamp`.
+    /// For a value that begins with RTM's time: that goes to `stamp`, for the message header, and is left out
+    /// of the payload.
     CdrOarchive(wire::CdrWriter& out, std::uint64_t& stamp) : out_(out), time_(&stamp), time_words_left_(2) {}
 
 #define TANDEM_SAVE(type)                                                                                    \
@@ -30,19 +31,19 @@ class CdrOarchive final : public opros::archive::oarchive {
 
   private:
     template <class T>
-    bool is_time_word(T value);
+    bool store_time_word(T value);
 
     wire::CdrWriter& out_;
     std::uint64_t* time_ = nullptr;
-    int time_words_left_ = 0; ///< of its two words
+    int time_words_left_ = 0; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
 };
 
-/// Lets a type's own serialization read CDR. Throws archive_type_exception when the bytes do not hold what it
-/// asks for.
+/// Lets a type's own serialization read CDR. The bytes come from another process: every read is checked, and
+/// archive_type_exception is thrown when they do not hold what is asked for.
 class CdrIarchive final : public opros::archive::iarchive {
   public:
     explicit CdrIarchive(wire::CdrReader in) : in_(in) {}
-    /// For a value that begins with RTM's time, which `stamp` holds and the message does not.
+    /// For a value that begins with RTM's time: that comes from `stamp`, the payload does not hold it.
     CdrIarchive(wire::CdrReader in, std::uint64_t stamp) : in_(in), time_(stamp), time_words_left_(2) {}
 
 #define TANDEM_LOAD(type)                                                                                    \
@@ -59,12 +60,12 @@ class CdrIarchive final : public opros::archive::iarchive {
 
   private:
     template <class T>
-    bool is_time_word(T& value);
+    bool load_time_word(T& value);
     void check() const;
 
     wire::CdrReader in_;
     std::uint64_t time_ = 0;
-    int time_words_left_ = 0; ///< of its two words
+    int time_words_left_ = 0; ///< 2: seconds are next; 1: nanoseconds; 0: no time, or done with it
 };
 
 } // namespace tandem::adaptor

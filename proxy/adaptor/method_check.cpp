@@ -10,33 +10,36 @@
 
 namespace tandem::adaptor {
 
-std::optional<std::string> signature_of(Method& method) {
+std::optional<std::string> method_signature(Method& method) {
     SignatureArchive arguments, result;
     try {
         if (!method.describe(arguments, result)) return std::nullopt;
     } catch (const std::exception&) {
         return std::nullopt;
     }
+    // The archive writes down what it is asked for; parsing brings that into the canonical form.
     const auto operation = wire::parse_operation_signature(arguments.signature() + ":" + result.signature());
     return operation.arguments + ":" + operation.result;
 }
 
 std::string check_method(const link::Port& peer, const std::string& name, const std::string& signature) {
+    // An interface whose IDL the RTM host does not know has no operations in the table: the call itself will
+    // show whether they fit.
     if (peer.operations.empty()) return "";
     const auto known = std::find_if(peer.operations.begin(), peer.operations.end(),
                                     [&](const auto& operation) { return operation.name == name; });
     if (known == peer.operations.end())
         return fmt::format("service port '{}': the peer's interface {} has no operation '{}'", peer.name,
                            peer.type, name);
-    const auto theirs = wire::parse_operation_signature(known->signature);
-    if (theirs == wire::parse_operation_signature(signature)) return "";
+    const auto peer_signature = wire::parse_operation_signature(known->signature);
+    if (peer_signature == wire::parse_operation_signature(signature)) return "";
     return fmt::format(
         "service port '{}': method '{}' has signature '{}', the peer's operation of interface {} has "
         "'{}'",
         peer.name, name, signature, peer.type, known->signature);
 }
 
-std::string describe(const link::Reply& reply, std::chrono::milliseconds call_timeout) {
+std::string describe_failure(const link::Reply& reply, std::chrono::milliseconds call_timeout) {
     switch (reply.status) {
     case link::CallStatus::timeout:
         return fmt::format("no reply within {} ms", call_timeout.count());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/link_handler.hpp"
 #include "proxy/link/port_table.hpp"
+#include "proxy/link/reply.hpp"
 
 #include <Method.h>
 
@@ -12,14 +12,16 @@
 
 namespace tandem::adaptor {
 
-/// `arguments:result` of an OPRoS method; nothing when one of its types cannot be archived.
-std::optional<std::string> signature_of(Method& method);
+/// The operation signature `arguments:result` of an OPRoS method, learned by letting it describe itself to a
+/// SignatureArchive; nothing when one of its types cannot be serialized.
+std::optional<std::string> method_signature(Method& method);
 
-/// Empty when the peer's port has an operation of that name and signature, or does not know its
-/// operations; otherwise one line with both signatures.
+/// Returns an empty string when the peer's service port has an operation of that name and signature, or does
+/// not know its operations; otherwise one line with both signatures.
 std::string check_method(const link::Port& peer, const std::string& name, const std::string& signature);
 
-/// What went wrong with a call, for a message.
-std::string describe(const link::Reply& reply, std::chrono::milliseconds call_timeout);
+/// Why a call failed, for a message: the reply's own text where it has one. `call_timeout` is what the caller
+/// waited at most.
+std::string describe_failure(const link::Reply& reply, std::chrono::milliseconds call_timeout);
 
 } // namespace tandem::adaptor

@@ -22,13 +22,15 @@ bool MirrorInPort::checkType(opros_any& sample) {
 ReturnType MirrorInPort::push(opros_any& value) {
     std::uint64_t stamp = value_has_time_ ? 0 : wire::wall_clock_stamp();
     try {
+        // The channel reads `stamp` after this function has run, so the archive may still set it.
         const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
             CdrOarchive archive = value_has_time_ ? CdrOarchive(out, stamp) : CdrOarchive(out);
             value.encode(archive);
         });
         return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
     } catch (const std::exception&) {
-        return OPROS_BAD_INPUT_PARAMETER; // a value, not a type, that cannot cross: a string with a NUL in it
+        // checkType() has accepted the type; single values may still not cross, as a string with a NUL in it.
+        return OPROS_BAD_INPUT_PARAMETER;
     }
 }
 

@@ -10,17 +10,22 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors an input data port of the peer: what an OPRoS component pushes here is encoded straight into
-/// the ring, in the pushing thread. Never blocks.
+/// Mirrors an input data port of the peer: an OPRoS component's push() encodes the value into the link's
+/// channel, in the pushing thread, and never blocks. The channel's ring overwrites old messages, so a short
+/// message is encoded into a buffer of the ring's and copied from there when it is published; one that is too
+/// long for the ring is encoded in the chunk of shared memory in which it travels.
 class MirrorInPort final : public InputDataPortInterface {
   public:
+    /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     MirrorInPort(link::Port peer, link::ChannelWriter& channel);
 
+    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot be encoded.
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
 
-    /// Called at connection with a sample of what will be pushed: its signature must fit the peer's.
+    /// Called when the host connects this port, with a sample of what will be pushed: its signature must match
+    /// the peer's.
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
     std::string typeError() const override { return type_error_; }
@@ -28,7 +33,7 @@ class MirrorInPort final : public InputDataPortInterface {
   private:
     const link::Port peer_;
     link::ChannelWriter& channel_;
-    bool value_has_time_ = false;
+    bool value_has_time_ = false; ///< the OPRoS type begins with RTM's time, which the message header carries
     std::string type_error_;
 };
 

@@ -9,8 +9,8 @@
 
 namespace tandem::adaptor {
 
-MirrorOutPort::MirrorOutPort(link::Port peer, link::ChannelReader& channel)
-    : peer_(std::move(peer)), channel_(channel) {}
+MirrorOutPort::MirrorOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener)
+    : peer_(std::move(peer)), channel_(channel), set_listener_(std::move(set_listener)) {}
 
 MirrorOutPort::~MirrorOutPort() { detach(); }
 
@@ -42,26 +42,33 @@ void MirrorOutPort::detach() {
 }
 
 opros::archive::iarchive* MirrorOutPort::next() {
-    held_ = channel_.hold();
-    const auto record = channel_.next();
+    channel_lock_ = channel_.lock();
+    const auto record = channel_.read_locked();
     if (!record) {
-        held_.unlock();
+        channel_lock_.unlock();
         return nullptr;
     }
-    record_bytes_ = record->bytes.size();
+    message_bytes_ = record->bytes.size();
     const wire::CdrReader reader(record->bytes);
     return value_has_time_ ? &archive_.emplace(reader, record->stamp_ns) : &archive_.emplace(reader);
 }
 
 void MirrorOutPort::done() {
     archive_.reset();
-    held_.unlock();
+    channel_lock_.unlock();
+}
+
+bool MirrorOutPort::setListener(DataPortListener* listener) {
+    // The peer is asked to ring the doorbell only when that changes: it costs a call across the link.
+    if (listener != listener_) set_listener_(listener);
+    listener_ = listener;
+    return true;
 }
 
 void MirrorOutPort::undecodable(const std::string& why) {
     if (undecodable_.should_log())
         spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
-                      peer_.name, record_bytes_, why, undecodable_.count());
+                      peer_.name, message_bytes_, why, undecodable_.count());
 }
 
 } // namespace tandem::adaptor

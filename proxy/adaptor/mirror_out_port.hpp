@@ -10,44 +10,57 @@
 #include <InputDataPortInterface.h>
 #include <OutputDataPort.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace tandem::adaptor {
 
-/// Mirrors an output data port of the peer. The one OPRoS input port connected to it polls the ring
-/// itself, through the DataPortSource that this port is to it.
+/// Mirrors an output data port of the peer. It pushes nothing: the one OPRoS input port that is connected with
+/// it reads the ring of the link in its component's own thread, through the DataPortSource that this port is
+/// to it. An event-driven consumer is told by the link's doorbell when to read.
 class MirrorOutPort final : public OutputDataPortInterface, private DataPortSource {
   public:
-    MirrorOutPort(link::Port peer, link::ChannelReader& channel);
+    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
+    using SetListener = std::function<void(DataPortListener*)>;
+
+    /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
+    MirrorOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener);
     ~MirrorOutPort() override;
 
+    // Values come from the link only.
     ReturnType push(opros_any&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType marshal(opros_any&, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
 
     bool checkType(opros_any&) override { return true; }
-    /// Called at connection: learns the target's type and becomes its source. One target at a time.
+    /// Called when the host connects this port: compares the target's type with the peer's signature and
+    /// becomes the target's source. One target at a time, because a ring has one reader.
     bool checkType(DataPort* target) override;
     std::string typeError() const override { return type_error_; }
     void removeConnection(IDataPortLink*) override { detach(); }
     void clearConnection() override { detach(); }
 
   private:
+    // DataPortSource, called by the target under its own lock: one thread at a time.
     opros::archive::iarchive* next() override;
     void done() override;
-    bool large() const override { return record_bytes_ > link::large_message_bytes; }
+    bool large() const override { return message_bytes_ > link::large_message_bytes; }
+    bool setListener(DataPortListener* listener) override;
     void undecodable(const std::string& why) override;
     void detach();
 
     const link::Port peer_;
     link::ChannelReader& channel_;
+    const SetListener set_listener_;
     InputDataPortInterface* target_ = nullptr;
-    bool value_has_time_ = false;
+    DataPortListener* listener_ = nullptr;
+    bool value_has_time_ = false; ///< the OPRoS type begins with RTM's time, which the message header carries
     std::string type_error_;
 
-    std::unique_lock<std::mutex> held_; ///< from next() to done(): the record must stay while it is read
-    std::size_t record_bytes_ = 0;
+    /// From next() to done(): the message's memory must not be reused while it is decoded.
+    std::unique_lock<std::mutex> channel_lock_;
+    std::size_t message_bytes_ = 0; ///< of the last message
     link::LogThrottle undecodable_;
     std::optional<CdrIarchive> archive_;
 };

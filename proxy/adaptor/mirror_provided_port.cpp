@@ -15,7 +15,7 @@ MirrorProvidedPort::MirrorProvidedPort(link::Port peer, link::Link& link,
     : peer_(std::move(peer)), link_(link), call_timeout_(call_timeout) {}
 
 std::string MirrorProvidedPort::bindMethod(Method* required) {
-    const auto signature = signature_of(*required);
+    const auto signature = method_signature(*required);
     if (!signature)
         return fmt::format(
             "service port '{}': method '{}' has an argument or result that cannot cross the link", peer_.name,
@@ -36,7 +36,7 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
     const auto reply = link_.call({peer_.name, name, bound->second, bytes}, call_timeout_);
     if (reply.status != link::CallStatus::ok)
         throw MethodInvokeException(
-            fmt::format("service '{}.{}': {}", peer_.name, name, describe(reply, call_timeout_)));
+            fmt::format("service '{}.{}': {}", peer_.name, name, describe_failure(reply, call_timeout_)));
     CdrIarchive results{wire::CdrReader(reply.bytes)};
     result.decode(results);
     return OPROS_SUCCESS;

@@ -17,27 +17,28 @@ using link::Reply;
 
 MirrorRequiredPort::MirrorRequiredPort(link::Port peer) : peer_(std::move(peer)) {}
 
+/// Waits for calls that are being served: the port that they use may be destroyed after this function.
 std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
     const std::unique_lock lock(mutex_);
     signatures_.clear();
     provided_ = nullptr;
     if (!provided) return "";
-    const std::string error = collect(*provided);
+    const std::string error = collect_signatures(*provided);
     if (error.empty()) provided_ = provided;
     return error;
 }
 
-std::string MirrorRequiredPort::collect(ProvidedServicePort& provided) {
+std::string MirrorRequiredPort::collect_signatures(ProvidedServicePort& provided) {
     for (auto at = provided.getFirst(); at != provided.getEnd(); ++at)
-        if (const auto signature = signature_of(*at->second)) signatures_[at->first] = *signature;
+        if (const auto signature = method_signature(*at->second)) signatures_[at->first] = *signature;
     for (const auto& wanted : peer_.operations) {
-        const auto ours = signatures_.find(wanted.name);
-        if (ours == signatures_.end())
+        const auto provided_method = signatures_.find(wanted.name);
+        if (provided_method == signatures_.end())
             return fmt::format(
                 "service port '{}': the peer requires operation '{}' ({}), which the connected port "
                 "does not provide with types that can cross the link",
                 peer_.name, wanted.name, wanted.signature);
-        const auto error = check_method(peer_, ours->first, ours->second);
+        const auto error = check_method(peer_, provided_method->first, provided_method->second);
         if (!error.empty()) return error;
     }
     return "";
@@ -78,7 +79,8 @@ Reply MirrorRequiredPort::invoke(const link::Request& request) {
         return Reply::failure(CallStatus::bad_arguments, "the arguments do not decode");
     } catch (const std::exception& error) {
         return Reply::failure(CallStatus::exception, error.what());
-    } catch (...) { // a component may throw anything; it must reach the caller as a reply, not end a worker
+    } catch (...) {
+        // A component may throw anything. The caller must learn of it, and the worker thread must survive it.
         return Reply::failure(CallStatus::exception,
                               "the OPRoS method threw something that is no std::exception");
     }

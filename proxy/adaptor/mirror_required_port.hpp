@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/link_handler.hpp"
 #include "proxy/link/port_table.hpp"
+#include "proxy/link/reply.hpp"
+#include "proxy/link/request.hpp"
 
 #include <RequiredServicePort.h>
 
@@ -12,31 +13,33 @@
 
 namespace tandem::adaptor {
 
-/// Mirrors a service port that the peer requires: the peer's calls are made on the OPRoS port connected
-/// here, by whatever methods it provides.
+/// Mirrors a service port that the peer requires: the peer's calls are executed by the OPRoS service port that
+/// is connected here. Methods are found by name and checked by signature; no stub is compiled for them.
 class MirrorRequiredPort final : public RequiredServicePort {
   public:
     explicit MirrorRequiredPort(link::Port peer);
 
     bool isDynamic() const override { return true; }
-    /// At connection: every operation that the peer requires must be there with its signature.
+    /// Called when the host connects this port, or with nullptr disconnects it. Returns an empty string, or
+    /// one line naming an operation that the peer requires and the provided port lacks or has otherwise.
     std::string bindProvided(ProvidedServicePort* provided) override;
 
-    /// Name and signature of what is provided; empty while nothing is connected.
+    /// Name and signature of each method that is provided; empty while nothing is connected. [any-thread]
     std::vector<link::ServiceOperation> operations() const;
     const std::string& port() const { return peer_.name; }
 
-    /// Runs one call. [worker-thread]
+    /// Executes one call of the peer. Failures, thrown exceptions included, are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
 
   private:
-    std::string collect(ProvidedServicePort& provided);
+    std::string collect_signatures(ProvidedServicePort& provided);
     link::Reply invoke(const link::Request& request);
 
     const link::Port peer_;
-    mutable std::shared_mutex mutex_; ///< taken alone to bind, so that no call runs in a port that is going
+    mutable std::shared_mutex
+        mutex_; ///< exclusive to bind, shared to serve: no call runs in a port that goes
     ProvidedServicePort* provided_ = nullptr;
-    std::map<std::string, std::string> signatures_;
+    std::map<std::string, std::string> signatures_; ///< by method name
 };
 
 } // namespace tandem::adaptor

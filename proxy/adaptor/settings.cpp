@@ -11,10 +11,10 @@ namespace tandem::adaptor {
 namespace {
 
 double number(const std::map<std::string, std::string>& properties, const std::string& name,
-              double otherwise) {
+              double default_value) {
     const auto at = properties.find(name);
-    return at == properties.end() ? otherwise
-                                  : link::positive_number("property", name, at->second, otherwise);
+    return at == properties.end() ? default_value
+                                  : link::positive_number("property", name, at->second, default_value);
 }
 
 } // namespace

@@ -7,16 +7,18 @@
 
 namespace tandem::adaptor {
 
-/// AdaptorComp's properties.
+/// AdaptorComp's properties, from its component profile or the application profile; the README of the project
+/// describes them for users.
 struct Settings {
-    std::string link;                              ///< `link`: the name that InterceptorComp has, too
-    std::chrono::milliseconds wait{10'000};        ///< `wait` [s]: how long the peer may take to come
+    std::string link;                       ///< `link`: the name of the link, the same as InterceptorComp's
+    std::chrono::milliseconds wait{10'000}; ///< `wait` [s]: how long to wait for the peer
     std::chrono::milliseconds call_timeout{1'000}; ///< `call_timeout` [ms]: of each call across the link
     std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port, see README
-    std::size_t segment_bytes = 4 * 1024 * 1024;   ///< `segment_mib`: that each half may lay out
+    std::size_t segment_bytes =
+        4 * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
 };
 
-/// Throws std::runtime_error, one line, when `link` is missing or a number is none.
+/// Throws std::runtime_error, one line, when `link` is missing or another property is not a number above 0.
 Settings read_settings(const std::map<std::string, std::string>& properties);
 
 } // namespace tandem::adaptor

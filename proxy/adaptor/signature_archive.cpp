@@ -9,6 +9,8 @@ using opros::archive::iarchive;
 
 namespace {
 
+/// The type code of an OPRoS primitive; 0 for one that cannot cross the link. `long` has the code of its size,
+/// so that the same source means the same on both hosts, which run on one machine.
 template <class T>
 constexpr char code() {
     if constexpr (std::is_same_v<T, bool>)
@@ -50,7 +52,7 @@ iarchive& SignatureArchive::load(std::wstring&) { throw opros::archive::archive_
 
 iarchive& SignatureArchive::load_binary(char** p, long& size) {
     signature_ += "ay";
-    if (*p == nullptr) *p = new char[1](); // the caller frees what it was given
+    if (*p == nullptr) *p = new char[1](); // by the archive's contract the caller deletes it
     size = 0;
     return *this;
 }

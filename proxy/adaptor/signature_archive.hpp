@@ -7,11 +7,13 @@
 
 namespace tandem::adaptor {
 
-/// Learns a type's signature by letting the type load itself: gives zeros, claims one element in every
-/// sequence, and writes down what it is asked for. A user's load() that asks for different things depending
-/// on what it was given shows the branch that zeros lead to.
+/// Learns a type's signature by letting the type's own load() read from it: returns zeros, claims one element
+/// in every sequence, and appends the type code of whatever is asked for (see proxy/wire/README.md). A load()
+/// that reads different members depending on the values it got shows the branch that zeros lead to. Throws
+/// archive_type_exception for long double and wide characters, which CDR cannot carry here.
 class SignatureArchive final : public opros::archive::iarchive {
   public:
+    /// What was asked for so far; not in canonical form, since classes leave parentheses.
     const std::string& signature() const { return signature_; }
 
 #define TANDEM_LOAD(type) iarchive& load(type& value) override;

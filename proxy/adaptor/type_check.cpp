@@ -8,9 +8,9 @@
 
 namespace tandem::adaptor {
 
-std::string signature_of(const opros_any& sample) {
+std::string value_signature(const opros_any& sample) {
     SignatureArchive recorder;
-    opros_any scratch(sample);
+    opros_any scratch(sample); // decode() overwrites it, and the sample belongs to the port
     scratch.decode(recorder);
     return wire::to_signature(wire::parse_signature(recorder.signature()));
 }
@@ -25,7 +25,7 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer) {
                 peer.name, sample.type())};
     std::string signature;
     try {
-        signature = signature_of(sample);
+        signature = value_signature(sample);
     } catch (const std::exception&) {
         return {
             wire::SignatureMatch::mismatch,

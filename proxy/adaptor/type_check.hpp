@@ -10,16 +10,19 @@
 
 namespace tandem::adaptor {
 
+/// The result of check_type().
 struct TypeCheck {
-    wire::SignatureMatch match = wire::SignatureMatch::mismatch;
+    wire::SignatureMatch match = wire::SignatureMatch::mismatch; ///< from the OPRoS type to the peer's
     std::string error; ///< empty, or one line with both types and signatures
 };
 
-/// Whether values of the sample's type may go to, or come from, the peer's port. The match is seen from
-/// the OPRoS side: add_time means that the peer's message has RTM's time and the value has not.
+/// Compares the type of an OPRoS data port, of which `sample` is a value, with the signature of the peer's
+/// port. Accepted are equal signatures, and add_time: the peer's message begins with RTM's time and the OPRoS
+/// value does not. Throws nothing; the error is in the result.
 TypeCheck check_type(const opros_any& sample, const link::Port& peer);
 
-/// Signature of the type the sample holds. Throws archive_type_exception when it cannot be serialized.
-std::string signature_of(const opros_any& sample);
+/// The signature of the type that the sample holds, in canonical form. Throws archive_type_exception when the
+/// type cannot be serialized.
+std::string value_signature(const opros_any& sample);
 
 } // namespace tandem::adaptor

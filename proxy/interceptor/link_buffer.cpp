@@ -67,7 +67,7 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
 
 /// Without a peer the message is gone and counted; the RTC goes on as with an unconnected port.
 BufferStatus LinkBuffer::sent(bool sent) const {
-    return sent || !channel_.writer->bound() ? BufferStatus::OK : BufferStatus::FULL;
+    return sent || !channel_.writer->is_bound() ? BufferStatus::OK : BufferStatus::FULL;
 }
 
 BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {

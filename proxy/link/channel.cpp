@@ -9,33 +9,48 @@
 
 namespace tandem::link {
 
-/// Says why, for the ring has only counted it. A ring that drops the oldest has room for all but what is too
-/// long for it, and chunks for which /dev/shm has no memory.
-bool ChannelWriter::refused(std::size_t bytes) {
-    const std::size_t limit = bound_->end.longest();
+// ---- ChannelWriter; the private functions are called with mutex_ held
+
+bool ChannelWriter::publish(std::size_t bytes, std::uint64_t stamp) {
+    if (!bound_->ring.commit(bytes, stamp, 0)) return false;
+    // After the commit, so that whoever the doorbell wakes finds the message.
+    if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
+    return true;
+}
+
+bool ChannelWriter::count_without_peer() {
+    ++dropped_without_peer_;
+    return false;
+}
+
+/// Logs why the ring refused a message of that length; the ring itself only counts it. Rings that drop the
+/// oldest message refuse for two reasons: the message is longer than a chunk, or /dev/shm has no memory left
+/// for the chunk. Always returns false.
+bool ChannelWriter::report_refusal(std::size_t bytes) {
+    const std::size_t limit = bound_->ring.longest();
     if (bytes > limit) {
+        // Once per limit: a component sends such messages in every cycle.
         if (limit != std::exchange(reported_limit_, limit))
-            spdlog::error(
-                "port '{}': a message of {} bytes is longer than {} and is dropped, as all such will be; "
-                "raise large_kib to {} or more",
-                port_, bytes, limit, (bytes + 1023) / 1024);
-    } else if (!bound_->end.corrupt() && no_memory_.should_log()) {
-        spdlog::error(
-            "port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} bytes "
-            "are available: free some or enlarge it",
-            port_, bytes, shm::shm_directory, no_memory_.count(), shm::available_bytes().value_or(0));
+            spdlog::error("port '{}': a message of {} bytes is longer than {} and is dropped, as all such "
+                          "will be; raise large_kib to {} or more",
+                          port_, bytes, limit, (bytes + 1023) / 1024);
+    } else if (!bound_->ring.corrupt() && no_memory_.should_log()) {
+        spdlog::error("port '{}': a message of {} bytes finds no memory in {} and is dropped, {} so far; {} "
+                      "bytes are available: free some or enlarge it",
+                      port_, bytes, shm::shm_directory, no_memory_.count(),
+                      shm::available_bytes().value_or(0));
     }
     return false;
 }
 
-bool ChannelWriter::bound() const {
+bool ChannelWriter::is_bound() const {
     const std::lock_guard lock(mutex_);
     return bound_.has_value();
 }
 
 bool ChannelWriter::corrupt() const {
     const std::lock_guard lock(mutex_);
-    return bound_ && bound_->end.corrupt();
+    return bound_ && bound_->ring.corrupt();
 }
 
 std::uint64_t ChannelWriter::dropped_without_peer() const {
@@ -45,37 +60,40 @@ std::uint64_t ChannelWriter::dropped_without_peer() const {
 
 shm::RingCounters ChannelWriter::counters() const {
     const std::lock_guard lock(mutex_);
-    return bound_ ? bound_->end.counters() : shm::RingCounters{};
+    return bound_ ? bound_->ring.counters() : shm::RingCounters{};
 }
 
-void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter end) {
+void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter ring) {
     const std::lock_guard lock(mutex_);
-    bound_.emplace(Bound<shm::RingWriter>{std::move(segment), std::move(end)});
+    bound_.emplace(BoundRing<shm::RingWriter>{std::move(segment), std::move(ring)});
 }
 
 void ChannelWriter::unbind() {
     const std::lock_guard lock(mutex_);
     bound_.reset();
+    set_peer_listens(false);
 }
+
+// ---- ChannelReader
 
 bool ChannelReader::corrupt() const {
     const std::lock_guard lock(mutex_);
-    return bound_ && bound_->end.corrupt();
+    return bound_ && bound_->ring.corrupt();
 }
 
 bool ChannelReader::empty() const {
     const std::lock_guard lock(mutex_);
-    return !bound_ || bound_->end.empty();
+    return !bound_ || bound_->ring.empty();
 }
 
 shm::RingCounters ChannelReader::counters() const {
     const std::lock_guard lock(mutex_);
-    return bound_ ? bound_->end.counters() : shm::RingCounters{};
+    return bound_ ? bound_->ring.counters() : shm::RingCounters{};
 }
 
-void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader end) {
+void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader ring) {
     const std::lock_guard lock(mutex_);
-    bound_.emplace(Bound<shm::RingReader>{std::move(segment), std::move(end)});
+    bound_.emplace(BoundRing<shm::RingReader>{std::move(segment), std::move(ring)});
 }
 
 void ChannelReader::unbind() {

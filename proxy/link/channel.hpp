@@ -5,6 +5,7 @@
 #include "proxy/wire/cdr.hpp"
 #include "shm/segment.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -13,104 +14,123 @@
 
 namespace tandem::link {
 
-/// From here on, handing a message over without a copy is worth more than to do it as always.
+/// From this length on it pays to encode a message where the peer will read it, even though that takes a
+/// first pass to learn its length: the copy that it saves costs more.
 constexpr std::size_t large_message_bytes = std::size_t{64} * 1024;
 
-/// What an end of a channel is bound to: a ring, and the segment that keeps it mapped.
-template <class End>
-struct Bound {
+/// The bit of a doorbell that says "a message was written". One for all ports: ArrivalNotifier finds out
+/// which port it was by comparing counters, so the two sides need not agree on numbers for ports.
+constexpr unsigned message_bit = 0;
+
+/// A ring, and the segment that keeps it mapped.
+template <class Ring>
+struct BoundRing {
     std::shared_ptr<shm::Segment> segment;
-    End end;
+    Ring ring;
 };
 
-/// Sending end of a data port across the link. It outlives the peer: unbound, it counts what nobody could
-/// get. The mutex is this process's own and is held by others only while the link is bound or unbound.
+/// The sending end of a data port across the link. It outlives the peer: while it is not bound to a ring, it
+/// counts the messages that nobody could receive. Its mutex belongs to this process; other threads hold it
+/// only to bind, unbind and read counters.
 class ChannelWriter {
   public:
     explicit ChannelWriter(std::string port) : port_(std::move(port)) {}
 
-    /// Publishes what encode(CdrWriter&) writes: where the peer will read it, if it is too long for the
-    /// ring itself. Then encode is called twice, the first time only to learn the length. `stamp` is read
-    /// afterwards: encode may set it. False: no peer, or the ring refused the message. [any-thread]
+    /// Publishes what `encode(CdrWriter&)` writes. A message too long for the ring goes to a chunk in shared
+    /// memory; then encode is called twice, the first time only to learn the length. `stamp` is read after
+    /// encode, which may set it. False: no peer, or the ring refused the message. [any-thread]
     template <class Encode>
     bool write(const std::uint64_t& stamp, Encode&& encode) {
         const std::lock_guard lock(mutex_);
-        if (!bound_) return ++dropped_without_peer_, false;
-        std::size_t bytes = bound_->end.in_ring();
+        if (!bound_) return count_without_peer();
+        std::size_t bytes = bound_->ring.in_ring();
         for (int attempt = 0; attempt < 2; ++attempt) {
-            const auto room = bound_->end.reserve(bytes);
-            if (room.data() == nullptr) return refused(bytes);
+            const auto room = bound_->ring.reserve(bytes);
+            if (room.data() == nullptr) return report_refusal(bytes);
             wire::CdrWriter writer(room);
             encode(writer);
-            if (writer.fits()) return bound_->end.commit(writer.size(), stamp, 0);
-            bound_->end.abandon();
+            if (writer.fits()) return publish(writer.size(), stamp);
+            bound_->ring.abandon();
             bytes = writer.size();
         }
-        return false;
+        return false; // encode wrote more the second time: the value was changed meanwhile
     }
 
-    /// The same for a message of known length: fill(std::span<std::byte>) writes all of it, or returns false
-    /// to send nothing after all.
+    /// The same for a message of known length: `fill(std::span<std::byte>)` writes all of it, or returns
+    /// false to send nothing after all.
     template <class Fill>
     bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
-        if (!bound_) return ++dropped_without_peer_, false;
-        const auto room = bound_->end.reserve(bytes);
-        if (room.data() == nullptr) return refused(bytes);
-        const bool filled = fill(room);
-        if (!filled) bound_->end.abandon();
-        return filled && bound_->end.commit(bytes, stamp, 0);
+        if (!bound_) return count_without_peer();
+        const auto room = bound_->ring.reserve(bytes);
+        if (room.data() == nullptr) return report_refusal(bytes);
+        if (fill(room)) return publish(bytes, stamp);
+        bound_->ring.abandon();
+        return false;
     }
 
-    bool bound() const;
+    bool is_bound() const;
+    /// True if the ring was damaged by another process; nothing more is sent through it.
     bool corrupt() const;
     /// Messages written while there was no peer.
     std::uint64_t dropped_without_peer() const;
-    shm::RingCounters counters() const;
+    shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
+
+    /// Whether the peer waits for messages of this port: then each one rings its doorbell, which costs a
+    /// system call if it sleeps. Ends with unbind(), because the next peer has to ask for it again.
+    void set_peer_listens(bool listens) { peer_listens_.store(listens, std::memory_order_relaxed); }
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingWriter);
     void unbind();
 
   private:
-    bool refused(std::size_t bytes);
+    bool publish(std::size_t bytes, std::uint64_t stamp);
+    bool count_without_peer();
+    bool report_refusal(std::size_t bytes);
 
     mutable std::mutex mutex_;
-    std::optional<Bound<shm::RingWriter>> bound_;
+    std::optional<BoundRing<shm::RingWriter>> bound_;
     const std::string port_;
+    std::atomic<bool> peer_listens_{false};
     std::uint64_t dropped_without_peer_ = 0;
-    std::size_t reported_limit_ = 0; ///< that a message was longer than has been said
+    std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     LogThrottle no_memory_;
 };
 
-/// Receiving end. What is read lies in the shared ring itself: no thread hands it over.
+/// The receiving end of a data port across the link. Messages are read from the shared ring in the thread of
+/// the component that asks for them; no other thread hands them over. Unbound, it is empty.
 class ChannelReader {
   public:
     bool empty() const;
+    /// True if the ring was damaged by another process; nothing more is received through it.
     bool corrupt() const;
-    /// The oldest message that was not read, newest if asked for; passed to use(Record) while the channel is
-    /// held.
+
+    /// Passes the oldest message that was not read, or with `newest` the newest, to `use(const Record&)`.
+    /// The record is valid only during that call, since its memory is reused by the next read. False: there
+    /// is none. [any-thread]
     template <class Use>
     bool read(bool newest, Use&& use) {
         const std::lock_guard lock(mutex_);
         if (!bound_) return false;
-        const auto record = newest ? bound_->end.read_newest() : bound_->end.read();
+        const auto record = newest ? bound_->ring.read_newest() : bound_->ring.read();
         if (!record) return false;
         use(*record);
         return true;
     }
 
-    /// For readers that take the message apart step by step: lock, then next() and finally unlock.
-    std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
-    std::optional<shm::Record> next() { return bound_ ? bound_->end.read() : std::nullopt; }
+    /// For readers that cannot use read() because they decode the message in several calls: lock(), then
+    /// read_locked(), decode, and release the lock. The record is valid as long as the lock is held.
+    std::unique_lock<std::mutex> lock() { return std::unique_lock(mutex_); }
+    std::optional<shm::Record> read_locked() { return bound_ ? bound_->ring.read() : std::nullopt; }
 
-    shm::RingCounters counters() const;
+    shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
     void unbind();
 
   private:
     mutable std::mutex mutex_;
-    std::optional<Bound<shm::RingReader>> bound_;
+    std::optional<BoundRing<shm::RingReader>> bound_;
 };
 
 } // namespace tandem::link

@@ -5,6 +5,11 @@
 #include "proxy/link/service_operations.hpp"
 
 namespace tandem::link::control {
+namespace {
+
+constexpr std::size_t min_string_bytes = 5; // of a string in CDR: its length and the final NUL
+
+} // namespace
 
 std::vector<std::byte> encode(const ServiceBinding& binding) {
     std::vector<std::byte> bytes;
@@ -21,6 +26,22 @@ ServiceBinding decode_service_binding(std::span<const std::byte> bytes) {
     binding.operations = get_service_operations(in);
     if (!in.ok()) throw LinkError("a service binding of the peer is damaged");
     return binding;
+}
+
+std::vector<std::byte> encode(const std::vector<std::string>& port_names) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter out(bytes);
+    out.put(static_cast<std::uint32_t>(port_names.size()));
+    for (const auto& name : port_names) out.put_string(name);
+    return bytes;
+}
+
+std::vector<std::string> decode_port_names(std::span<const std::byte> bytes) {
+    wire::CdrReader in(bytes);
+    std::vector<std::string> names(in.get_count(min_string_bytes));
+    for (auto& name : names) name = in.get_string();
+    if (!in.ok()) throw LinkError("a list of port names of the peer is damaged");
+    return names;
 }
 
 std::vector<std::byte> encode_string(std::string_view text) {

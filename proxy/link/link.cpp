@@ -10,7 +10,8 @@ namespace tandem::link {
 Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler& handler)
     : options_(std::move(options)), own_ports_(std::move(own_ports)), tasks_(options_.name),
       supervisor_(side, options_, own_ports_, handler, state_, channels_, tasks_),
-      workers_(state_, handler, options_.max_workers, [this] { supervisor_.wake(); }) {}
+      workers_(state_, handler, options_.max_workers, [this] { supervisor_.wake(); }),
+      arrivals_(state_, channels_, options_.wait) {}
 
 Link::~Link() { close(); }
 
@@ -27,6 +28,7 @@ void Link::close() {
     supervisor_.stop();
     tasks_.stop();
     workers_.stop();
+    arrivals_.stop();
 }
 
 void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& peer_name) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/link/arrival_notifier.hpp"
 #include "proxy/link/call_workers.hpp"
 #include "proxy/link/channel_table.hpp"
 #include "proxy/link/link_error.hpp"
@@ -50,6 +51,12 @@ class Link {
     ChannelWriter& writer(const std::string& port) { return channels_.writer(port); }
     ChannelReader& reader(const std::string& port) { return channels_.reader(port); }
 
+    /// Calls `listener` in the notifier thread after messages of `port` have arrived; see ArrivalNotifier. The
+    /// peer must be asked to ring the doorbell (control::listen), otherwise it takes up to a second.
+    void set_arrival_listener(const std::string& port, std::function<void()> listener) {
+        arrivals_.set_listener(port, std::move(listener));
+    }
+
   private:
     const LinkOptions options_;
     const PortTable own_ports_;
@@ -58,6 +65,7 @@ class Link {
     TaskQueue tasks_;
     PeerSupervisor supervisor_;
     CallWorkers workers_;
+    ArrivalNotifier arrivals_;
 };
 
 } // namespace tandem::link

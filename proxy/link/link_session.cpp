@@ -41,9 +41,15 @@ void LinkSession::open_outgoing_calls() {
     outgoing_calls_.emplace(*queue, wait_);
 }
 
-void LinkSession::shut_down_calls() {
+void LinkSession::interrupt() {
+    incoming_calls_.interrupt();
+    segment_->doorbell().interrupt();
+}
+
+void LinkSession::shut_down() {
     incoming_calls_.shut_down();
     if (outgoing_calls_) outgoing_calls_->shut_down();
+    segment_->doorbell().interrupt();
 }
 
 } // namespace tandem::link

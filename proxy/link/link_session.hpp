@@ -52,8 +52,11 @@ class LinkSession {
     shm::CallServer& incoming_calls() { return incoming_calls_; }
     /// nullptr before open_outgoing_calls().
     shm::CallClient* outgoing_calls() { return outgoing_calls_ ? &*outgoing_calls_ : nullptr; }
-    /// Ends the calls under way, in both directions, with CallStatus::shut_down, and all later ones.
-    void shut_down_calls();
+    /// Makes threads that wait in this session for calls or messages return. [any-thread]
+    void interrupt();
+    /// The same for good: ends the calls under way, in both directions, with CallStatus::shut_down, and
+    /// refuses all later ones. [any-thread]
+    void shut_down();
 
   private:
     std::shared_ptr<shm::Segment> segment_;

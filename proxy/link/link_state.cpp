@@ -62,7 +62,7 @@ bool LinkState::end_session() {
     const bool was_up = up_.exchange(false);
     refusal_.clear();
     ended = std::move(session_);
-    if (ended) ended->shut_down_calls();
+    if (ended) ended->shut_down();
     changed_.notify_all();
     return was_up;
 }
@@ -70,7 +70,7 @@ bool LinkState::end_session() {
 bool LinkState::start_closing() {
     const std::lock_guard lock(mutex_);
     if (closing_.exchange(true)) return false;
-    if (session_) session_->incoming_calls().interrupt(); // workers that wait for a call
+    if (session_) session_->interrupt();
     changed_.notify_all();
     return true;
 }

@@ -44,7 +44,7 @@ class LinkState {
     void start_session(std::shared_ptr<LinkSession> session);
     void set_up();
     void set_refused(std::string reason);
-    /// Ends the calls of the session and forgets it. Returns whether the link was up.
+    /// Shuts the session down and forgets it. Returns whether the link was up.
     bool end_session();
 
     /// Makes every wait of this class return, now and from now on. False if it was called before.

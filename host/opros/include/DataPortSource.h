@@ -3,6 +3,7 @@
 #ifndef DATAPORTSOURCE_H_
 #define DATAPORTSOURCE_H_
 
+#include <DataPortListener.h>
 #include <archive/opros_iarchive.h>
 
 #include <string>
@@ -20,6 +21,10 @@ class DataPortSource {
     /// Whether the value of the last next() is so large that a copy of it costs more than an allocation: the port
     /// then hands out the decoded object itself.
     virtual bool large() const { return false; }
+    /// Asks for listener->arrived() whenever values come, in whichever thread of the source notices them; NULL ends
+    /// that, and on return the last listener is not in use any more. False: this source does not notice, it has to be
+    /// polled. Called under the port's lock; must not block.
+    virtual bool setListener(DataPortListener* /*listener*/) { return false; }
     /// Called before done() when the value could not be decoded and is dropped; `why` is the exception's text.
     virtual void undecodable(const std::string& /*why*/) {}
 };

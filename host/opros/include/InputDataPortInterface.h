@@ -35,9 +35,10 @@ class InputDataPortInterface : public DataPort {
     virtual ReturnType addSource(DataPortSource* source);
     /// On return the source is not in use and will not be used again (ours).
     virtual ReturnType removeSource(DataPortSource* source);
-    /// Whether the port has a source: its values are not notified to the listener, and have to be polled (ours).
-    bool hasSources() const;
-    /// The listener, which must outlive all pushes, or NULL for none (ours).
+    /// Whether the port has a source that does not notify the listener of its values, and has to be polled (ours).
+    bool hasPolledSources() const;
+    /// The listener, which must outlive all pushes and sources, or NULL for none. Sources are asked to notify it, too
+    /// (ours).
     void setListener(DataPortListener* listener);
     /// The queue that a profile asks for, before the port is in use. OPROS_PRECONDITION_NOT_MET: the component's own
     /// code has chosen one, which counts (ours).

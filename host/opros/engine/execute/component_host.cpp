@@ -124,7 +124,8 @@ void ComponentHost::configure_input_ports() {
         if (!input) continue;
         for (const DataPortProfile& port : profile_.data_ports)
             if (port.name == name && port.queue) input->setQueue(port.queue->policy, port.queue->size);
-        input->setListener(&input_signal_);
+        // Only an aperiodic component sleeps until inputs come; for any other one, no source need wake a thread.
+        if (profile_.execution_type == ExecutionType::aperiodic) input->setListener(&input_signal_);
         input_ports_.push_back(input);
     }
 }
@@ -135,9 +136,9 @@ std::size_t ComponentHost::queued_value_count() const {
     return sum;
 }
 
-bool ComponentHost::has_sources() const {
+bool ComponentHost::has_polled_sources() const {
     return std::any_of(input_ports_.begin(), input_ports_.end(),
-                       [](const auto* input) { return input->hasSources(); });
+                       [](const auto* input) { return input->hasPolledSources(); });
 }
 
 void ComponentHost::stop() {

@@ -80,7 +80,7 @@ class ComponentHost {
     /// [executor] The values in all input ports' queues together; polls their sources.
     std::size_t queued_value_count() const;
     /// [executor] Whether an input port has a source that must be polled.
-    bool has_sources() const;
+    bool has_polled_sources() const;
 
     /// From now on each cycle of this component needs a cycle of `target` before it. Throws SetupError when it
     /// depends on more than 64 components.

@@ -74,10 +74,10 @@ class InputTrigger : public CountingTrigger {
         const std::size_t queued = component_.queued_value_count();
         bool due = is_first_cycle_ || (queued != 0 && queued < queued_at_last_cycle_);
         while (!due && !interrupted_) {
-            // A source outside the component (DataPortSource) does not notify: it has to be polled.
-            const bool has_sources = component_.has_sources();
-            due = component_.input_signal().wait_for(has_sources ? 1ms : 1s) ||
-                  (has_sources && component_.queued_value_count() > queued);
+            // A source outside the component (DataPortSource) that does not notify has to be polled. For all others
+            // the bound is only a second line of defence, should a notification be lost.
+            due = component_.input_signal().wait_for(component_.has_polled_sources() ? 1ms : 1s) ||
+                  component_.queued_value_count() > queued;
         }
         is_first_cycle_ = false;
         queued_at_last_cycle_ = component_.queued_value_count();

@@ -33,7 +33,7 @@ ReturnType InputDataPortInterface::removeSource(DataPortSource* source) {
     return OPROS_SUCCESS;
 }
 
-bool InputDataPortInterface::hasSources() const { return m_impl->has_sources(); }
+bool InputDataPortInterface::hasPolledSources() const { return m_impl->has_polled_sources(); }
 void InputDataPortInterface::setListener(DataPortListener* listener) { m_impl->set_listener(listener); }
 
 ReturnType InputDataPortInterface::setQueue(DataPortPolicy policy, unsigned int limit) {

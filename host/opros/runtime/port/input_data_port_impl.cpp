@@ -68,7 +68,7 @@ void InputDataPortImpl::clear() {
 void InputDataPortImpl::add_source(DataPortSource* source) {
     const std::lock_guard<std::mutex> lock(mutex_);
     sources_.push_back(source);
-    has_sources_ = true;
+    give_listener_to(source);
     update_hints();
 }
 
@@ -76,8 +76,24 @@ void InputDataPortImpl::add_source(DataPortSource* source) {
 void InputDataPortImpl::remove_source(DataPortSource* source) {
     const std::lock_guard<std::mutex> lock(mutex_);
     sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
-    has_sources_ = !sources_.empty();
+    if (listener_.load(std::memory_order_relaxed)) source->setListener(nullptr);
+    polled_sources_.erase(source);
+    has_polled_sources_ = !polled_sources_.empty();
     update_hints();
+}
+
+void InputDataPortImpl::set_listener(DataPortListener* listener) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    listener_.store(listener, std::memory_order_release);
+    for (DataPortSource* source : sources_) give_listener_to(source);
+}
+
+void InputDataPortImpl::give_listener_to(DataPortSource* source) {
+    if (source->setListener(listener_.load(std::memory_order_relaxed)))
+        polled_sources_.erase(source);
+    else
+        polled_sources_.insert(source);
+    has_polled_sources_ = !polled_sources_.empty();
 }
 
 bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned int limit) {

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <vector>
 
 /// What an InputDataPortInterface does: one queue, filled by pushes of any thread and by sources, which are
@@ -33,8 +34,9 @@ class InputDataPortImpl {
     /// The source must stay until remove_source() has returned.
     void add_source(DataPortSource* source);
     void remove_source(DataPortSource* source);
-    bool has_sources() const { return has_sources_.load(std::memory_order_acquire); }
-    void set_listener(DataPortListener* listener) { listener_.store(listener, std::memory_order_release); }
+    /// Whether a source does not notify the listener, and so has to be polled.
+    bool has_polled_sources() const { return has_polled_sources_.load(std::memory_order_acquire); }
+    void set_listener(DataPortListener* listener);
 
     /// Before the port is in use: its constructor was given no queue.
     void mark_queue_as_default() { queue_is_default_ = true; }
@@ -46,6 +48,7 @@ class InputDataPortImpl {
 
     // All with mutex_ held.
     void update_hints();
+    void give_listener_to(DataPortSource* source);
     void poll_sources();
     ReadResult read_one(DataPortSource& source);
     opros_any* pop_from_source();
@@ -56,12 +59,13 @@ class InputDataPortImpl {
     std::mutex mutex_;
     opros::DataQueue queue_;
     std::vector<DataPortSource*> sources_;
+    std::set<DataPortSource*> polled_sources_; // those that do not notify the listener
     opros_any decoded_; // where a source's value is decoded: a broken one must not harm the queue
     std::unique_ptr<opros_any> spare_; // the object for the next value that is given out
     bool consumer_waits_ = false;      // the last pop() has found nothing
     bool last_was_large_ = false;      // DataPortSource::large() of the last value
     bool queue_is_default_ = false;
     // Both change with the lock held, and are read without it.
-    std::atomic<bool> may_have_values_{false}, has_sources_{false};
+    std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};
     std::atomic<DataPortListener*> listener_{nullptr};
 };

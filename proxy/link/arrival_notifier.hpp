@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/channel_table.hpp"
+#include "proxy/link/link_state.hpp"
+#include "shm/os/futex.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace tandem::link {
+
+/// Tells event-driven consumers that messages have arrived. Its thread sleeps on this side's doorbell in the
+/// segment, which the peer rings after each message of the ports that it was asked for
+/// (ChannelWriter::set_peer_listens). The thread starts with the first listener: a link whose consumers all
+/// poll has none, and its writers ring nothing.
+class ArrivalNotifier {
+  public:
+    /// All references must outlive this object.
+    ArrivalNotifier(const LinkState& state, ChannelTable& channels, const shm::WaitOptions& wait)
+        : state_(state), channels_(channels), wait_(wait) {}
+    ~ArrivalNotifier() { stop(); }
+    ArrivalNotifier(const ArrivalNotifier&) = delete;
+    ArrivalNotifier& operator=(const ArrivalNotifier&) = delete;
+
+    /// Calls `listener` in the notifier thread after messages of `port` have arrived, at least once for all
+    /// that arrived together. An empty function ends that: on return the last one is not running and will
+    /// not be called again. The listener must not block. [any-thread but the notifier's]
+    void set_listener(const std::string& port, std::function<void()> listener);
+    /// After LinkState::start_closing(): ends the thread. [not in a listener]
+    void stop();
+
+  private:
+    struct Listener {
+        std::function<void()> arrived;
+        std::uint64_t seen = 0; ///< messages sent by the ring's writer when the listener was last called
+    };
+    void run();
+    void notify();
+
+    const LinkState& state_;
+    ChannelTable& channels_;
+    const shm::WaitOptions wait_;
+    std::mutex mutex_; ///< the members below; held while listeners are called
+    std::map<std::string, Listener> listeners_;
+    std::thread thread_;
+    bool stopping_ = false;
+};
+
+} // namespace tandem::link
