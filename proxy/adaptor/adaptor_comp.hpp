@@ -19,7 +19,7 @@
 
 namespace tandem::adaptor {
 
-/// The OPRoS half of the proxy: an ordinary OPRoS component that creates mirrors of the ports of the RTC
+/// The OPRoS side of the proxy: an ordinary OPRoS component that creates mirrors of the ports of the RTC
 /// behind InterceptorComp. Starting and stopping it activates and deactivates that RTC; an RTC in ERROR puts
 /// it in ERROR. Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down}
 /// when the link comes up or goes down, and when the component is started.

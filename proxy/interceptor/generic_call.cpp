@@ -12,6 +12,7 @@
 namespace tandem::interceptor {
 namespace {
 
+/// One call on its way through the ORB, as omniidl's stubs make it.
 class Call final : public omniCallDescriptor {
   public:
     Call(const std::string& operation, const wire::Type& arguments_type, const wire::Type& result_type,
@@ -70,7 +71,8 @@ GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& oper
                           dynamic_cast<const CORBA::COMM_FAILURE*>(&ex) ||
                           dynamic_cast<const CORBA::OBJECT_NOT_EXIST*>(&ex);
         return failure(gone ? Status::unreachable : Status::exception, operation, ex._name());
-    } catch (const CORBA::UserException& ex) { // a co-located servant throws it through
+    } catch (const CORBA::UserException& ex) {
+        // A co-located servant's exception comes straight through; a remote one's to Call::userException().
         return failure(Status::exception, operation, ex._rep_id());
     }
     if (!call.exception.empty()) return failure(Status::exception, operation, call.exception);

@@ -13,16 +13,16 @@
 
 namespace tandem::interceptor {
 
-/// What came of a call on a CORBA object.
+/// The result of generic_call().
 struct GenericCallResult {
     enum class Status { ok, no_such_operation, bad_arguments, exception, unreachable, timeout } status{};
     std::vector<std::byte> results; ///< CDR, when ok
-    std::string text;               ///< otherwise one line
+    std::string text;               ///< what went wrong, one line; empty when ok
 };
 
-/// Calls an operation of any CORBA object without a compiled stub. Arguments and results in CDR; user
-/// exceptions are reported by their repository id. Blocks the calling thread, for a remote object `timeout`
-/// at most.
+/// Calls an operation of any CORBA object without a compiled stub. Arguments and results are in CDR. A user
+/// exception is reported by its repository id. Blocks the calling thread, for a remote object at most
+/// `timeout`; a co-located one is called directly. Throws nothing. [any-thread]
 GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& operation,
                                const wire::Type& arguments_type, const wire::Type& result_type,
                                std::span<const std::byte> arguments, std::chrono::milliseconds timeout);

@@ -9,6 +9,7 @@
 namespace tandem::interceptor {
 namespace {
 
+/// One call on its way through the ORB, which calls these functions in the order arguments, run, results.
 class Upcall final : public omniCallDescriptor {
   public:
     Upcall(const char* name, const CallTarget::Operation& operation, CallTarget& target)
@@ -42,8 +43,8 @@ GenericServant::GenericServant(std::string repository_id, CallTarget& target)
 
 _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
     const char* name = handle.operation_name();
-    const auto* operation = target_.find(name);
-    if (!operation) return 0; // the ORB goes on with _is_a and its like, and else answers BAD_OPERATION
+    const auto* operation = target_.find_operation(name);
+    if (!operation) return 0; // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
     Upcall upcall(name, *operation, target_);
     handle.upcall(this, upcall);
     return 1;
@@ -52,7 +53,8 @@ _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
 _CORBA_Boolean GenericServant::_is_a(const char*) { return 1; }
 
 void* GenericServant::_ptrToInterface(const char* repository_id) {
-    // Only CORBA::Object: a pointer to a compiled skeleton cannot be had, so callers go through _dispatch().
+    // Only CORBA::Object: there is no compiled skeleton that a co-located caller could call directly, so all
+    // callers go through _dispatch(). Any pointer other than nullptr means "yes" to the ORB.
     return omni::strMatch(repository_id, CORBA::Object::_PD_repoId) ? reinterpret_cast<void*>(1) : nullptr;
 }
 

@@ -12,28 +12,29 @@
 
 namespace tandem::interceptor {
 
-/// Where a GenericServant's calls go. Any ORB thread, or the calling component's own.
+/// Where the calls of a GenericServant go. Its functions are called in an ORB thread, or in the caller's own if
+/// that is in the same process; several at once.
 class CallTarget {
   public:
     virtual ~CallTarget() = default;
-    /// Types of an operation; nullptr when there is no such operation. The result lives as long as the
-    /// target.
     struct Operation {
         wire::Type arguments, result;
-        std::string signature;
+        std::string signature; ///< `arguments:result`
     };
-    virtual const Operation* find(const char* operation) = 0;
-    /// Arguments and results in CDR. A failure is thrown as a CORBA system exception.
+    /// Returns nullptr when there is no such operation. The result must stay valid as long as the target.
+    virtual const Operation* find_operation(const char* name) = 0;
+    /// Executes an operation. Arguments and results are in CDR. Failures are thrown as CORBA system exceptions.
     virtual std::vector<std::byte> call(const char* name, const Operation&,
                                         std::span<const std::byte> arguments) = 0;
 };
 
-/// A CORBA object of any interface, without a compiled skeleton: what arrives is moved by type signature
-/// between the CORBA stream and CDR and handed to a CallTarget.
+/// A CORBA object of any interface, without a compiled skeleton: it converts arguments and results by type
+/// signature between the ORB's stream and CDR, and passes the call to a CallTarget. It replaces CORBA's own
+/// DynamicImplementation, which would build an Any for every value.
 class GenericServant : public virtual PortableServer::ServantBase {
   public:
-    /// `repository_id` is what a client's _narrow() is told; it may be a guess, _is_a() says yes to
-    /// everything.
+    /// `repository_id` is what a client's _narrow() sees. It may be a guess where the IDL is not known, since
+    /// _is_a() accepts every interface. The target must outlive the servant.
     GenericServant(std::string repository_id, CallTarget& target);
 
     _CORBA_Boolean _dispatch(omniCallHandle&) override;

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <ctime>
 #include <set>
 #include <stdexcept>
@@ -27,9 +28,9 @@ using link::Reply;
 InterceptorComp::InterceptorComp(RTC::Manager* manager)
     : RTC::DataFlowComponentBase(manager), link_state_out_("linkState", link_state_) {}
 
-InterceptorComp::~InterceptorComp() { release(); }
+InterceptorComp::~InterceptorComp() { disconnect_all(); }
 
-// ---- set-up and end
+// ---- set-up and end, in the manager's thread
 
 RTC::ReturnCode_t InterceptorComp::onInitialize() {
     try {
@@ -43,15 +44,17 @@ RTC::ReturnCode_t InterceptorComp::onInitialize() {
         spdlog::error("{}: {} answers with CORBA exception {}", getInstanceName(), settings_.rtc,
                       error._name());
     }
-    release();
+    disconnect_all();
     return RTC::RTC_ERROR;
 }
 
 RTC::ReturnCode_t InterceptorComp::onFinalize() {
-    release();
+    disconnect_all();
     return RTC::RTC_OK;
 }
 
+/// Creates the link, a mirror of each port of the RTC, and their connections, and opens the link last: the
+/// peer may call and send as soon as it is up. Throws std::runtime_error, one line, or CORBA::Exception.
 void InterceptorComp::share_rtc_ports() {
     auto* rtc = RTC::Manager::instance().getComponent(settings_.rtc.c_str());
     if (!rtc)
@@ -68,72 +71,83 @@ void InterceptorComp::share_rtc_ports() {
     options.segment_bytes = settings_.segment_bytes;
     options.wait = link::wait_options_from_environment();
     link_ = std::make_unique<link::Link>(shm::Side::second, options, table, static_cast<LinkHandler&>(*this));
-    driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,
-                                          [this] { link_->post([this] { report_rtc_error(); }); });
+    // The report waits for the peer, and so must not run in the thread of the RTC's execution context.
+    rtc_driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,
+                                              [this] { link_->post([this] { report_rtc_error(); }); });
     own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [] {});
-    LinkBuffer::register_factory();
-    for (const auto& port : ports) {
-        const bool data = port.entry.kind == PortKind::data_out || port.entry.kind == PortKind::data_in;
-        data ? mirror_data_port(port) : mirror_service_port(port);
-    }
-    std::set<std::string> connected; // a service port with several interfaces has an entry for each
-    for (const auto& port : ports) {
-        if (port.corba_port.empty() || !connected.insert(port.corba_port).second) continue;
-        auto& mine = *service_ports_.at(port.corba_port);
-        addPort(mine);
-        connect(mine, port.service, "");
-    }
+    create_mirror_ports(ports);
     link_->open();
     spdlog::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(), settings_.rtc,
                  settings_.link);
+}
+
+void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
+    LinkBuffer::register_factory();
+    for (const auto& port : ports)
+        if (link::is_data_port(port.entry.kind))
+            create_data_mirror(port);
+        else
+            create_service_mirror(port);
+    // A service port with several interfaces has an entry for each, but is connected once.
+    std::set<std::string> connected;
+    for (const auto& port : ports) {
+        if (port.service_port.empty() || !connected.insert(port.service_port).second) continue;
+        auto& mirror = *service_ports_.at(port.service_port);
+        addPort(mirror);
+        connect(mirror, port.reference, "");
+    }
 }
 
 std::string InterceptorComp::channel_key(const std::string& port) const {
     return settings_.link + "/" + port;
 }
 
-void InterceptorComp::mirror_data_port(const RtcPort& port) {
+void InterceptorComp::create_data_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
     const std::string key = channel_key(entry.name);
     LinkChannel channel;
     channel.timed = wire::is_timed(entry.signature);
     if (entry.kind == PortKind::data_out) {
         channel.writer = &link_->writer(entry.name);
-        auto mine = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
-        addInPort(entry.name.c_str(), *mine);
-        data_ports_.push_back(std::move(mine));
+        written_ports_.push_back(entry.name);
+        auto mirror = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
+        addInPort(entry.name.c_str(), *mirror);
+        data_ports_.push_back(std::move(mirror));
     } else {
         channel.reader = &link_->reader(entry.name);
-        auto mine = std::make_unique<MirrorInPort>(entry.name.c_str(), entry.type.c_str());
-        addOutPort(entry.name.c_str(), *mine);
-        data_ports_.push_back(std::move(mine));
+        auto mirror = std::make_unique<MirrorInPort>(entry.name.c_str(), entry.type.c_str());
+        addOutPort(entry.name.c_str(), *mirror);
+        data_ports_.push_back(std::move(mirror));
     }
-    LinkBuffer::publish(key, channel);
+    LinkBuffer::register_channel(key, channel);
     channel_keys_.push_back(key);
-    connect(*data_ports_.back(), port.service, key);
+    connect(*data_ports_.back(), port.reference, key);
 }
 
-void InterceptorComp::mirror_service_port(const RtcPort& port) {
-    auto& mine = service_ports_[port.corba_port];
-    if (!mine) mine = std::make_unique<RTC::CorbaPort>(port.corba_port.c_str());
+void InterceptorComp::create_service_mirror(const RtcPort& port) {
+    auto& mirror = service_ports_[port.service_port];
+    if (!mirror) mirror = std::make_unique<RTC::CorbaPort>(port.service_port.c_str());
     const auto& entry = port.entry;
     if (entry.kind == PortKind::service_required) {
-        providers_.push_back(std::make_unique<MirrorRequiredPort>(entry, *link_, settings_.call_timeout));
-        mine->registerProvider(entry.instance.c_str(), entry.type.c_str(), providers_.back()->servant());
+        required_.push_back(std::make_unique<MirrorRequiredPort>(entry, *link_, settings_.call_timeout));
+        mirror->registerProvider(entry.instance.c_str(), entry.type.c_str(), required_.back()->servant());
     } else {
-        consumers_.push_back(std::make_unique<MirrorProvidedPort>(entry, settings_.call_timeout));
-        mine->registerConsumer(entry.instance.c_str(), entry.type.c_str(), consumers_.back()->consumer());
+        provided_.push_back(std::make_unique<MirrorProvidedPort>(entry, settings_.call_timeout));
+        mirror->registerConsumer(entry.instance.c_str(), entry.type.c_str(), provided_.back()->consumer());
     }
 }
 
-void InterceptorComp::connect(RTC::PortBase& mine, RTC::PortService_ptr theirs,
+/// Connects a mirror with the RTC's port. For a data port, `channel_key` tells the connector's buffer which
+/// channel of the link it is.
+void InterceptorComp::connect(RTC::PortBase& mirror, RTC::PortService_ptr rtc_port,
                               const std::string& channel_key) {
     RTC::ConnectorProfile profile;
-    profile.name = mine.getName();
+    profile.name = mirror.getName();
     profile.connector_id = "";
-    CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(mine.getPortRef()));
-    CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(theirs));
+    CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(mirror.getPortRef()));
+    CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(rtc_port));
     if (!channel_key.empty()) {
+        // "flush": the RTC's write() hands the data to the buffer in its own thread.
         const std::pair<const char*, const char*> properties[] = {
             {"dataport.interface_type", "corba_cdr"},
             {"dataport.dataflow_type", "push"},
@@ -144,22 +158,22 @@ void InterceptorComp::connect(RTC::PortBase& mine, RTC::PortService_ptr theirs,
         for (const auto& [name, value] : properties)
             CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(name, value));
     }
-    if (mine.connect(profile) != RTC::RTC_OK)
+    if (mirror.connect(profile) != RTC::RTC_OK)
         throw std::runtime_error(fmt::format("port '{}' cannot be connected with that of {}: {}",
-                                             mine.getName(), settings_.rtc, mine.connectError()));
+                                             mirror.getName(), settings_.rtc, mirror.connectError()));
 }
 
-void InterceptorComp::release() {
-    if (link_) link_->close();
-    driver_.reset();
+void InterceptorComp::disconnect_all() {
+    if (link_) link_->close(); // first: its threads use everything below
+    rtc_driver_.reset();
     own_driver_.reset();
     for (auto& port : data_ports_) port->disconnect_all();
     for (auto& [name, port] : service_ports_) port->disconnect_all();
-    for (const auto& key : channel_keys_) LinkBuffer::withdraw(key);
+    for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);
     channel_keys_.clear();
 }
 
-// ---- the peer comes, goes, calls
+// ---- the peer connects, disconnects, calls
 
 void InterceptorComp::link_state_changed(bool up) {
     if (up) spdlog::info("{}: link '{}' is up", getInstanceName(), settings_.link);
@@ -176,28 +190,30 @@ void InterceptorComp::link_state_changed(bool up) {
 
 void InterceptorComp::peer_disconnected() {
     if (!activated_by_link_.exchange(false)) return;
-    const std::string error = driver_->deactivate();
+    const std::string error = rtc_driver_->deactivate();
     if (!error.empty()) spdlog::error("{}: {}: {}", getInstanceName(), settings_.rtc, error);
 }
 
 Reply InterceptorComp::serve(const link::Request& request) {
-    if (request.port.empty()) return serve_control(request);
-    for (auto& consumer : consumers_)
-        if (consumer->port().name == request.port) return consumer->serve(request);
+    if (request.port.empty()) return execute_command(request);
+    for (auto& port : provided_)
+        if (port->port().name == request.port) return port->serve(request);
     return Reply::failure(CallStatus::no_such_operation, "no such service port");
 }
 
-Reply InterceptorComp::serve_control(const link::Request& request) {
+Reply InterceptorComp::execute_command(const link::Request& request) {
     std::string error;
     if (request.operation == control::activate) {
         error = activate();
     } else if (request.operation == control::deactivate) {
-        error = driver_->deactivate();
+        error = rtc_driver_->deactivate();
         activated_by_link_ = false;
     } else if (request.operation == control::reset) {
-        error = driver_->reset();
+        error = rtc_driver_->reset();
     } else if (request.operation == control::bind) {
         error = bind(request.arguments);
+    } else if (request.operation == control::listen) {
+        error = listen(request.arguments);
     } else {
         return Reply::failure(CallStatus::no_such_operation, "unknown command");
     }
@@ -205,11 +221,13 @@ Reply InterceptorComp::serve_control(const link::Request& request) {
 }
 
 std::string InterceptorComp::activate() {
-    // First, so that peer_disconnected() sees it when the peer dies meanwhile.
+    // Set first, so that peer_disconnected() sees it when the peer dies meanwhile.
     activated_by_link_ = true;
-    std::string error = own_driver_->activate(); // the RTC may call through our ports from its onActivated on
-    if (error.empty()) error = driver_->activate();
+    // This component before the RTC, which may send and call through the mirrors from its onActivated on.
+    std::string error = own_driver_->activate();
+    if (error.empty()) error = rtc_driver_->activate();
     if (!error.empty()) activated_by_link_ = false;
+    // The peer may have gone before the RTC was active: then nobody else deactivates it.
     if (!link_->is_up()) peer_disconnected();
     return error;
 }
@@ -217,23 +235,35 @@ std::string InterceptorComp::activate() {
 std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     try {
         const auto binding = control::decode_service_binding(arguments);
-        for (auto& provider : providers_)
-            if (provider->port().name == binding.port) return provider->bind(binding);
+        for (auto& port : required_)
+            if (port->port().name == binding.port) return port->bind(binding);
         return fmt::format("there is no required service port '{}'", binding.port);
     } catch (const std::runtime_error& error) { // damaged binding, malformed signature
         return error.what();
     }
 }
 
+/// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
+std::string InterceptorComp::listen(std::span<const std::byte> arguments) {
+    try {
+        const auto names = control::decode_port_names(arguments);
+        for (const auto& port : written_ports_)
+            link_->writer(port).set_peer_listens(std::find(names.begin(), names.end(), port) != names.end());
+        return "";
+    } catch (const link::LinkError& error) {
+        return error.what();
+    }
+}
+
 void InterceptorComp::peer_connected() {
-    if (failed_) report_rtc_error(); // it could not be told before
+    if (unreported_error_) report_rtc_error(); // there was no peer when the RTC went to ERROR
 }
 
 void InterceptorComp::report_rtc_error() {
-    failed_ = true;
+    unreported_error_ = true;
     const auto text = control::encode_string(fmt::format("RTC '{}' went to ERROR", settings_.rtc));
     if (link_->call({"", control::failed, "", text}, settings_.call_timeout).status == CallStatus::ok)
-        failed_ = false;
+        unreported_error_ = false;
 }
 
 } // namespace tandem::interceptor

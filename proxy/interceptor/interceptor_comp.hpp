@@ -21,10 +21,10 @@
 
 namespace tandem::interceptor {
 
-/// The RTM half of the proxy: an ordinary RTC that shares the ports of another RTC of its manager with
-/// AdaptorComp, and activates, deactivates and resets it as AdaptorComp is told. Its OutPort `linkState`
-/// gives {stamp [s], sequence, 1 up / 0 down} when the peer comes or goes. A peer that dies leaves the
-/// RTC deactivated.
+/// The RTM side of the proxy: an ordinary RTC that shares the ports of another RTC of its manager with
+/// AdaptorComp, and activates, deactivates and resets that RTC when AdaptorComp asks for it. Its OutPort
+/// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
+/// goes down. If the peer dies, the RTC is deactivated.
 class InterceptorComp final : public RTC::DataFlowComponentBase, private link::LinkHandler {
   public:
     explicit InterceptorComp(RTC::Manager* manager);
@@ -38,34 +38,41 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
 
   private:
     void share_rtc_ports();
-    void mirror_data_port(const RtcPort&);
-    void mirror_service_port(const RtcPort&);
-    void connect(RTC::PortBase& mine, RTC::PortService_ptr theirs, const std::string& channel_key);
-    void release();
+    void create_mirror_ports(const std::vector<RtcPort>& ports);
+    void create_data_mirror(const RtcPort&);
+    void create_service_mirror(const RtcPort&);
+    void connect(RTC::PortBase& mirror, RTC::PortService_ptr rtc_port, const std::string& channel_key);
+    void disconnect_all();
 
+    // LinkHandler, in the link's threads.
     std::string check_peer_ports(const link::PortTable&) override { return ""; }
     void link_state_changed(bool up) override;
     void peer_connected() override;
     void peer_disconnected() override;
     link::Reply serve(const link::Request&) override;
-    link::Reply serve_control(const link::Request&);
-    std::string bind(std::span<const std::byte> arguments);
-    void report_rtc_error();
-    std::string activate();
+    link::Reply execute_command(const link::Request&);
 
+    // Each returns an empty string or an error of one line.
+    std::string activate();
+    std::string bind(std::span<const std::byte> arguments);
+    std::string listen(std::span<const std::byte> arguments);
+
+    void report_rtc_error();
     std::string channel_key(const std::string& port) const;
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
-    std::unique_ptr<RtcDriver> driver_, own_driver_;
-    std::atomic<bool> activated_by_link_{false};
-    std::atomic<bool> failed_{false}; ///< the RTC went to ERROR and the peer does not know yet
+    std::unique_ptr<RtcDriver> rtc_driver_, own_driver_;
+    std::atomic<bool> activated_by_link_{false}; ///< then a peer that goes leaves it to be deactivated
+    std::atomic<bool> unreported_error_{false};  ///< the RTC went to ERROR and the peer does not know yet
 
+    // The mirrors: created by share_rtc_ports(), then constant until disconnect_all().
     std::vector<std::unique_ptr<RTC::PortBase>> data_ports_;
     std::map<std::string, std::unique_ptr<RTC::CorbaPort>> service_ports_;
-    std::vector<std::unique_ptr<MirrorRequiredPort>> providers_;
-    std::vector<std::unique_ptr<MirrorProvidedPort>> consumers_;
-    std::vector<std::string> channel_keys_;
+    std::vector<std::unique_ptr<MirrorRequiredPort>> required_;
+    std::vector<std::unique_ptr<MirrorProvidedPort>> provided_;
+    std::vector<std::string> channel_keys_;  ///< registered with LinkBuffer
+    std::vector<std::string> written_ports_; ///< data ports whose messages go to the peer
 
     RTC::TimedDoubleSeq link_state_;
     RTC::OutPort<RTC::TimedDoubleSeq> link_state_out_;

@@ -15,8 +15,8 @@ using RTC::BufferStatus;
 
 constexpr std::size_t time_bytes = 8;
 
-// The factory makes buffers by name only; what a new one belongs to it finds here, by its connector's
-// properties.
+// The buffer factory creates buffers without arguments. A new buffer finds its channel here, by a property of
+// its connector.
 std::mutex channels_mutex;
 std::map<std::string, LinkChannel>& channels() {
     static std::map<std::string, LinkChannel> channels;
@@ -30,12 +30,12 @@ void LinkBuffer::register_factory() {
                                                  coil::Destructor<RTC::CdrBufferBase, LinkBuffer>);
 }
 
-void LinkBuffer::publish(const std::string& key, const LinkChannel& channel) {
+void LinkBuffer::register_channel(const std::string& key, const LinkChannel& channel) {
     const std::lock_guard lock(channels_mutex);
     channels()[key] = channel;
 }
 
-void LinkBuffer::withdraw(const std::string& key) {
+void LinkBuffer::unregister_channel(const std::string& key) {
     const std::lock_guard lock(channels_mutex);
     channels().erase(key);
 }
@@ -59,40 +59,42 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
     } else {
         stamp = wire::wall_clock_stamp();
     }
-    return sent(channel_.writer->write_sized(bytes.size(), stamp, [&](std::span<std::byte> room) {
+    return write_status(channel_.writer->write_sized(bytes.size(), stamp, [&](std::span<std::byte> room) {
         std::copy(bytes.begin(), bytes.end(), room.begin());
         return true;
     }));
 }
 
-/// Without a peer the message is gone and counted; the RTC goes on as with an unconnected port.
-BufferStatus LinkBuffer::sent(bool sent) const {
-    return sent || !channel_.writer->is_bound() ? BufferStatus::OK : BufferStatus::FULL;
+/// Without a peer the message is dropped and counted, and the RTC gets the same status as with an unconnected
+/// port, so that its write() does not fail while the other host is restarted.
+BufferStatus LinkBuffer::write_status(bool written) const {
+    return written || !channel_.writer->is_bound() ? BufferStatus::OK : BufferStatus::FULL;
 }
 
 BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
-    const cdrMemoryStream usual;
-    cdrCountingStream counter(usual.TCS_C(), usual.TCS_W());
+    const cdrMemoryStream default_stream; // for its code sets, which every serializer uses
+    cdrCountingStream counter(default_stream.TCS_C(), default_stream.TCS_W());
+    // First pass: only the length, to reserve exactly that.
     if (!marshal(counter)) return BufferStatus::NOT_SUPPORTED;
     const std::size_t head = channel_.timed ? time_bytes : 0;
     if (counter.total() < head + minInPlaceLength()) return BufferStatus::NOT_SUPPORTED;
     std::uint64_t stamp = wire::wall_clock_stamp();
-    bool whole = true;
+    bool complete = true;
     const bool written =
         channel_.writer->write_sized(counter.total() - head, stamp, [&](std::span<std::byte> room) {
             StampedOutStream out(room, channel_.timed);
-            whole = marshal(out) && out.full();
+            complete = marshal(out) && out.is_complete();
             if (channel_.timed) stamp = out.stamp();
-            return whole;
+            return complete;
         });
-    return whole ? sent(written) : BufferStatus::BUFFER_ERROR;
+    return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;
 }
 
 BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     const bool found =
-        channel_.reader->read(false, [&](const shm::Record& record) { copy(record, message); });
+        channel_.reader->read(false, [&](const shm::Record& record) { copy_message(record, message); });
     return found ? BufferStatus::OK : BufferStatus::EMPTY;
 }
 
@@ -100,14 +102,15 @@ BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& rea
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     const bool found = channel_.reader->read(false, [&](const shm::Record& record) {
         read_in_place = record.bytes.size() >= minInPlaceLength();
-        if (!read_in_place) return copy(record, message);
+        if (!read_in_place) return copy_message(record, message);
         StampedInStream in(record.bytes, channel_.timed, record.stamp_ns);
         reader(in);
     });
     return found ? BufferStatus::OK : BufferStatus::EMPTY;
 }
 
-void LinkBuffer::copy(const shm::Record& record, RTC::ByteData& message) const {
+void LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) const {
+    // RTM's time is put back in front of the payload: the port expects the message as its type has it.
     const std::size_t head = channel_.timed ? time_bytes : 0;
     message.setDataLength(head + record.bytes.size());
     message.isLittleEndian(true);
@@ -128,6 +131,7 @@ RTC::ByteData& LinkBuffer::get() {
 }
 
 BufferStatus LinkBuffer::reset() {
+    // Reading the newest message skips all older ones.
     if (channel_.reader) channel_.reader->read(true, [](const shm::Record&) {});
     return BufferStatus::OK;
 }

@@ -10,28 +10,33 @@
 
 namespace tandem::interceptor {
 
-/// A channel's ends as a connector's buffer sees them, and whether the messages begin with RTM's time.
+/// The channel that a connector's buffer stands for: one of its two ends, according to the port's direction.
 struct LinkChannel {
-    link::ChannelWriter* writer = nullptr; ///< for a buffer that is written: data leave for the peer
-    link::ChannelReader* reader = nullptr; ///< for a buffer that is read: data come from the peer
-    bool timed = false;
+    link::ChannelWriter* writer = nullptr; ///< of an OutPort of the RTC: data go to the peer
+    link::ChannelReader* reader = nullptr; ///< of an InPort of the RTC: data come from the peer
+    bool timed = false; ///< the messages begin with RTM's time, which travels in the record's header
 };
 
-/// The buffer of a connector that ends in shared memory: an RTC's port writes to, or polls, the ring itself.
-/// RTM's time travels in the record's header. Made by the buffer factory under the name `tandem_link`.
+/// The buffer of a connector between the RTC's port and its mirror: what the RTC writes goes to the ring of the
+/// link, what it reads comes from there, in its own thread. The buffer factory creates it by the name
+/// `tandem_link`, whenever a connector profile says `dataport.buffer_type: tandem_link`. [any-thread]
 class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
   public:
     static constexpr const char* factory_name = "tandem_link";
     static void register_factory();
-    /// Makes a channel known under `key`, the connector's property `dataport.buffer.channel`.
-    static void publish(const std::string& key, const LinkChannel& channel);
-    static void withdraw(const std::string& key);
+    /// Registers a channel under `key`, by which a buffer finds it: the connector's property
+    /// `dataport.buffer.channel`. Buffers created before unregister_channel() keep it.
+    static void register_channel(const std::string& key, const LinkChannel& channel);
+    static void unregister_channel(const std::string& key);
 
     void init(const coil::Properties& properties) override;
 
+    // Nothing here waits: the ring drops its oldest message when it is full, and reading an empty one returns
+    // EMPTY at once.
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
-    /// What is too long to be worth a copy is made in the chunk that it crosses in, and read there.
+    // Long messages are marshalled directly into the chunk of shared memory in which they travel, and
+    // unmarshalled from there.
     std::size_t minInPlaceLength() const override { return link::large_message_bytes; }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
     RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
@@ -42,7 +47,7 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     RTC::BufferStatus get(RTC::ByteData& message) override { return read(message, {}); }
     RTC::ByteData& get() override;
 
-    // A ring in shared memory has no places that a pointer could stand on.
+    // A ring in shared memory has no slots of ByteData, so it offers no pointers to them and no length.
     std::size_t length() const override { return 0; }
     RTC::BufferStatus length(std::size_t) override { return RTC::BufferStatus::NOT_SUPPORTED; }
     RTC::BufferStatus reset() override;
@@ -54,11 +59,11 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     bool full() const override { return false; }
 
   private:
-    void copy(const shm::Record& record, RTC::ByteData& message) const;
-    RTC::BufferStatus sent(bool sent) const;
+    void copy_message(const shm::Record& record, RTC::ByteData& message) const;
+    RTC::BufferStatus write_status(bool written) const;
 
     LinkChannel channel_;
-    RTC::ByteData last_;
+    RTC::ByteData last_; ///< what get() returned last
 };
 
 } // namespace tandem::interceptor

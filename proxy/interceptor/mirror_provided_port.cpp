@@ -34,7 +34,7 @@ CallStatus status_of(GenericCallResult::Status status) {
 MirrorProvidedPort::MirrorProvidedPort(link::Port port, std::chrono::milliseconds call_timeout)
     : port_(std::move(port)), call_timeout_(call_timeout) {}
 
-const MirrorProvidedPort::Types& MirrorProvidedPort::types(std::string_view signature) {
+const MirrorProvidedPort::Types& MirrorProvidedPort::parsed_types(std::string_view signature) {
     const std::lock_guard lock(mutex_);
     const auto known = types_.find(signature);
     if (known != types_.end()) return known->second;
@@ -43,8 +43,9 @@ const MirrorProvidedPort::Types& MirrorProvidedPort::types(std::string_view sign
     return types_.emplace(signature, std::move(types)).first->second;
 }
 
-/// The peer has checked the same at connection; but it is another process.
-std::string MirrorProvidedPort::check(const link::Request& request) const {
+/// Returns an error if the interface has no such operation, or with another signature. AdaptorComp has checked
+/// the same at connection, but it is another process and not trusted.
+std::string MirrorProvidedPort::check_operation(const link::Request& request) const {
     if (port_.operations.empty()) return "";
     const auto known =
         std::find_if(port_.operations.begin(), port_.operations.end(),
@@ -58,11 +59,11 @@ std::string MirrorProvidedPort::check(const link::Request& request) const {
 
 Reply MirrorProvidedPort::serve(const link::Request& request) {
     try {
-        const std::string error = check(request);
+        const std::string error = check_operation(request);
         if (!error.empty()) return Reply::failure(CallStatus::bad_arguments, error);
-        const Types& wanted = types(request.signature);
-        auto result = generic_call(consumer_.getObject(), std::string(request.operation), wanted.arguments,
-                                   wanted.result, request.arguments, call_timeout_);
+        const Types& expected = parsed_types(request.signature);
+        auto result = generic_call(consumer_.getObject(), std::string(request.operation), expected.arguments,
+                                   expected.result, request.arguments, call_timeout_);
         if (result.status == GenericCallResult::Status::ok)
             return {CallStatus::ok, std::move(result.results)};
         return Reply::failure(status_of(result.status), result.text);

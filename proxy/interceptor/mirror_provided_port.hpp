@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/link_handler.hpp"
 #include "proxy/link/port_table.hpp"
+#include "proxy/link/reply.hpp"
+#include "proxy/link/request.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <rtm/CorbaConsumer.h>
@@ -14,29 +15,32 @@
 
 namespace tandem::interceptor {
 
-/// Mirrors a service that the RTC provides and OPRoS components require: calls that crossed the link are made
-/// on the RTC's CORBA object, by type signature.
+/// Mirrors a service interface that the RTC provides and OPRoS components require: a CORBA consumer of it, on
+/// whose object the calls from across the link are executed. No stub is compiled: arguments and results are
+/// converted by type signature.
 class MirrorProvidedPort final {
   public:
     MirrorProvidedPort(link::Port port, std::chrono::milliseconds call_timeout);
 
+    /// What a CorbaPort registers; it receives the RTC's object reference at connection.
     RTC::CorbaConsumerBase& consumer() { return consumer_; }
     const link::Port& port() const { return port_; }
-    /// Runs one call. [worker-thread]
+    /// Executes one call of the peer. Failures are replies. [worker-thread]
     link::Reply serve(const link::Request& request);
 
   private:
     struct Types {
         wire::Type arguments, result;
     };
-    const Types& types(std::string_view signature);
-    std::string check(const link::Request& request) const;
+    const Types& parsed_types(std::string_view signature);
+    std::string check_operation(const link::Request& request) const;
 
     const link::Port port_;
     const std::chrono::milliseconds call_timeout_;
     RTC::CorbaConsumerBase consumer_;
     std::mutex mutex_;
-    std::map<std::string, Types, std::less<>> types_; ///< parsed once; entries stay where they are
+    std::map<std::string, Types, std::less<>>
+        types_; ///< by signature, parsed once; entries are never removed
 };
 
 } // namespace tandem::interceptor

@@ -22,7 +22,8 @@ std::string repository_id(const std::string& type) {
     return "IDL:" + path + ":1.0";
 }
 
-[[noreturn]] void throw_failure(const link::Reply& reply) {
+/// Maps a failed reply to the CORBA system exception that tells the caller most about it.
+[[noreturn]] void throw_system_exception(const link::Reply& reply) {
     using link::CallStatus;
     switch (reply.status) {
     case CallStatus::timeout:
@@ -48,39 +49,40 @@ MirrorRequiredPort::MirrorRequiredPort(link::Port port, link::Link& link,
     : port_(std::move(port)), link_(link), call_timeout_(call_timeout),
       servant_(repository_id(port_.type), *this) {
     for (const auto& operation : port_.operations)
-        if (operation.signature.find('?') == std::string::npos) add(operation);
+        // '?' stands for a type without a signature: such an operation cannot cross the link.
+        if (operation.signature.find('?') == std::string::npos) add_operation(operation);
 }
 
-void MirrorRequiredPort::add(const link::ServiceOperation& operation) {
+void MirrorRequiredPort::add_operation(const link::ServiceOperation& operation) {
     const auto signature = wire::parse_operation_signature(operation.signature);
-    auto& place = operations_[operation.name];
-    if (place) retired_.push_back(std::move(place));
-    place = std::make_unique<Operation>(Operation{wire::parse_signature(signature.arguments),
+    auto& entry = operations_[operation.name];
+    if (entry) retired_.push_back(std::move(entry));
+    entry = std::make_unique<Operation>(Operation{wire::parse_signature(signature.arguments),
                                                   wire::parse_signature(signature.result),
                                                   signature.arguments + ":" + signature.result});
 }
 
 std::string MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
     const std::lock_guard lock(mutex_);
+    const bool idl_known = !port_.operations.empty();
     for (const auto& offered : binding.operations) {
         const auto known = operations_.find(offered.name);
-        if (known == operations_.end() || known->second->signature == offered.signature) {
-            if (known == operations_.end() && port_.operations.empty()) add(offered);
-            continue;
-        }
-        if (!port_.operations.empty())
+        if (known != operations_.end() && known->second->signature == offered.signature) continue;
+        if (!idl_known) {
+            add_operation(offered); // the OPRoS component's methods are the only description that there is
+        } else if (known != operations_.end()) {
             return fmt::format(
                 "service port '{}': operation '{}' of interface {} has signature '{}', the OPRoS method "
                 "has '{}'",
                 port_.name, offered.name, port_.type, known->second->signature, offered.signature);
-        add(offered);
+        } // a method that the IDL does not have is not needed
     }
     return "";
 }
 
-const CallTarget::Operation* MirrorRequiredPort::find(const char* operation) {
+const CallTarget::Operation* MirrorRequiredPort::find_operation(const char* name) {
     const std::lock_guard lock(mutex_);
-    const auto found = operations_.find(operation);
+    const auto found = operations_.find(name);
     return found == operations_.end() ? nullptr : found->second.get();
 }
 
@@ -88,10 +90,10 @@ std::vector<std::byte> MirrorRequiredPort::call(const char* name, const Operatio
                                                 std::span<const std::byte> arguments) {
     auto reply = link_.call({port_.name, name, operation.signature, arguments}, call_timeout_);
     if (reply.status == link::CallStatus::ok) return std::move(reply.bytes);
-    if (!reply.bytes.empty() && failed_.should_log())
+    if (!reply.bytes.empty() && failed_calls_.should_log())
         spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, reply.text(),
-                     failed_.count());
-    throw_failure(reply);
+                     failed_calls_.count());
+    throw_system_exception(reply);
 }
 
 } // namespace tandem::interceptor

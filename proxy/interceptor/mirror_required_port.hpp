@@ -14,8 +14,8 @@
 
 namespace tandem::interceptor {
 
-/// Mirrors a service that the RTC requires and an OPRoS component provides: a CORBA object whose calls cross
-/// the link. A failed call is a CORBA system exception: TIMEOUT, COMM_FAILURE (peer gone), NO_RESOURCES
+/// Mirrors a service interface that the RTC requires and an OPRoS component provides: a CORBA object whose
+/// calls cross the link, without a compiled skeleton. A failed call is a CORBA system exception: TIMEOUT, COMM_FAILURE (peer gone), NO_RESOURCES
 /// (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN (the OPRoS method failed; its text is in the log).
 class MirrorRequiredPort final : private CallTarget {
   public:
@@ -23,21 +23,24 @@ class MirrorRequiredPort final : private CallTarget {
 
     GenericServant& servant() { return servant_; }
     const link::Port& port() const { return port_; }
-    /// What the OPRoS side provides, told when its life begins. Empty, or one line with both signatures.
+    /// Learns the operations that the OPRoS component provides. Returns an empty string, or one line with both
+    /// signatures if one differs from the IDL's. [worker-thread]
     std::string bind(const link::control::ServiceBinding& binding);
 
   private:
-    const Operation* find(const char* operation) override;
+    // CallTarget, in ORB threads or the calling component's own.
+    const Operation* find_operation(const char* name) override;
     std::vector<std::byte> call(const char* name, const Operation&, std::span<const std::byte>) override;
-    void add(const link::ServiceOperation& operation);
+    void add_operation(const link::ServiceOperation& operation);
 
     const link::Port port_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
-    std::mutex mutex_; ///< the maps; what they hold lives as long as this, since calls under way use it
+    std::mutex mutex_; ///< operations_, retired_
     std::map<std::string, std::unique_ptr<Operation>, std::less<>> operations_;
+    /// Operations that were replaced. They are kept, because calls that are being executed may still use them.
     std::vector<std::unique_ptr<Operation>> retired_;
-    link::LogThrottle failed_;
+    link::LogThrottle failed_calls_;
     GenericServant servant_;
 };
 

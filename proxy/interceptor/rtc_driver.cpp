@@ -26,22 +26,23 @@ const char* name_of(RTC::LifeCycleState state) {
 
 } // namespace
 
-class RtcDriver::FailureListener final : public RTC::PostComponentActionListener {
+class RtcDriver::ErrorListener final : public RTC::PostComponentActionListener {
   public:
-    explicit FailureListener(std::function<void()> failed) : failed_(std::move(failed)) {}
-    void operator()(RTC::UniqueId, RTC::ReturnCode_t) override { failed_(); }
+    explicit ErrorListener(std::function<void()> on_error) : on_error_(std::move(on_error)) {}
+    void operator()(RTC::UniqueId, RTC::ReturnCode_t) override { on_error_(); }
 
   private:
-    std::function<void()> failed_;
+    std::function<void()> on_error_;
 };
 
 namespace {
 constexpr auto entering_error = RTC::PostComponentActionListenerType::POST_ON_ABORTING;
 }
 
-RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds bound, std::function<void()> failed)
-    : rtc_(rtc), name_(rtc.getInstanceName()), reference_(rtc.getObjRef()), bound_(bound),
-      listener_(std::make_unique<FailureListener>(std::move(failed))) {
+RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
+                     std::function<void()> on_error)
+    : rtc_(rtc), name_(rtc.getInstanceName()), reference_(rtc.getObjRef()), timeout_(timeout),
+      listener_(std::make_unique<ErrorListener>(std::move(on_error))) {
     RTC::ExecutionContextList_var contexts = rtc.get_owned_contexts();
     if (contexts->length() == 0)
         throw std::runtime_error(
@@ -51,7 +52,7 @@ RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds bound, s
 }
 
 RtcDriver::~RtcDriver() {
-    // The RTC may have left before us, by its own exit() or a tool's.
+    // The RTC may have been deleted before this object, by its own exit() or by a tool: then `rtc_` dangles.
     if (RTC::Manager::instance().getComponent(name_.c_str()) == &rtc_)
         rtc_.removePostComponentActionListener(entering_error, listener_.get());
 }
@@ -60,7 +61,7 @@ RTC::LifeCycleState RtcDriver::state() const {
     try {
         return context_->get_component_state(reference_);
     } catch (const CORBA::Exception&) {
-        return RTC::CREATED_STATE; // it has left: no transition finds it in a state that fits
+        return RTC::CREATED_STATE; // it was deleted; no transition accepts this state
     }
 }
 
@@ -86,29 +87,29 @@ std::string RtcDriver::reset() {
                       "reset");
 }
 
-/// A host that has just started may have created the RTC but not yet started its context: then it is asked
-/// again.
-std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Ask ask,
+/// Asks the execution context for a transition and waits until it is done. Asks again while the context does
+/// not accept it: a host that has just started may have created the RTC but not yet started its context.
+std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Operation operation,
                                   const char* verb) {
-    const auto deadline = std::chrono::steady_clock::now() + bound_;
+    const auto deadline = std::chrono::steady_clock::now() + timeout_;
     try {
-        auto reply = RTC::PRECONDITION_NOT_MET;
+        auto result = RTC::PRECONDITION_NOT_MET;
         for (;;) {
-            if (state() == from) reply = (context_->*ask)(reference_);
-            if (reply == RTC::RTC_OK || state() == to) return reach(to, verb);
-            if (reply != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
+            if (state() == from) result = (context_->*operation)(reference_);
+            if (result == RTC::RTC_OK || state() == to) return wait_for_state(to, verb);
+            if (result != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return fmt::format("{} is {}, {} was expected, and it was not {}: its context answers {}", name_,
-                           name_of(state()), name_of(from), verb, static_cast<int>(reply));
-    } catch (const CORBA::Exception& gone) { // the RTC or its context has left
-        return fmt::format("{} was not {}: {}", name_, verb, gone._name());
+                           name_of(state()), name_of(from), verb, static_cast<int>(result));
+    } catch (const CORBA::Exception& error) { // the RTC or its context has left
+        return fmt::format("{} was not {}: {}", name_, verb, error._name());
     }
 }
 
-/// The context may carry out a transition in its next cycle only.
-std::string RtcDriver::reach(RTC::LifeCycleState wanted, const char* verb) const {
-    const auto deadline = std::chrono::steady_clock::now() + bound_;
+/// Waits, because a context carries out a transition in its next cycle only.
+std::string RtcDriver::wait_for_state(RTC::LifeCycleState wanted, const char* verb) const {
+    const auto deadline = std::chrono::steady_clock::now() + timeout_;
     auto now = state();
     while (now != wanted && now != RTC::ERROR_STATE && std::chrono::steady_clock::now() < deadline) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -116,7 +117,7 @@ std::string RtcDriver::reach(RTC::LifeCycleState wanted, const char* verb) const
     }
     if (now == wanted) return "";
     if (now == RTC::ERROR_STATE) return name_ + " went to ERROR; its own messages say why";
-    return fmt::format("{} is {} and was not {} within {} ms", name_, name_of(now), verb, bound_.count());
+    return fmt::format("{} is {} and was not {} within {} ms", name_, name_of(now), verb, timeout_.count());
 }
 
 } // namespace tandem::interceptor

@@ -11,12 +11,13 @@
 
 namespace tandem::interceptor {
 
-/// Drives the life cycle of the RTC behind the interceptor, in its own (first) execution context.
-/// The functions wait for the transition, never longer than `bound`; the result is empty or one line.
+/// Activates, deactivates and resets one RTC, in the first execution context that it owns. Each function waits
+/// for the transition, at most `timeout`, and returns an empty string or an error of one line. [any-thread]
 class RtcDriver {
   public:
-    /// `failed` is called, in the context's thread, when the RTC goes to ERROR.
-    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds bound, std::function<void()> failed);
+    /// `on_error` is called in the execution context's thread when the RTC goes to ERROR; it must not wait.
+    /// Throws std::runtime_error if the RTC owns no execution context.
+    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, std::function<void()> on_error);
     ~RtcDriver();
 
     std::string activate();
@@ -24,19 +25,20 @@ class RtcDriver {
     std::string reset();
 
   private:
-    class FailureListener;
-    using Ask = RTC::ReturnCode_t (RTC::_objref_ExecutionContext::*)(RTC::LightweightRTObject_ptr);
-    std::string transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Ask ask, const char* verb);
-    std::string reach(RTC::LifeCycleState wanted, const char* verb) const;
+    class ErrorListener;
+    using Operation = RTC::ReturnCode_t (RTC::_objref_ExecutionContext::*)(RTC::LightweightRTObject_ptr);
+    std::string transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Operation operation,
+                           const char* verb);
+    std::string wait_for_state(RTC::LifeCycleState wanted, const char* verb) const;
     RTC::LifeCycleState state() const;
 
     RTC::RTObject_impl& rtc_;
     const std::string name_;
     RTC::RTObject_var reference_;
     RTC::ExecutionContext_var context_;
-    const std::chrono::milliseconds bound_;
-    std::mutex mutex_; ///< one transition at a time: a peer that comes waits for the end of one that went
-    std::unique_ptr<FailureListener> listener_;
+    const std::chrono::milliseconds timeout_;
+    std::mutex mutex_; ///< one transition at a time: a new peer's activation waits for the old one's end
+    std::unique_ptr<ErrorListener> listener_;
 };
 
 } // namespace tandem::interceptor

@@ -20,6 +20,7 @@ std::string property(const RTC::PortProfile& profile, const char* key) {
     return NVUtil::toString(profile.properties, key);
 }
 
+/// The port's name without the leading instance name, which RTCs put into their profile: `Rtc0.out` -> `out`.
 std::string short_name(const RTC::PortProfile& profile) {
     const std::string full(profile.name);
     const auto dot = full.rfind('.');
@@ -31,6 +32,7 @@ link::Port data_port(const RTC::PortProfile& profile, PortKind kind) {
     port.kind = kind;
     port.name = short_name(profile);
     port.type = property(profile, "dataport.data_type");
+    // Known from the IDL that the RTC's library was built with; '?' stands for a type that has no signature.
     const std::string signature = RTC::InterfaceSignatures::type(port.type);
     if (signature.empty() || signature.find('?') != std::string::npos)
         throw std::runtime_error(fmt::format(
@@ -41,6 +43,8 @@ link::Port data_port(const RTC::PortProfile& profile, PortKind kind) {
     return port;
 }
 
+/// The operations of an IDL interface; empty when its IDL is not compiled into this process, in which case a
+/// call itself shows whether it fits.
 std::vector<link::ServiceOperation> operations_of(const std::string& type) {
     std::vector<link::ServiceOperation> operations;
     if (const auto* known = RTC::InterfaceSignatures::find(type))
@@ -65,20 +69,20 @@ link::Port service_port(const RTC::PortProfile& profile, const RTC::PortInterfac
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
     std::vector<RtcPort> ports;
     RTC::PortServiceList_var services = rtc.get_ports();
-    std::set<std::string> names{"linkState"}; // both halves have a port of that name themselves
+    std::set<std::string> names{"linkState"}; // taken by the proxies' own port
     for (CORBA::ULong i = 0; i < services->length(); ++i) {
-        RTC::PortService_var service = RTC::PortService::_duplicate(services[i]);
-        RTC::PortProfile_var profile = service->get_port_profile();
+        RTC::PortService_var reference = RTC::PortService::_duplicate(services[i]);
+        RTC::PortProfile_var profile = reference->get_port_profile();
         if (!names.insert(short_name(profile)).second) continue;
         const std::string kind = property(profile, "port.port_type");
         if (kind == "DataOutPort")
-            ports.push_back({data_port(profile, PortKind::data_out), "", service});
+            ports.push_back({data_port(profile, PortKind::data_out), "", reference});
         else if (kind == "DataInPort")
-            ports.push_back({data_port(profile, PortKind::data_in), "", service});
+            ports.push_back({data_port(profile, PortKind::data_in), "", reference});
         else
             for (CORBA::ULong j = 0; j < profile->interfaces.length(); ++j)
                 ports.push_back(
-                    {service_port(profile, profile->interfaces[j]), short_name(profile), service});
+                    {service_port(profile, profile->interfaces[j]), short_name(profile), reference});
     }
     return ports;
 }

@@ -9,16 +9,18 @@
 
 namespace tandem::interceptor {
 
-/// A port of the RTC as the link shares it, and where it is.
+/// A port of the RTC that is shared: its entry in the link's port table, and the CORBA object to connect with.
 struct RtcPort {
     link::Port entry;
-    std::string corba_port; ///< service ports: name of the port that has the interface
-    RTC::PortService_var service;
+    std::string
+        service_port; ///< of a service port: its own name, without the interface; empty for data ports
+    RTC::PortService_var reference;
 };
 
-/// The ports of an RTC. A service port with several interfaces becomes one entry for each, `port.instance`.
-/// A port named `linkState` is not shared: the two halves have one of that name.
-/// Throws std::runtime_error, one line, for a data port whose type the process does not know.
+/// Lists the ports of an RTC. A service port with several interfaces gives one entry for each, named
+/// `port.instance`. A port named `linkState` is left out, because both proxies have one of that name.
+/// Throws std::runtime_error, one line, for a data port whose IDL type this process does not know, and
+/// CORBA::Exception if the RTC does not answer.
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc);
 
 } // namespace tandem::interceptor

@@ -10,16 +10,17 @@
 namespace tandem::interceptor {
 namespace {
 
-std::string required(coil::Properties& properties, const std::string& name, const char* what) {
+std::string required(coil::Properties& properties, const std::string& name, const char* meaning) {
     std::string value = properties.getProperty(name);
     if (value.empty())
-        throw std::runtime_error(fmt::format(
-            "parameter '{}' is missing: give {}, as in InterceptorComp?link=NAME&rtc=INSTANCE", name, what));
+        throw std::runtime_error(
+            fmt::format("parameter '{}' is missing: give {}, as in InterceptorComp?link=NAME&rtc=INSTANCE",
+                        name, meaning));
     return value;
 }
 
-double number(coil::Properties& properties, const std::string& name, double otherwise) {
-    return link::positive_number("parameter", name, properties.getProperty(name), otherwise);
+double number(coil::Properties& properties, const std::string& name, double default_value) {
+    return link::positive_number("parameter", name, properties.getProperty(name), default_value);
 }
 
 } // namespace

@@ -8,17 +8,20 @@
 
 namespace tandem::interceptor {
 
-/// InterceptorComp's parameters, as given in rtc.conf: `InterceptorComp?link=NAME&rtc=INSTANCE`.
+/// InterceptorComp's parameters, as given in rtc.conf: `InterceptorComp?link=NAME&rtc=INSTANCE`; the README of
+/// the project describes them for users.
 struct Settings {
-    std::string link;                              ///< `link`: the name that AdaptorComp has, too
-    std::string rtc;                               ///< `rtc`: instance name of the RTC whose ports are shared
+    std::string link; ///< `link`: the name of the link, the same as AdaptorComp's
+    std::string rtc;  ///< `rtc`: instance name of the RTC whose ports are shared
     std::chrono::milliseconds call_timeout{1'000}; ///< `call_timeout` [ms]: of each call across the link
     std::size_t ring_bytes = 256 * 1024;           ///< `ring_kib`: of each data port
     std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port, see README
-    std::size_t segment_bytes = 4 * 1024 * 1024;   ///< `segment_mib`: that each half may lay out
+    std::size_t segment_bytes =
+        4 * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
 };
 
-/// Throws std::runtime_error, one line, when one is missing or a number is none.
+/// Throws std::runtime_error, one line, when `link` or `rtc` is missing or another parameter is not a number
+/// above 0.
 Settings read_settings(coil::Properties& properties);
 
 } // namespace tandem::interceptor

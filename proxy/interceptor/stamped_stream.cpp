@@ -17,18 +17,19 @@ std::size_t distance(const void* from, const void* to) {
 } // namespace
 
 StampedStream::StampedStream(std::span<std::byte> body) : body_(body) {
-    // As every stream that a serializer makes: the process's transmission code sets.
-    const cdrMemoryStream usual;
-    TCS_C(usual.TCS_C());
-    TCS_W(usual.TCS_W());
+    // Strings need the process's transmission code sets, which a memory stream takes from the ORB.
+    const cdrMemoryStream default_stream;
+    TCS_C(default_stream.TCS_C());
+    TCS_W(default_stream.TCS_W());
     pd_marshal_byte_swap = pd_unmarshal_byte_swap = false;
     pd_inb_mkr = pd_inb_end = pd_outb_mkr = pd_outb_end = nullptr;
 }
 
-void StampedStream::over() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
+void StampedStream::throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
 
-// The time takes 8 bytes, so the body is aligned as if it followed them.
-std::byte* StampedStream::take(void*& mark, void*& end, std::size_t bytes, omni::alignment_t alignment) {
+// Alignment in CDR counts from the start of the message. The time takes 8 bytes, the largest alignment, so
+// the body may be aligned as if it followed them, though it lies elsewhere.
+std::byte* StampedStream::advance(void*& mark, void*& end, std::size_t bytes, omni::alignment_t alignment) {
     if (in_time_ && mark == end) {
         in_time_ = false;
         mark = body_.data();
@@ -37,7 +38,7 @@ std::byte* StampedStream::take(void*& mark, void*& end, std::size_t bytes, omni:
     const auto place = reinterpret_cast<omni::ptr_arith_t>(mark);
     const auto padding = static_cast<std::size_t>(omni::align_to(place, alignment) - place);
     const std::size_t left = distance(mark, end);
-    if (padding > left || bytes > left - padding) over();
+    if (padding > left || bytes > left - padding) throw_marshal();
     std::byte* const begin = byte_at(mark) + padding;
     mark = begin + bytes;
     return begin;
@@ -51,7 +52,9 @@ StampedOutStream::StampedOutStream(std::span<std::byte> body, bool timed) : Stam
     pd_outb_end = timed ? time_ + sizeof time_ : body_.data() + body_.size();
 }
 
-bool StampedOutStream::full() const { return pd_outb_mkr == pd_outb_end && (!in_time_ || body_.empty()); }
+bool StampedOutStream::is_complete() const {
+    return pd_outb_mkr == pd_outb_end && (!in_time_ || body_.empty());
+}
 
 std::uint64_t StampedOutStream::stamp() const {
     std::uint32_t words[2];
@@ -66,8 +69,8 @@ void StampedOutStream::put_octet_array(const _CORBA_Octet* from, int size, omni:
 
 _CORBA_Boolean StampedOutStream::checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count,
                                                     omni::alignment_t) {
-    const std::size_t behind = in_time_ ? body_.size() : 0;
-    return std::size_t{size} * count <= distance(pd_outb_mkr, pd_outb_end) + behind;
+    const std::size_t body_left = in_time_ ? body_.size() : 0;
+    return std::size_t{size} * count <= distance(pd_outb_mkr, pd_outb_end) + body_left;
 }
 
 _CORBA_ULong StampedOutStream::currentOutputPtr() const {
@@ -77,7 +80,7 @@ _CORBA_ULong StampedOutStream::currentOutputPtr() const {
 
 _CORBA_Boolean StampedOutStream::reserveOutputSpaceForPrimitiveType(omni::alignment_t alignment,
                                                                     std::size_t bytes) {
-    pd_outb_mkr = take(pd_outb_mkr, pd_outb_end, bytes, alignment);
+    pd_outb_mkr = advance(pd_outb_mkr, pd_outb_end, bytes, alignment);
     return true;
 }
 
@@ -98,14 +101,14 @@ StampedInStream::StampedInStream(std::span<const std::byte> body, bool timed, st
 
 void StampedInStream::get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) {
     const auto bytes = static_cast<std::size_t>(size);
-    std::memcpy(to, take(pd_inb_mkr, pd_inb_end, bytes, alignment), bytes);
+    std::memcpy(to, advance(pd_inb_mkr, pd_inb_end, bytes, alignment), bytes);
 }
 
-void StampedInStream::skipInput(_CORBA_ULong size) { take(pd_inb_mkr, pd_inb_end, size, omni::ALIGN_1); }
+void StampedInStream::skipInput(_CORBA_ULong size) { advance(pd_inb_mkr, pd_inb_end, size, omni::ALIGN_1); }
 
 _CORBA_Boolean StampedInStream::checkInputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) {
-    const std::size_t behind = in_time_ ? body_.size() : 0;
-    return std::size_t{size} * count <= distance(pd_inb_mkr, pd_inb_end) + behind;
+    const std::size_t body_left = in_time_ ? body_.size() : 0;
+    return std::size_t{size} * count <= distance(pd_inb_mkr, pd_inb_end) + body_left;
 }
 
 _CORBA_ULong StampedInStream::currentInputPtr() const {
@@ -114,7 +117,7 @@ _CORBA_ULong StampedInStream::currentInputPtr() const {
 }
 
 void StampedInStream::fetchInputData(omni::alignment_t alignment, std::size_t bytes) {
-    pd_inb_mkr = take(pd_inb_mkr, pd_inb_end, bytes, alignment);
+    pd_inb_mkr = advance(pd_inb_mkr, pd_inb_end, bytes, alignment);
 }
 
 } // namespace tandem::interceptor

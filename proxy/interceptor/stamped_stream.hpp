@@ -9,42 +9,47 @@
 
 namespace tandem::interceptor {
 
-/// CORBA streams over one message in shared memory, in the machine's byte order. If the message is timed, the
-/// first 8 bytes of what is marshalled are RTM's time, which lies apart, in the record's header. What goes
-/// over an end throws CORBA::MARSHAL. Both are for one direction only.
+/// A CORBA stream over one message in shared memory, in the machine's byte order. A timed message begins with
+/// the 8 bytes of RTM's time, which do not lie in front of the payload but in the record's header: the stream
+/// consists of two parts, `time_` and `body_`. Accesses beyond the end throw CORBA::MARSHAL. The overrides are
+/// those that omniORB 4.2 calls (omniORB4/cdrStream.h); the two subclasses implement one direction each.
 class StampedStream : public cdrStream {
   protected:
     explicit StampedStream(std::span<std::byte> body);
-    [[noreturn]] static void over();
+    [[noreturn]] static void throw_marshal();
 
-    void put_octet_array(const _CORBA_Octet*, int, omni::alignment_t) override { over(); }
-    void get_octet_array(_CORBA_Octet*, int, omni::alignment_t) override { over(); }
-    void skipInput(_CORBA_ULong) override { over(); }
+    void put_octet_array(const _CORBA_Octet*, int, omni::alignment_t) override { throw_marshal(); }
+    void get_octet_array(_CORBA_Octet*, int, omni::alignment_t) override { throw_marshal(); }
+    void skipInput(_CORBA_ULong) override { throw_marshal(); }
     _CORBA_Boolean checkInputOverrun(_CORBA_ULong, _CORBA_ULong, omni::alignment_t) override { return false; }
     _CORBA_Boolean checkOutputOverrun(_CORBA_ULong, _CORBA_ULong, omni::alignment_t) override {
         return false;
     }
     _CORBA_ULong currentInputPtr() const override { return 0; }
     _CORBA_ULong currentOutputPtr() const override { return 0; }
-    void fetchInputData(omni::alignment_t, std::size_t) override { over(); }
-    _CORBA_Boolean reserveOutputSpaceForPrimitiveType(omni::alignment_t, std::size_t) override { over(); }
-    _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t, std::size_t) override { over(); }
+    void fetchInputData(omni::alignment_t, std::size_t) override { throw_marshal(); }
+    _CORBA_Boolean reserveOutputSpaceForPrimitiveType(omni::alignment_t, std::size_t) override {
+        throw_marshal();
+    }
+    _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t, std::size_t) override { throw_marshal(); }
 
-    /// Where `bytes` bytes at that alignment begin, from `mark` on, in the part that is in use or, when that
-    /// is used up, in the next one. Moves the mark behind them.
-    std::byte* take(void*& mark, void*& end, std::size_t bytes, omni::alignment_t alignment);
+    /// Returns where the next `bytes` bytes at that alignment begin, and moves `mark` behind them. When the
+    /// time is used up, `mark` and `end` move to the body.
+    std::byte* advance(void*& mark, void*& end, std::size_t bytes, omni::alignment_t alignment);
 
     alignas(8) std::byte time_[8];
     std::span<std::byte> body_;
-    bool in_time_ = false;
+    bool in_time_ = false; ///< the current position is in time_, not yet in body_
 };
 
+/// Marshals a message into `body`, whose size must be the message's exact length (without a time).
 class StampedOutStream final : public StampedStream {
   public:
     StampedOutStream(std::span<std::byte> body, bool timed);
-    /// Whether exactly that many bytes were written.
-    bool full() const;
-    std::uint64_t stamp() const; ///< of a timed message
+    /// True if exactly as many bytes were written as there is room for.
+    bool is_complete() const;
+    /// The time of a timed message, as wire::pack_time() packs it.
+    std::uint64_t stamp() const;
 
     void put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) override;
     _CORBA_Boolean checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) override;
@@ -54,9 +59,10 @@ class StampedOutStream final : public StampedStream {
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t alignment, std::size_t bytes) override;
 };
 
+/// Unmarshals a message from `body`.
 class StampedInStream final : public StampedStream {
   public:
-    /// `body` is only read. The stamp is a part of the message if it is timed.
+    /// `body` is only read. If the message is timed, `stamp` is what it begins with.
     StampedInStream(std::span<const std::byte> body, bool timed, std::uint64_t stamp);
 
     void get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) override;

@@ -10,14 +10,16 @@ namespace {
 using wire::Kind;
 using wire::Type;
 
-[[noreturn]] void malformed() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
+[[noreturn]] void throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
 
-/// Bytes that `type` takes at least, to refuse an absurd element count before any element is looked at.
+/// The bytes that a value of `type` takes at least: with it, an element count that the message cannot hold is
+/// refused before anything is allocated for it.
 std::size_t min_encoded_bytes(const Type& type) {
     const auto primitive = wire::primitive_size(type.kind);
     return primitive ? primitive : type.kind == Kind::structure ? 1 : 4;
 }
 
+/// Copies `count` primitives, swapping bytes if the sender's order is the other one.
 template <class T>
 void to_cdr_block(std::uint32_t count, cdrStream& from, wire::CdrWriter& to) {
     for (; count > 0; --count) {
@@ -48,7 +50,7 @@ void to_cdr_one(const Type& type, cdrStream& from, wire::CdrWriter& to) {
         CORBA::ULong count;
         count <<= from;
         const auto bytes = static_cast<CORBA::ULong>(min_encoded_bytes(type.children.front()));
-        if (!from.checkInputOverrun(bytes, count)) malformed();
+        if (!from.checkInputOverrun(bytes, count)) throw_marshal();
         to.put(static_cast<std::uint32_t>(count));
         to_cdr_elements(type.children.front(), count, from, to);
         break;
@@ -75,7 +77,7 @@ void to_cdr_elements(const Type& element, std::uint32_t count, cdrStream& from, 
     default:
         break;
     }
-    if (element.kind == Kind::wide_string) malformed();
+    if (element.kind == Kind::wide_string) throw_marshal();
     for (; count > 0; --count) to_cdr_one(element, from, to);
 }
 
@@ -91,7 +93,7 @@ void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to) {
         break;
     case Kind::sequence: {
         const CORBA::ULong count = from.get_count(min_encoded_bytes(type.children.front()));
-        if (!from.ok()) malformed();
+        if (!from.ok()) throw_marshal();
         count >>= to;
         from_cdr_elements(type.children.front(), count, from, to);
         break;
@@ -103,19 +105,20 @@ void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to) {
         from_cdr_elements(type, 1, from, to);
         break;
     }
-    if (!from.ok()) malformed();
+    if (!from.ok()) throw_marshal();
 }
 
 void from_cdr_elements(const Type& element, std::uint32_t count, wire::CdrReader& from, cdrStream& to) {
     if (const auto size = wire::primitive_size(element.kind)) {
-        if (count == 0) return;
+        if (count == 0) return; // an empty sequence is not followed by padding
+        // Primitives lie in a row in both formats: one copy for all of them.
         const auto block = from.get_block(size * count, size);
-        if (block.empty()) malformed();
+        if (block.empty()) throw_marshal();
         to.put_octet_array(reinterpret_cast<const _CORBA_Octet*>(block.data()),
                            static_cast<int>(block.size()), omni::alignment_t(size));
         return;
     }
-    if (element.kind == Kind::wide_string) malformed();
+    if (element.kind == Kind::wide_string) throw_marshal();
     for (; count > 0; --count) from_cdr_one(element, from, to);
 }
 

@@ -8,12 +8,12 @@
 
 namespace tandem::interceptor {
 
-/// Moves the members of `message` from a CORBA stream of either byte order into CDR. Throws CORBA::MARSHAL
-/// when the stream holds less than that, and for wide strings, whose CORBA encoding depends on the
-/// connection.
+/// Converts the members of `message` from the ORB's stream, of either byte order, to little-endian CDR. Throws
+/// CORBA::MARSHAL when the stream holds less than that, and for wide strings, whose encoding in CORBA depends
+/// on the connection.
 void to_cdr(const wire::Type& message, cdrStream& from, wire::CdrWriter& to);
 
-/// The way back. Throws CORBA::MARSHAL when the CDR does not hold such a message.
+/// The other direction, in the machine's byte order. Throws CORBA::MARSHAL when the CDR holds no such message.
 void from_cdr(const wire::Type& message, wire::CdrReader& from, cdrStream& to);
 
 } // namespace tandem::interceptor
