@@ -12,21 +12,25 @@
 #include <type_traits>
 #include <vector>
 
+// CDR, the Common Data Representation of CORBA (OMG, CORBA 3.3 part 2, section 9.3): primitives in the byte
+// order of the sender, each aligned to its size, counted from the start of the message. Tandem writes little
+// endian only, and no encapsulation header.
 namespace tandem::wire {
 
-static_assert(std::endian::native == std::endian::little, "CDR is written as the machine has it");
+static_assert(std::endian::native == std::endian::little,
+              "primitives are copied in the machine's byte order");
 
-/// A value that CDR writes as it lies in memory, aligned to its size.
+/// A type whose CDR encoding is its memory representation, aligned to its size.
 template <class T>
 concept CdrPrimitive = std::is_arithmetic_v<T> && sizeof(T) <= 8;
 
-/// Writes CDR into a buffer of fixed size. Past its end nothing is written but size() goes on counting, so
-/// that a caller learns how much room the message needs.
+/// Writes CDR, into a span or a growing vector. Beyond the end of a span nothing is written but size() goes
+/// on counting: so a caller learns how much room a message needs, as with snprintf. [one thread]
 class CdrWriter {
   public:
     explicit CdrWriter(std::span<std::byte> out) : out_(out) {}
-    /// Writes from the start of `out`, which grows as the message does and keeps its capacity.
-    explicit CdrWriter(std::vector<std::byte>& out) : grow_(&out) { out.clear(); }
+    /// Writes to the start of `out`, which grows with the message and keeps its capacity for the next one.
+    explicit CdrWriter(std::vector<std::byte>& out) : vector_(&out) { out.clear(); }
 
     template <CdrPrimitive T>
     void put(T value) {
@@ -35,13 +39,13 @@ class CdrWriter {
     }
     void put_bool(bool value) { put<std::uint8_t>(value ? 1 : 0); }
 
-    /// Length including the final NUL, the characters, the NUL.
+    /// A CDR string: its length with the final NUL, the characters, the NUL.
     void put_string(std::string_view text) {
         put(static_cast<std::uint32_t>(text.size() + 1));
         append(text.data(), text.size());
         append("", 1);
     }
-    /// Elements that lie in a row, aligned to `alignment`.
+    /// Consecutive elements whose memory representation is their encoding, aligned to `alignment`.
     void put_block(const void* data, std::size_t bytes, std::size_t alignment) {
         align(alignment);
         append(data, bytes);
@@ -52,14 +56,15 @@ class CdrWriter {
         append(zeros, (0 - size_) & (alignment - 1));
     }
 
-    bool fits() const { return grow_ || size_ <= out_.size(); }
+    /// False if the message is longer than the span; then size() says how long it is.
+    bool fits() const { return vector_ || size_ <= out_.size(); }
     std::size_t size() const { return size_; }
 
   private:
     void append(const void* data, std::size_t bytes) {
-        if (grow_) {
-            grow_->resize(size_ + bytes);
-            std::copy_n(static_cast<const std::byte*>(data), bytes, grow_->data() + size_);
+        if (vector_) {
+            vector_->resize(size_ + bytes);
+            std::copy_n(static_cast<const std::byte*>(data), bytes, vector_->data() + size_);
         } else if (bytes != 0 && size_ + bytes <= out_.size()) {
             std::memcpy(out_.data() + size_, data, bytes);
         }
@@ -67,12 +72,13 @@ class CdrWriter {
     }
 
     std::span<std::byte> out_;
-    std::vector<std::byte>* grow_ = nullptr;
+    std::vector<std::byte>* vector_ = nullptr; ///< grows; if null, out_ is used
     std::size_t size_ = 0;
 };
 
-/// Reads CDR. After the first byte that is missing or wrong, ok() is false and every read gives zero or
-/// nothing: a reader of a hostile message ends, it does not crash.
+/// Reads CDR that another process wrote and that may hold anything. After the first byte that is missing or
+/// wrong, ok() is false and every read returns zero or nothing, so that a caller may check once, at the end;
+/// nothing beyond the message is ever read. [one thread]
 class CdrReader {
   public:
     explicit CdrReader(std::span<const std::byte> in) : in_(in) {}
@@ -80,50 +86,53 @@ class CdrReader {
     template <CdrPrimitive T>
     T get() {
         T value{};
-        if (align(sizeof(T)) && take(sizeof(T))) std::memcpy(&value, in_.data() + at_ - sizeof(T), sizeof(T));
+        if (align(sizeof(T)) && skip(sizeof(T)))
+            std::memcpy(&value, in_.data() + position_ - sizeof(T), sizeof(T));
         return value;
     }
     bool get_bool() {
         const auto value = get<std::uint8_t>();
-        if (value > 1) fail();
+        if (value > 1) ok_ = false; // a bool of any other value is undefined behaviour in C++
         return value == 1;
     }
     /// The characters without the final NUL, valid as long as the message.
     std::string_view get_string() {
         const auto length = get<std::uint32_t>();
-        if (length == 0 || !take(length)) return fail(), std::string_view();
-        const auto* text = reinterpret_cast<const char*>(in_.data() + at_ - length);
-        if (text[length - 1] != '\0') return fail(), std::string_view();
-        return {text, length - 1};
+        if (length == 0) ok_ = false; // the final NUL counts
+        if (!ok_ || !skip(length)) return {};
+        const auto* text = reinterpret_cast<const char*>(in_.data() + position_ - length);
+        if (text[length - 1] == '\0') return {text, length - 1};
+        ok_ = false;
+        return {};
     }
-    /// Count of a sequence whose elements take at least `element_bytes` each: a count that the rest of the
-    /// message cannot hold is refused before anybody allocates for it.
+    /// The count of a sequence whose elements take at least `element_bytes` each. A count that the rest of the
+    /// message cannot hold is an error, so that no caller allocates for it.
     std::uint32_t get_count(std::size_t element_bytes) {
         const auto count = get<std::uint32_t>();
-        if (!ok_ || count > remaining() / (element_bytes ? element_bytes : 1)) return fail(), 0;
-        return count;
+        if (ok_ && count <= remaining() / (element_bytes ? element_bytes : 1)) return count;
+        ok_ = false;
+        return 0;
     }
-    /// `bytes` bytes in a row from the next multiple of `alignment`; empty when they are not there.
+    /// The next `bytes` bytes from a multiple of `alignment` on; empty when the message ends before.
     std::span<const std::byte> get_block(std::size_t bytes, std::size_t alignment) {
-        if (!align(alignment) || !take(bytes)) return {};
-        return in_.subspan(at_ - bytes, bytes);
+        if (!align(alignment) || !skip(bytes)) return {};
+        return in_.subspan(position_ - bytes, bytes);
     }
-    bool align(std::size_t alignment) { return take((0 - at_) & (alignment - 1)); }
+    bool align(std::size_t alignment) { return skip((0 - position_) & (alignment - 1)); }
 
     bool ok() const { return ok_; }
-    std::size_t position() const { return at_; }
-    std::size_t remaining() const { return in_.size() - at_; }
+    std::size_t position() const { return position_; }
+    std::size_t remaining() const { return in_.size() - position_; }
 
   private:
-    bool take(std::size_t bytes) {
-        if (!ok_ || bytes > remaining()) return fail(), false;
-        at_ += bytes;
-        return true;
+    bool skip(std::size_t bytes) {
+        ok_ = ok_ && bytes <= remaining();
+        if (ok_) position_ += bytes;
+        return ok_;
     }
-    void fail() { ok_ = false; }
 
     std::span<const std::byte> in_;
-    std::size_t at_ = 0;
+    std::size_t position_ = 0;
     bool ok_ = true;
 };
 

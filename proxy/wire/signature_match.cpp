@@ -13,12 +13,13 @@ const Type& time_type() {
     return time;
 }
 
+/// A time alone does not count: without it, the message would be empty.
 bool starts_with_time(const Type& message) {
     return message.children.size() > 1 && message.children.front() == time_type();
 }
 
-/// The message without its leading time, in canonical form.
-std::string untimed(const Type& message) {
+/// Parsed once more, because what is left may be one structure, whose parentheses the canonical form lacks.
+std::string signature_without_time(const Type& message) {
     Type rest = message;
     rest.children.erase(rest.children.begin());
     return to_signature(parse_signature(to_signature(rest)));
@@ -27,16 +28,18 @@ std::string untimed(const Type& message) {
 } // namespace
 
 SignatureMatch match_signatures(std::string_view from, std::string_view to) {
-    const Type a = parse_signature(from), b = parse_signature(to);
-    if (a == b) return SignatureMatch::equal;
-    if (starts_with_time(a) && untimed(a) == to_signature(b)) return SignatureMatch::strip_time;
-    if (starts_with_time(b) && untimed(b) == to_signature(a)) return SignatureMatch::add_time;
+    const Type sent = parse_signature(from), received = parse_signature(to);
+    if (sent == received) return SignatureMatch::equal;
+    if (starts_with_time(sent) && signature_without_time(sent) == to_signature(received))
+        return SignatureMatch::strip_time;
+    if (starts_with_time(received) && signature_without_time(received) == to_signature(sent))
+        return SignatureMatch::add_time;
     return SignatureMatch::mismatch;
 }
 
 bool is_timed(std::string_view signature) { return starts_with_time(parse_signature(signature)); }
 
-Operation parse_operation_signature(std::string_view signature) {
+OperationSignature parse_operation_signature(std::string_view signature) {
     const auto colon = signature.find(':');
     if (colon == std::string_view::npos || signature.find(':', colon + 1) != std::string_view::npos)
         throw SignatureError(

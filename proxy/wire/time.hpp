@@ -6,15 +6,15 @@
 
 namespace tandem::wire {
 
-/// RTM's `Time tm` as the message header carries it: seconds in the upper, nanoseconds in the lower half, so
-/// that it comes out bit for bit as it went in.
+/// RTM's `Time tm` as a record's header carries it, in its 64-bit stamp: seconds in the upper 32 bits,
+/// nanoseconds in the lower. Nothing is normalized, so that it comes out bit for bit as it went in.
 constexpr std::uint64_t pack_time(std::uint32_t sec, std::uint32_t nsec) {
     return std::uint64_t{sec} << 32 | nsec;
 }
 constexpr std::uint32_t stamp_seconds(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp >> 32); }
 constexpr std::uint32_t stamp_nanoseconds(std::uint64_t stamp) { return static_cast<std::uint32_t>(stamp); }
 
-/// Wall-clock time of now, the stamp of a message whose sender gives none.
+/// The stamp of a message whose sender gives none: the current time of CLOCK_REALTIME, which RTM uses, too.
 inline std::uint64_t wall_clock_stamp() {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);

@@ -9,34 +9,36 @@
 namespace tandem::wire {
 namespace {
 
+// Bounds for signatures that another process wrote: parsing one must not exhaust the stack or the memory.
 constexpr int max_depth = 32;
 constexpr std::size_t max_members = 4096;
 constexpr std::uint32_t max_array = 1u << 24;
 
+/// Recursive descent over one signature.
 class Parser {
   public:
     explicit Parser(std::string_view text) : text_(text) {}
 
-    Type message() {
+    Type parse_message() {
         Type message;
-        while (at_ < text_.size()) add_member(message, next(0));
+        while (position_ < text_.size()) add_member(message, parse_type(0));
         return message;
     }
 
   private:
-    Type next(int depth) {
+    Type parse_type(int depth) {
         if (depth > max_depth) fail("nesting is deeper than 32");
-        if (at_ == text_.size()) fail("it ends where a type was expected");
-        const char code = text_[at_++];
+        if (position_ == text_.size()) fail("it ends where a type was expected");
+        const char code = text_[position_++];
         switch (code) {
         case 'a':
-            return Type{Kind::sequence, 0, {next(depth + 1)}};
+            return Type{Kind::sequence, 0, {parse_type(depth + 1)}};
         case '[': {
-            const auto count = array_count();
-            return Type{Kind::array, count, {next(depth + 1)}};
+            const auto count = parse_array_count();
+            return Type{Kind::array, count, {parse_type(depth + 1)}};
         }
         case '(':
-            return structure(depth);
+            return parse_structure(depth);
         default:
             break;
         }
@@ -45,22 +47,23 @@ class Parser {
         return Type{static_cast<Kind>(code), 0, {}};
     }
 
-    Type structure(int depth) {
+    Type parse_structure(int depth) {
         Type structure;
-        while (at_ < text_.size() && text_[at_] != ')') add_member(structure, next(depth + 1));
-        if (at_ == text_.size()) fail("')' is missing");
+        while (position_ < text_.size() && text_[position_] != ')')
+            add_member(structure, parse_type(depth + 1));
+        if (position_ == text_.size()) fail("')' is missing");
         if (structure.children.empty()) fail("a structure without members takes no bytes");
-        ++at_;
+        ++position_;
         return structure;
     }
 
-    std::uint32_t array_count() {
+    std::uint32_t parse_array_count() {
         std::uint32_t count = 0;
-        while (at_ < text_.size() && text_[at_] >= '0' && text_[at_] <= '9') {
-            count = count * 10 + static_cast<std::uint32_t>(text_[at_++] - '0');
+        while (position_ < text_.size() && text_[position_] >= '0' && text_[position_] <= '9') {
+            count = count * 10 + static_cast<std::uint32_t>(text_[position_++] - '0');
             if (count > max_array) fail("the array is too long");
         }
-        if (count == 0 || at_ == text_.size() || text_[at_++] != ']') fail("'[N]' was expected");
+        if (count == 0 || position_ == text_.size() || text_[position_++] != ']') fail("'[N]' was expected");
         return count;
     }
 
@@ -70,11 +73,11 @@ class Parser {
     }
 
     [[noreturn]] void fail(std::string_view what) const {
-        throw SignatureError(fmt::format("type signature '{}': {} at character {}", text_, what, at_));
+        throw SignatureError(fmt::format("type signature '{}': {} at character {}", text_, what, position_));
     }
 
     std::string_view text_;
-    std::size_t at_ = 0;
+    std::size_t position_ = 0;
 };
 
 void append(std::string& out, const Type& type) {
@@ -100,7 +103,7 @@ void append(std::string& out, const Type& type) {
 } // namespace
 
 Type parse_signature(std::string_view signature) {
-    Type message = Parser(signature).message();
+    Type message = Parser(signature).parse_message();
     while (message.children.size() == 1 && message.children.front().kind == Kind::structure)
         message = Type(message.children.front());
     return message;
@@ -136,6 +139,7 @@ std::size_t primitive_size(Kind kind) {
 
 double max_encoded_bytes(const Type& type) {
     const std::size_t size = primitive_size(type.kind);
+    // Before a primitive there are at most size - 1 bytes of padding.
     if (size != 0) return static_cast<double>(2 * size - 1);
     if (type.kind == Kind::structure)
         return std::accumulate(

@@ -7,14 +7,19 @@
 #include <string_view>
 #include <vector>
 
+// Type signatures: one short string that says what a CDR payload holds, e.g. `(uu)ad` for RTC::TimedDoubleSeq.
+// The alphabet is that of the D-Bus specification ("Type System", signature strings), which has the same type
+// codes b y n q i u x t d s a ( ). Added are c (char), f (float), w (wide string) and [N] (fixed array); left
+// out are D-Bus's o, g, v, h and { }. The whole alphabet is in this folder's README.
 namespace tandem::wire {
 
-/// A signature that does not parse; what() names it and the place.
+/// A signature that does not parse; what() is one line with the signature, what was expected and where.
 class SignatureError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
+/// The kind of a type; the value is its code in a signature.
 enum class Kind : char {
     boolean = 'b',
     character = 'c',
@@ -34,7 +39,7 @@ enum class Kind : char {
     structure = '(' ///< children are the members
 };
 
-/// One node of a parsed signature.
+/// One node of a parsed signature. A message is a structure whose children are its members.
 struct Type {
     Kind kind = Kind::structure;
     std::uint32_t count = 0; ///< elements of an array
@@ -43,8 +48,9 @@ struct Type {
     bool operator==(const Type&) const = default;
 };
 
-/// Parses a message signature into a structure of its members; `(..)` around the whole is dropped.
-/// Throws SignatureError; nesting is limited to 32, members to 4096.
+/// Parses a message signature into a structure of its members. Parentheses around the whole are dropped, since
+/// a structure of one structure is encoded the same. Throws SignatureError, also beyond 32 levels of nesting,
+/// 4096 members or an array of 2^24: signatures come from other processes.
 Type parse_signature(std::string_view signature);
 
 /// The signature of a type; of a message (top-level structure) without the outer parentheses.
@@ -53,8 +59,8 @@ std::string to_signature(const Type& message);
 /// Bytes of a primitive in CDR, which is also its alignment; 0 for everything else.
 std::size_t primitive_size(Kind kind);
 
-/// Bytes that a value takes at most, padding included (rather too many than too few); infinity when the type
-/// sets no bound.
+/// An upper bound of the bytes that a value takes in CDR, padding included; infinity when the type sets no
+/// bound (strings, sequences). In double, because the product of nested arrays may exceed any integer.
 double max_encoded_bytes(const Type& type);
 
 } // namespace tandem::wire

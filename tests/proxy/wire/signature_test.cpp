@@ -62,9 +62,9 @@ TEST_CASE("what a message takes at most is known unless its type sets no bound")
 }
 
 TEST_CASE("an operation is arguments, colon, result") {
-    CHECK(parse_operation_signature("ss:d") == Operation{"ss", "d"});
-    CHECK(parse_operation_signature(":ad") == Operation{"", "ad"});
-    CHECK(parse_operation_signature("i:") == Operation{"i", ""});
+    CHECK(parse_operation_signature("ss:d") == OperationSignature{"ss", "d"});
+    CHECK(parse_operation_signature(":ad") == OperationSignature{"", "ad"});
+    CHECK(parse_operation_signature("i:") == OperationSignature{"i", ""});
     CHECK_THROWS_AS(parse_operation_signature("i"), SignatureError);
     CHECK_THROWS_AS(parse_operation_signature("i:d:d"), SignatureError);
 }
