@@ -64,7 +64,7 @@ std::uint64_t StampedOutStream::stamp() const {
 
 void StampedOutStream::put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) {
     const auto bytes = static_cast<std::size_t>(size);
-    std::memcpy(take(pd_outb_mkr, pd_outb_end, bytes, alignment), from, bytes);
+    std::memcpy(advance(pd_outb_mkr, pd_outb_end, bytes, alignment), from, bytes);
 }
 
 _CORBA_Boolean StampedOutStream::checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count,

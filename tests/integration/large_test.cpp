@@ -26,7 +26,7 @@ struct Pictures : TwoHosts {
 } // namespace
 
 TEST_CASE(
-    "pictures of 100 bytes to 64 MiB go to an RTC and come back whole whichever half asks for large_kib") {
+    "pictures of 100 bytes to 64 MiB go to an RTC and come back whole whichever side asks for large_kib") {
     Pictures hosts;
     const bool adaptor_asks = GENERATE(true, false);
     if (adaptor_asks)

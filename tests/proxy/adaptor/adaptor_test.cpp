@@ -27,7 +27,7 @@ namespace {
 
 constexpr auto soon = 10s;
 
-/// The other half without RTM: remembers what it is told.
+/// The other side without RTM: records what it receives.
 struct Peer : link::LinkHandler {
     explicit Peer(const std::string& name)
         : link(shm::Side::second, {name},
@@ -53,6 +53,11 @@ struct Peer : link::LinkHandler {
         const std::lock_guard lock(mutex);
         received.push_back(std::string(request.port) + "." + std::string(request.operation));
         if (request.operation == refuse) return Reply::failure(CallStatus::exception, "onActivated failed");
+        if (request.operation == link::control::listen) {
+            const auto names = link::control::decode_port_names(request.arguments);
+            link.writer("reference")
+                .set_peer_listens(std::count(names.begin(), names.end(), "reference") != 0);
+        }
         if (request.operation != "limits") return {};
         const auto axis = wire::CdrReader(request.arguments).get<std::int32_t>();
         Reply reply;
@@ -149,7 +154,7 @@ class Chair : public IChair {
 
 } // namespace
 
-TEST_CASE("the adaptor grows the peer's ports") {
+TEST_CASE("the adaptor creates a mirror of each port of the peer") {
     Scene scene("ports");
     CHECK(scene.component.getPort("linkState") != nullptr);
     CHECK(scene.port<OutputDataPortInterface>("reference").getRole() == OPROS_DATA_PORT_OUTPUT);
@@ -194,6 +199,35 @@ TEST_CASE("a connected input port polls the ring itself") {
     }
     CHECK(input.pop() == nullptr);
     reference.clearConnection();
+}
+
+TEST_CASE("an event-driven consumer is told of messages by the doorbell and is not polled") {
+    struct Count : DataPortListener {
+        std::atomic<int> arrivals{0};
+        void arrived() override { ++arrivals; }
+    } count;
+    Scene scene("listen");
+    auto& reference = scene.port<OutputDataPortInterface>("reference");
+    InputDataPort<std::vector<double>> input;
+    input.setListener(&count);
+    REQUIRE(reference.checkType(&input));
+    CHECK_FALSE(input.hasPolledSources());
+    REQUIRE(eventually([&] { return scene.peer.has_received(".listen"); }));
+    auto& writer = scene.peer.link.writer("reference");
+    for (int i = 1; i <= 3; ++i) {
+        REQUIRE(writer.write(0, [&](wire::CdrWriter& out) {
+            out.put<std::uint32_t>(1);
+            out.put(double(i));
+        }));
+        REQUIRE(eventually([&] { return count.arrivals == i; }));
+        std::unique_ptr<opros_any> value(input.pop());
+        REQUIRE(value);
+        CHECK(input.getContent(*value) == std::vector<double>{double(i)});
+    }
+    reference.clearConnection();
+    REQUIRE(writer.write(0, [&](wire::CdrWriter& out) { out.put<std::uint32_t>(0); }));
+    std::this_thread::sleep_for(20ms);
+    CHECK(count.arrivals == 3);
 }
 
 TEST_CASE("a value with the time in it has it in the header on the way and back again") {
@@ -273,7 +307,7 @@ TEST_CASE("types that do not fit are refused at connection, with both signatures
     CHECK_THAT(position.typeError(), Catch::Contains("'s'") && Catch::Contains("'(uu)ad'"));
 }
 
-TEST_CASE("a required port calls the peer, and hears why a call failed") {
+TEST_CASE("a required port calls the peer, and learns why a call failed") {
     Scene scene("required");
     auto& joystick = scene.port<ProvidedServicePort>("joystick");
     ChairRequired required;

@@ -111,7 +111,7 @@ TEST_CASE("images of 1 MiB and 1080p pass both ways without anybody asking for i
     check_books(link.a->link.writer("position").counters(), number, number);
 }
 
-TEST_CASE("64 MiB pass both ways whichever half asks for it") {
+TEST_CASE("64 MiB pass both ways whichever side asks for it") {
     const bool adaptor_asks = GENERATE(true, false);
     Linked link("huge", adaptor_asks ? large(65 * mib) : LinkOptions{},
                 adaptor_asks ? large(2 * mib) : large(65 * mib));
@@ -201,7 +201,7 @@ TEST_CASE("small messages stay in the ring however long the last one was") {
     CHECK(writer.counters().dropped() == 0);
 }
 
-TEST_CASE("a half that comes back finds chunks though the other one held one and others waited") {
+TEST_CASE("a side that comes back finds chunks though the other one held one and others waited") {
     Linked link("restart", large(2 * mib));
     std::uint32_t number = 0;
     for (int round = 0; round < 3; ++round) {
@@ -226,7 +226,8 @@ TEST_CASE("a half that comes back finds chunks though the other one held one and
         }
         // The one that stayed learns a moment later that its session is over.
         REQUIRE(eventually([&] {
-            return link.a->link.is_up() && link.b->link.is_up() && send(link.b->link.writer("reference"), number) &&
+            return link.a->link.is_up() && link.b->link.is_up() &&
+                   send(link.b->link.writer("reference"), number) &&
                    receive(link.a->link.reader("reference")) == number;
         }));
     }
@@ -280,9 +281,9 @@ int asks_for_too_much() {
     if (!shm::test::enter_small_shm(24)) return shm::test::not_permitted;
     LinkOptions options = large(8 * mib);
     options.name = unique_name("much");
-    LinkSide half(shm::Side::second, options, joystick_table());
+    LinkSide side(shm::Side::second, options, joystick_table());
     try {
-        half.link.open();
+        side.link.open();
         return 1;
     } catch (const shm::Error& error) {
         const std::string text = error.what();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both halves of a link in one process.
+// One side of a link for tests, so that one process can have both.
 #pragma once
 
 #include "proxy/link/link.hpp"

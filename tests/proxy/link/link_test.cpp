@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both halves of a link in one process, and the peer as a process that is killed.
+// Both sides of a link in one process, and the peer as a process that is killed.
 #include "link_side.hpp"
 
 #include <csignal>
@@ -30,6 +30,52 @@ TEST_CASE("data flow both ways whichever half opens first, and nothing is left b
         CHECK_FALSE(receive(b->link.reader("position")));
     }
     CHECK(segments_of(name) == 0);
+}
+
+TEST_CASE("a listener is called once for messages that have arrived and not after it was removed") {
+    const auto name = unique_name("listener");
+    auto a = adaptor(name), b = interceptor(name);
+    a->link.open();
+    b->link.open();
+    a->link.wait_until_up(soon, "peer");
+    b->link.wait_until_up(soon, "peer");
+    std::atomic<int> calls{0};
+    a->link.set_arrival_listener("reference", [&] { ++calls; });
+    b->link.writer("reference").set_peer_listens(true);
+    REQUIRE(send(b->link.writer("reference"), 1));
+    REQUIRE(eventually([&] { return calls == 1; }));
+    // The message is still unread, and announced nevertheless only once.
+    std::this_thread::sleep_for(20ms);
+    CHECK(calls == 1);
+    a->link.set_arrival_listener("reference", {});
+    REQUIRE(send(b->link.writer("reference"), 2));
+    std::this_thread::sleep_for(20ms);
+    CHECK(calls == 1);
+}
+
+TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that came back") {
+    const auto name = unique_name("doorbell");
+    auto a = adaptor(name);
+    std::atomic<int> calls{0};
+    a->link.set_arrival_listener("reference", [&] { ++calls; });
+    a->link.open();
+    for (int round = 0; round < 2; ++round) {
+        auto b = interceptor(name);
+        b->link.open();
+        a->link.wait_until_up(soon, "peer");
+        b->link.wait_until_up(soon, "peer");
+        b->link.writer("reference").set_peer_listens(true);
+        const auto start = std::chrono::steady_clock::now();
+        for (int i = 0; i < 20; ++i) {
+            const int before = calls;
+            REQUIRE(send(b->link.writer("reference"), i));
+            REQUIRE(eventually([&] { return calls > before; }));
+        }
+        // Without the bell, each would wait for the notifier's bound of 1 s.
+        CHECK(std::chrono::steady_clock::now() - start < 10s);
+        b.reset();
+        REQUIRE(eventually([&] { return a->downs == round + 1; }));
+    }
 }
 
 TEST_CASE("calls go both ways, also from within a call") {
@@ -167,7 +213,10 @@ TEST_CASE("a killed peer is noticed, its calls end, and its successor is bound")
         const pid_t child = fork(); // nothing but this thread runs in the parent's copy
         if (child == 0) {
             auto b = interceptor(name);
-            b->on_call = [](const Request&) { return std::this_thread::sleep_for(60s), Reply{}; };
+            b->on_call = [](const Request&) {
+                std::this_thread::sleep_for(60s);
+                return Reply{};
+            };
             b->link.open();
             b->link.wait_until_up(soon, "peer");
             [[maybe_unused]] const auto written = write(ready[1], "x", 1);

@@ -105,6 +105,37 @@ TEST_CASE("an aperiodic component is executed when a value waits in a source") {
     input(application, "numbers").removeSource(&source);
 }
 
+TEST_CASE("an aperiodic component whose source signals its values sleeps until one comes") {
+    class Signalling : public Source {
+      public:
+        opros::archive::iarchive* next() override {
+            ++polls;
+            return Source::next();
+        }
+        bool setListener(DataPortListener* to) override {
+            listener = to;
+            return true;
+        }
+        std::atomic<DataPortListener*> listener{nullptr};
+        std::atomic<int> polls{0};
+    } source;
+    const Folder folder;
+    Application application(sink(folder), test_options(folder, false));
+    REQUIRE(input(application, "numbers").addSource(&source) == OPROS_SUCCESS);
+    application.start();
+    Recorder& s = recorder(application, "S");
+    REQUIRE(eventually([&] { return s.executions == 1; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // the first cycle has ended
+    const int polls = source.polls;
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    CHECK(source.polls - polls <= 5); // 200, were it polled
+    source.left = 1;
+    source.listener.load()->arrived();
+    CHECK(eventually([&] { return s.last_number == 7; }));
+    application.stop();
+    input(application, "numbers").removeSource(&source);
+}
+
 TEST_CASE("an aperiodic component that depends on another one is executed after it") {
     const Folder folder;
     const auto file = sink(folder);

@@ -243,6 +243,33 @@ TEST_CASE("a value that cannot be decoded is dropped and reported, and no other 
     CHECK(source.finished == 2);
 }
 
+TEST_CASE("a source that can signal its values is given the port's listener and is not polled") {
+    struct Signalling : TestSource {
+        bool setListener(DataPortListener* to) override {
+            listener = to;
+            return true;
+        }
+        DataPortListener* listener = nullptr;
+    } signalling;
+    struct Count : DataPortListener {
+        void arrived() override {}
+    } count;
+    const bool listener_first = GENERATE(true, false);
+    InputDataPort<double> port;
+    if (listener_first) port.setListener(&count);
+    port.addSource(&signalling);
+    if (!listener_first) port.setListener(&count);
+    CHECK(signalling.listener == &count);
+    CHECK_FALSE(port.hasPolledSources());
+    TestSource silent;
+    port.addSource(&silent);
+    CHECK(port.hasPolledSources());
+    port.removeSource(&silent);
+    CHECK_FALSE(port.hasPolledSources());
+    port.removeSource(&signalling);
+    CHECK(signalling.listener == nullptr);
+}
+
 TEST_CASE("a removed source is not used any more") {
     InputDataPort<double> port;
     TestSource source;
