@@ -14,7 +14,7 @@ double number(const std::map<std::string, std::string>& properties, const std::s
               double default_value) {
     const auto at = properties.find(name);
     return at == properties.end() ? default_value
-                                  : link::positive_number("property", name, at->second, default_value);
+                                  : link::parse_positive_number("property", name, at->second, default_value);
 }
 
 } // namespace

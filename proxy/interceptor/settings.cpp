@@ -20,7 +20,7 @@ std::string required(coil::Properties& properties, const std::string& name, cons
 }
 
 double number(coil::Properties& properties, const std::string& name, double default_value) {
-    return link::positive_number("parameter", name, properties.getProperty(name), default_value);
+    return link::parse_positive_number("parameter", name, properties.getProperty(name), default_value);
 }
 
 } // namespace

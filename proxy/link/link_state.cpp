@@ -62,6 +62,7 @@ bool LinkState::end_session() {
     const bool was_up = up_.exchange(false);
     refusal_.clear();
     ended = std::move(session_);
+    // Under the lock, so that no thread takes this session for the current one and then waits in it.
     if (ended) ended->shut_down();
     changed_.notify_all();
     return was_up;
@@ -69,7 +70,7 @@ bool LinkState::end_session() {
 
 bool LinkState::start_closing() {
     const std::lock_guard lock(mutex_);
-    if (closing_.exchange(true)) return false;
+    if (closing_.exchange(true)) return false; // close() and the destructor may both come here
     if (session_) session_->interrupt();
     changed_.notify_all();
     return true;

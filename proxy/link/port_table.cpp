@@ -9,6 +9,9 @@
 namespace tandem::link {
 namespace {
 
+// Bytes of a port at least, to refuse a count that the table cannot hold.
+constexpr std::size_t min_port_bytes = 24;
+
 void put(wire::CdrWriter& out, const Port& port) {
     out.put(static_cast<std::uint32_t>(port.kind));
     for (const auto* text : {&port.name, &port.type, &port.signature, &port.instance}) out.put_string(*text);
@@ -40,7 +43,7 @@ const Port* PortTable::find(std::string_view name) const {
 }
 
 std::vector<std::byte> encode(const PortTable& table) {
-    wire::CdrWriter measure({});
+    wire::CdrWriter measure({}); // writes nothing, counts
     put(measure, table);
     std::vector<std::byte> bytes(measure.size());
     wire::CdrWriter writer(bytes);
@@ -52,9 +55,10 @@ PortTable decode_port_table(std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
     PortTable table;
     table.component = in.get_string();
-    table.ports.reserve(in.get_count(24));
-    for (std::size_t left = table.ports.capacity(); left > 0 && in.ok(); --left)
-        table.ports.push_back(get_port(in));
+    const std::uint32_t count = in.get_count(min_port_bytes);
+    table.ports.reserve(count);
+    // A damaged port ends the loop: a wrong count must not make it read zeros millions of times.
+    for (std::uint32_t i = 0; i < count && in.ok(); ++i) table.ports.push_back(get_port(in));
     if (!in.ok())
         throw LinkError("the peer's port table is damaged: it ends early or holds a malformed string");
     return table;

@@ -15,13 +15,14 @@ enum class PortKind : std::uint32_t { data_out, data_in, service_provided, servi
 
 inline bool is_data_port(PortKind kind) { return kind == PortKind::data_out || kind == PortKind::data_in; }
 
+/// One operation of a service interface.
 struct ServiceOperation {
     std::string name;
-    std::string signature; ///< `arguments:result`, see proxy/wire
+    std::string signature; ///< `arguments:result`, see proxy/wire/README.md
     bool operator==(const ServiceOperation&) const = default;
 };
 
-/// One port that a half shares with its peer, which grows a mirror of the same name.
+/// One port that a side shares with its peer, which creates a mirror of the same name.
 struct Port {
     PortKind kind{};
     std::string name;
@@ -32,14 +33,16 @@ struct Port {
     bool operator==(const Port&) const = default;
 };
 
+/// The ports that a side shares. It publishes them in the segment; the peer reads them when it connects.
 struct PortTable {
     std::string component; ///< whose ports these are
     std::vector<Port> ports;
     bool operator==(const PortTable&) const = default;
 
-    const Port* find(std::string_view name) const;
+    const Port* find(std::string_view name) const; ///< nullptr if there is none of that name
 };
 
+/// In CDR: component, count, and of each port kind, name, type, signature, instance and operations.
 std::vector<std::byte> encode(const PortTable&);
 /// Throws LinkError when the bytes, which another process wrote, are no table.
 PortTable decode_port_table(std::span<const std::byte>);

@@ -9,11 +9,11 @@
 
 namespace tandem::link {
 
-/// The number above 0 (and below 10^6) that a setting's text says, `otherwise` if it is empty. Throws
-/// std::runtime_error, one line, that calls the setting a `kind`: property, parameter.
-inline double positive_number(const char* kind, const std::string& name, const std::string& text,
-                              double otherwise) {
-    if (text.empty()) return otherwise;
+/// Parses the value of a setting: a number above 0 and below 10^6, `default_value` if the text is empty. Throws
+/// std::runtime_error, one line, in which `kind` is what the model calls a setting: property, parameter.
+inline double parse_positive_number(const char* kind, const std::string& name, const std::string& text,
+                                    double default_value) {
+    if (text.empty()) return default_value;
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !(value > 0 && value < 1e6))

@@ -14,7 +14,7 @@ void put(wire::CdrWriter& out, const Request& request) {
 } // namespace
 
 void encode(const Request& request, std::vector<std::byte>& out) {
-    wire::CdrWriter measure({});
+    wire::CdrWriter measure({}); // writes nothing, counts
     put(measure, request);
     out.resize(measure.size());
     wire::CdrWriter writer(out);
@@ -27,6 +27,7 @@ std::optional<Request> decode_request(std::span<const std::byte> bytes) {
     request.port = in.get_string();
     request.operation = in.get_string();
     request.signature = in.get_string();
+    // The arguments are a CDR message of their own, aligned from its start.
     if (!in.align(8)) return std::nullopt;
     request.arguments = bytes.subspan(in.position());
     return request;

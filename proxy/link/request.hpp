@@ -9,8 +9,9 @@
 
 namespace tandem::link {
 
-/// One call across the link: a service port's operation, or with an empty port a control command of the link
-/// itself. In the slot: port, operation, signature (CDR strings), padding to 8, the arguments in CDR.
+/// One call across the link: an operation of a service port, or with an empty port name a command of
+/// control.hpp. In a slot of the call queue: port, operation and signature as CDR strings, padding to a
+/// multiple of 8, the arguments in CDR.
 struct Request {
     std::string_view port;
     std::string_view operation;
@@ -18,9 +19,9 @@ struct Request {
     std::span<const std::byte> arguments;
 };
 
-/// Appends the request to `out` (cleared first), whose capacity is kept.
+/// Replaces the content of `out`, whose capacity is kept: repeated calls do not allocate.
 void encode(const Request&, std::vector<std::byte>& out);
-/// A view into `bytes`; nothing when they are no request.
+/// Returns views into `bytes`, which another process wrote; nothing when they are no request.
 std::optional<Request> decode_request(std::span<const std::byte> bytes);
 
 } // namespace tandem::link

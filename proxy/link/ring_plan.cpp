@@ -10,8 +10,10 @@
 namespace tandem::link {
 namespace {
 
-constexpr std::size_t ring_overhead = 128; // of the longest record, of which two fit
-constexpr std::uint32_t chunks = 4;        // the reader holds one, the writer fills one, two wait
+// What a ring takes beside the payloads of its two longest records, for each of them, in bytes.
+constexpr std::size_t record_overhead = 128;
+// The reader holds one, the writer fills one, and two wait for the reader.
+constexpr std::uint32_t chunks_per_ring = 4;
 
 std::size_t effective_large_bytes(const RingSizes& sizes) {
     return sizes.large_bytes != 0 ? sizes.large_bytes : default_large_bytes;
@@ -26,13 +28,15 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
         shm::RingOptions ring;
         ring.writer = port.kind == PortKind::data_out ? own : shm::other(own);
         ring.capacity = sizes.ring_bytes;
-        ring.max_record = sizes.ring_bytes / 2 - ring_overhead;
+        ring.max_record = sizes.ring_bytes / 2 - record_overhead;
+        // The newest data are worth most to a controller, and a writer must never wait for the other process.
         ring.policy = shm::RingPolicy::drop_oldest;
+        // Ports whose type bounds their messages to what a ring holds need no chunks.
         const bool may_be_long = wire::max_encoded_bytes(wire::parse_signature(port.signature)) >
                                  static_cast<double>(ring.max_record);
         if (may_be_long && effective_large_bytes(sizes) > ring.max_record) {
             ring.chunk_bytes = effective_large_bytes(sizes);
-            ring.chunks = chunks;
+            ring.chunks = chunks_per_ring;
         }
         const auto memory = shm::ring_memory(port.name, ring);
         plan.chunk_bytes += memory.all - memory.at_once;
@@ -42,13 +46,13 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
 }
 
 void check_available_memory(const RingPlan& plan, const RingSizes& sizes) {
-    const std::size_t needed = chunks * sizes.large_bytes;
+    const std::size_t needed = chunks_per_ring * sizes.large_bytes;
     const auto available = shm::available_bytes();
     if (plan.chunk_bytes == 0 || !available || *available >= needed) return;
     throw shm::Error(
         fmt::format("{}: {} bytes needed for {} messages of large_kib = {}, {} available; enlarge it, "
                     "free some, or lower large_kib",
-                    shm::shm_directory, needed, chunks, sizes.large_bytes / 1024, *available));
+                    shm::shm_directory, needed, chunks_per_ring, sizes.large_bytes / 1024, *available));
 }
 
 } // namespace tandem::link

@@ -9,30 +9,33 @@
 
 namespace tandem::link {
 
-/// What a link asks for: of the rings of its data ports, and of messages that are too long for them.
+/// The sizes that the user asked for, with `ring_kib` and `large_kib`.
 struct RingSizes {
-    std::size_t ring_bytes = 256 * 1024;
-    /// Longest message of a port whose type sets no bound; it travels in one of four chunks. 0: nobody has
-    /// asked for anything, so default_large_bytes, if there is memory for it when it comes.
+    std::size_t ring_bytes = 256 * 1024; ///< of each data port's ring
+    /// The longest message of a port whose type sets no bound; it travels in one of four chunks. 0: the user
+    /// did not ask. Then it is default_large_bytes, and no memory for it is required in advance.
     std::size_t large_bytes = 0;
 };
 
-/// A picture of 1920 x 1080 with 4 bytes per pixel, and its header.
+/// An image of 1920 x 1080 with 4 bytes per pixel, and its header.
 constexpr std::size_t default_large_bytes = std::size_t{8} * 1024 * 1024;
 constexpr std::size_t max_large_bytes = std::size_t{1} << 30;
 
-/// The rings that a half lays out for its data ports.
+/// The rings that a side creates in the segment, one for each data port in its table.
 struct RingPlan {
     struct Ring {
         std::string port;
         shm::RingOptions options;
     };
     std::vector<Ring> rings;
-    std::size_t chunk_bytes = 0; ///< of their chunks, all together
+    std::size_t chunk_bytes = 0; ///< shared memory that the chunks of all rings take when all are used
 };
+/// Computes the rings of the ports that side `own` has. Throws wire::SignatureError if a port's signature does
+/// not parse, shm::Error if a size is not acceptable for a ring.
 RingPlan plan_rings(const PortTable&, shm::Side own, const RingSizes&);
 
-/// Throws shm::Error when /dev/shm has no room for the chunks of one port, if they were asked for.
+/// Throws shm::Error, with both numbers, if the user asked for long messages and /dev/shm has not even the
+/// memory for the chunks of one port.
 void check_available_memory(const RingPlan&, const RingSizes&);
 
 } // namespace tandem::link

@@ -6,7 +6,11 @@
 
 namespace tandem::link {
 
-/// How a list of operations lies in a port table and in a binding.
+/// Bytes of an operation at least: two empty strings, the second one aligned to 4.
+constexpr std::size_t min_operation_bytes = 13;
+
+/// Encodes a list of operations, as it is part of a port table and of a service binding: count, then name and
+/// signature of each.
 inline void put(wire::CdrWriter& out, const std::vector<ServiceOperation>& operations) {
     out.put(static_cast<std::uint32_t>(operations.size()));
     for (const auto& operation : operations) {
@@ -15,9 +19,9 @@ inline void put(wire::CdrWriter& out, const std::vector<ServiceOperation>& opera
     }
 }
 
-/// The reader's ok() says whether it was a list.
+/// Decodes it. Afterwards the reader's ok() is false if the bytes were no such list.
 inline std::vector<ServiceOperation> get_service_operations(wire::CdrReader& in) {
-    std::vector<ServiceOperation> operations(in.get_count(8));
+    std::vector<ServiceOperation> operations(in.get_count(min_operation_bytes));
     for (auto& operation : operations) {
         operation.name = in.get_string();
         operation.signature = in.get_string();

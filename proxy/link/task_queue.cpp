@@ -33,10 +33,10 @@ void TaskQueue::run() {
         if (stopping_ || tasks_.empty()) continue;
         const auto task = std::move(tasks_.front());
         tasks_.pop_front();
-        lock.unlock(); // a task may post another one
+        lock.unlock(); // a task may take seconds, and may post another one
         try {
             task();
-        } catch (const std::exception& error) {
+        } catch (const std::exception& error) { // the tasks behind it must be executed all the same
             spdlog::error("link '{}': {}", owner_, error.what());
         }
         lock.lock();

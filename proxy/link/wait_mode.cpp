@@ -13,11 +13,11 @@ shm::WaitOptions wait_options_from_environment() {
     using enum shm::WaitMode;
     constexpr std::pair<std::string_view, shm::WaitMode> modes[] = {
         {"spin", spin}, {"spin-then-futex", spin_then_futex}, {"futex", futex}, {"same-core", same_core}};
-    const char* wanted = std::getenv("TANDEM_WAIT_MODE");
-    if (wanted == nullptr) return {};
+    const char* requested = std::getenv("TANDEM_WAIT_MODE");
+    if (requested == nullptr) return {};
     for (const auto& [name, mode] : modes)
-        if (name == wanted) return {.mode = mode};
-    throw LinkError(std::string("TANDEM_WAIT_MODE is '") + wanted +
+        if (name == requested) return {.mode = mode};
+    throw LinkError(std::string("TANDEM_WAIT_MODE is '") + requested +
                     "': spin, spin-then-futex, futex or same-core expected");
 }
 
