@@ -209,7 +209,7 @@ TEST_CASE("a killed peer is noticed, its calls end, and its successor is bound")
     const auto name = unique_name("killed");
     int ready[2];
     REQUIRE(pipe(ready) == 0);
-    const auto start_partner = [&] {
+    const auto start_peer = [&] {
         const pid_t child = fork(); // nothing but this thread runs in the parent's copy
         if (child == 0) {
             auto b = interceptor(name);
@@ -229,7 +229,7 @@ TEST_CASE("a killed peer is noticed, its calls end, and its successor is bound")
         return child;
     };
     // Both peers are born before any thread of this process, and the second waits for its turn.
-    const pid_t first = start_partner();
+    const pid_t first = start_peer();
     int turn[2];
     REQUIRE(pipe(turn) == 0);
     const pid_t second = fork();
