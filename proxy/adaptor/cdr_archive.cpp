@@ -29,6 +29,7 @@ void put(wire::CdrWriter& out, T value) {
         throw archive_type_exception();
 }
 
+/// An array of primitives in one copy; `size` is its element count.
 template <class T>
 void put_all(wire::CdrWriter& out, const T* p, long size) {
     if constexpr (!is_transferable<T>)
@@ -144,6 +145,7 @@ iarchive& CdrIarchive::load_binary(char** p, long& size) {
     const std::size_t count = read_sequence_head();
     const auto block = in_.get_block(count, 1);
     check();
+    // The archive's contract: without a buffer this function allocates one for the caller to delete.
     if (*p == nullptr)
         *p = new char[count];
     else if (static_cast<long>(count) > size)

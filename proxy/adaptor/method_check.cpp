@@ -39,6 +39,7 @@ std::string check_method(const link::Port& peer, const std::string& name, const 
         peer.name, name, signature, peer.type, known->signature);
 }
 
+// A reply carries a text where the failing side knows more than the status says.
 std::string describe_failure(const link::Reply& reply, std::chrono::milliseconds call_timeout) {
     switch (reply.status) {
     case link::CallStatus::timeout:

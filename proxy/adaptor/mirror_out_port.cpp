@@ -27,6 +27,7 @@ bool MirrorOutPort::checkType(DataPort* target) {
     const auto check = check_type(input->sample(), peer_);
     type_error_ = check.error;
     if (!check.error.empty()) return false;
+    // With equal signatures a leading time belongs to the OPRoS type; otherwise only to the peer's.
     value_has_time_ = wire::is_timed(peer_.signature) && check.match == wire::SignatureMatch::equal;
     if (input->addSource(this) != OPROS_SUCCESS) {
         type_error_ = fmt::format("port '{}': the target takes no values from a bridge", peer_.name);
@@ -42,6 +43,7 @@ void MirrorOutPort::detach() {
 }
 
 opros::archive::iarchive* MirrorOutPort::next() {
+    // Held until done(): a rebind or another read would free the memory of the message.
     channel_lock_ = channel_.lock();
     const auto record = channel_.read_locked();
     if (!record) {
@@ -66,6 +68,7 @@ bool MirrorOutPort::setListener(DataPortListener* listener) {
 }
 
 void MirrorOutPort::undecodable(const std::string& why) {
+    // Connected types match, so this happens only if the peer is broken; then it may happen in every cycle.
     if (undecodable_.should_log())
         spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
                       peer_.name, message_bytes_, why, undecodable_.count());

@@ -20,6 +20,7 @@ std::string MirrorProvidedPort::bindMethod(Method* required) {
         return fmt::format(
             "service port '{}': method '{}' has an argument or result that cannot cross the link", peer_.name,
             required->getName());
+    // Compared now, once, so that a call need not carry anything but CDR.
     const std::string error = check_method(peer_, required->getName(), *signature);
     if (error.empty()) signatures_[required->getName()] = *signature;
     return error;
@@ -28,12 +29,14 @@ std::string MirrorProvidedPort::bindMethod(Method* required) {
 ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_params>& arguments,
                                            opros_params& result) {
     const auto bound = signatures_.find(name);
-    if (bound == signatures_.end()) return OPROS_UNSUPPORTED_METHOD;
+    if (bound == signatures_.end()) return OPROS_UNSUPPORTED_METHOD; // it was never connected
     std::vector<std::byte> bytes;
     wire::CdrWriter writer(bytes);
     CdrOarchive archive(writer);
     for (auto& argument : arguments) argument.encode(archive);
     const auto reply = link_.call({peer_.name, name, bound->second, bytes}, call_timeout_);
+    // OPRoS stubs return the result itself, so a failure can only be an exception. The host leaves the
+    // component ACTIVE after it: the next call may succeed.
     if (reply.status != link::CallStatus::ok)
         throw MethodInvokeException(
             fmt::format("service '{}.{}': {}", peer_.name, name, describe_failure(reply, call_timeout_)));

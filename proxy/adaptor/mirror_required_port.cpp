@@ -31,13 +31,14 @@ std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
 std::string MirrorRequiredPort::collect_signatures(ProvidedServicePort& provided) {
     for (auto at = provided.getFirst(); at != provided.getEnd(); ++at)
         if (const auto signature = method_signature(*at->second)) signatures_[at->first] = *signature;
-    for (const auto& wanted : peer_.operations) {
-        const auto provided_method = signatures_.find(wanted.name);
+    // Methods that the peer does not require may have types that cannot cross: they are left out above.
+    for (const auto& required : peer_.operations) {
+        const auto provided_method = signatures_.find(required.name);
         if (provided_method == signatures_.end())
             return fmt::format(
                 "service port '{}': the peer requires operation '{}' ({}), which the connected port "
                 "does not provide with types that can cross the link",
-                peer_.name, wanted.name, wanted.signature);
+                peer_.name, required.name, required.signature);
         const auto error = check_method(peer_, provided_method->first, provided_method->second);
         if (!error.empty()) return error;
     }
@@ -58,6 +59,7 @@ Reply MirrorRequiredPort::serve(const link::Request& request) {
     const auto known = signatures_.find(std::string(request.operation));
     if (known == signatures_.end())
         return Reply::failure(CallStatus::no_such_operation, "the OPRoS component has no such method");
+    // The peer checked the signature when the binding was published, but it is another process.
     if (known->second != request.signature)
         return Reply::failure(
             CallStatus::bad_arguments,

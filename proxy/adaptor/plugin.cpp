@@ -3,6 +3,7 @@
 
 #include <ServiceUtils.h>
 
+// What an OPRoS host looks up in a component library.
 extern "C" {
 Component* getComponent() { return new tandem::adaptor::AdaptorComp(); }
 void releaseComponent(Component* component) { delete component; }

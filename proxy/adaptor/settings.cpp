@@ -26,6 +26,7 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
         throw std::runtime_error(
             "property 'link' is missing: give it the name that InterceptorComp's 'link' has");
     settings.link = link->second;
+    // Users think of the wait in seconds and of a call in milliseconds, so the properties have these units.
     const auto milliseconds = [](double value) {
         return std::chrono::milliseconds(static_cast<long>(value));
     };

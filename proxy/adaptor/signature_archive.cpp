@@ -48,6 +48,7 @@ iarchive& SignatureArchive::load(std::string&) {
     return *this;
 }
 
+// Wide characters have no encoding of their own in CDR: it depends on the CORBA connection.
 iarchive& SignatureArchive::load(std::wstring&) { throw opros::archive::archive_type_exception(); }
 
 iarchive& SignatureArchive::load_binary(char** p, long& size) {
@@ -59,7 +60,7 @@ iarchive& SignatureArchive::load_binary(char** p, long& size) {
 
 std::size_t SignatureArchive::read_sequence_head() {
     signature_ += 'a';
-    return 1;
+    return 1; // one element, so that the type loads it and shows its signature
 }
 
 iarchive& SignatureArchive::read_class_head(const std::string&) {

@@ -27,6 +27,7 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer) {
     try {
         signature = value_signature(sample);
     } catch (const std::exception&) {
+        // Thrown by the archive, or by the type's own load().
         return {
             wire::SignatureMatch::mismatch,
             fmt::format(
@@ -34,6 +35,7 @@ TypeCheck check_type(const opros_any& sample, const link::Port& peer) {
                 peer.name, sample.type())};
     }
     const auto match = wire::match_signatures(signature, peer.signature);
+    // strip_time is no match here: the OPRoS value would have a time of which the peer's type knows nothing.
     if (match == wire::SignatureMatch::equal || match == wire::SignatureMatch::add_time) return {match, ""};
     return {wire::SignatureMatch::mismatch,
             fmt::format(

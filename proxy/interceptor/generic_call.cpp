@@ -28,6 +28,7 @@ class Call final : public omniCallDescriptor {
         wire::CdrWriter writer(results);
         to_cdr(result_type_, stream, writer);
     }
+    // Reading the exception's members would need its type; the repository id says enough for a message.
     void userException(cdrStream&, _OMNI_NS(IOP_C) * client, const char* repository_id) override {
         exception = repository_id;
         if (client) client->RequestCompleted(1);
@@ -58,6 +59,7 @@ GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& oper
     omniObjRef* reference = object->_PR_getobj();
     Call call(operation, arguments_type, result_type, arguments);
     try {
+        // Of this object reference, not of the process: other components choose their own bounds.
         omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
         reference->_invoke(call);
     } catch (const CORBA::BAD_OPERATION&) {
@@ -67,6 +69,7 @@ GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& oper
     } catch (const CORBA::TIMEOUT&) {
         return failure(Status::timeout, operation, "the CORBA object did not answer in time");
     } catch (const CORBA::SystemException& ex) {
+        // These three mean that nobody executed the call; all others come from the object itself.
         const bool gone = dynamic_cast<const CORBA::TRANSIENT*>(&ex) ||
                           dynamic_cast<const CORBA::COMM_FAILURE*>(&ex) ||
                           dynamic_cast<const CORBA::OBJECT_NOT_EXIST*>(&ex);

@@ -16,6 +16,7 @@ class Upcall final : public omniCallDescriptor {
         : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, 0, nullptr, 0, 1),
           operation_(operation), target_(target) {}
 
+    // Arguments are converted before the target is called, so a malformed request never reaches it.
     void unmarshalArguments(cdrStream& stream) override {
         wire::CdrWriter writer(arguments_);
         to_cdr(operation_.arguments, stream, writer);

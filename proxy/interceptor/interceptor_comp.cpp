@@ -181,6 +181,7 @@ void InterceptorComp::link_state_changed(bool up) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     link_state_.tm.sec = static_cast<CORBA::ULong>(now.tv_sec);
     link_state_.tm.nsec = static_cast<CORBA::ULong>(now.tv_nsec);
+    // Both sides stamp with CLOCK_MONOTONIC, which all processes of a machine share: the times can be compared.
     link_state_.data.length(3);
     link_state_.data[0] = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
     link_state_.data[1] = static_cast<double>(++link_state_sequence_);
@@ -189,6 +190,7 @@ void InterceptorComp::link_state_changed(bool up) {
 }
 
 void InterceptorComp::peer_disconnected() {
+    // An RTC that somebody else has activated keeps running: it does not depend on the link.
     if (!activated_by_link_.exchange(false)) return;
     const std::string error = rtc_driver_->deactivate();
     if (!error.empty()) spdlog::error("{}: {}: {}", getInstanceName(), settings_.rtc, error);
@@ -262,6 +264,7 @@ void InterceptorComp::peer_connected() {
 void InterceptorComp::report_rtc_error() {
     unreported_error_ = true;
     const auto text = control::encode_string(fmt::format("RTC '{}' went to ERROR", settings_.rtc));
+    // Until the peer has it, peer_connected() tries again.
     if (link_->call({"", control::failed, "", text}, settings_.call_timeout).status == CallStatus::ok)
         unreported_error_ = false;
 }

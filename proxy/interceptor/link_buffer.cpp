@@ -48,6 +48,7 @@ void LinkBuffer::init(const coil::Properties& properties) {
 
 BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
+    // The RTC's serializer has put RTM's time in front; it travels in the record's header instead.
     auto bytes = std::as_bytes(std::span(message.getBuffer(), message.getDataLength()));
     std::uint64_t stamp = 0;
     if (channel_.timed) {
@@ -79,7 +80,7 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!marshal(counter)) return BufferStatus::NOT_SUPPORTED;
     const std::size_t head = channel_.timed ? time_bytes : 0;
     if (counter.total() < head + minInPlaceLength()) return BufferStatus::NOT_SUPPORTED;
-    std::uint64_t stamp = wire::wall_clock_stamp();
+    std::uint64_t stamp = wire::wall_clock_stamp(); // of a timed message: replaced by its own time below
     bool complete = true;
     const bool written =
         channel_.writer->write_sized(counter.total() - head, stamp, [&](std::span<std::byte> room) {
@@ -126,7 +127,7 @@ void LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message)
 std::size_t LinkBuffer::readable() const { return channel_.reader && !channel_.reader->empty() ? 1 : 0; }
 
 RTC::ByteData& LinkBuffer::get() {
-    read(last_, {});
+    read(last_, {}); // if there is none, last_ stays as it was
     return last_;
 }
 

@@ -14,6 +14,7 @@ namespace {
 using link::CallStatus;
 using link::Reply;
 
+/// What the peer sees of the result of a CORBA call.
 CallStatus status_of(GenericCallResult::Status status) {
     switch (status) {
     case GenericCallResult::Status::ok:
@@ -61,13 +62,14 @@ Reply MirrorProvidedPort::serve(const link::Request& request) {
     try {
         const std::string error = check_operation(request);
         if (!error.empty()) return Reply::failure(CallStatus::bad_arguments, error);
+        // Parsing takes longer than converting a small call, so each signature is parsed once.
         const Types& expected = parsed_types(request.signature);
         auto result = generic_call(consumer_.getObject(), std::string(request.operation), expected.arguments,
                                    expected.result, request.arguments, call_timeout_);
         if (result.status == GenericCallResult::Status::ok)
             return {CallStatus::ok, std::move(result.results)};
         return Reply::failure(status_of(result.status), result.text);
-    } catch (const wire::SignatureError& error) {
+    } catch (const wire::SignatureError& error) { // the request's: it came from another process
         return Reply::failure(CallStatus::bad_arguments, error.what());
     }
 }

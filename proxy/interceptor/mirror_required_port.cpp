@@ -13,7 +13,8 @@
 namespace tandem::interceptor {
 namespace {
 
-/// The id that the consumer's _narrow() will ask for, or the best guess where the IDL is not known here.
+/// The repository id that the consumer's _narrow() will ask for. Where the IDL is not known to this process, it
+/// is put together from the type name as omniidl would; a pragma prefix cannot be guessed.
 std::string repository_id(const std::string& type) {
     std::string known = RTC::InterfaceSignatures::repositoryId(type);
     if (!known.empty()) return known;
@@ -90,6 +91,7 @@ std::vector<std::byte> MirrorRequiredPort::call(const char* name, const Operatio
                                                 std::span<const std::byte> arguments) {
     auto reply = link_.call({port_.name, name, operation.signature, arguments}, call_timeout_);
     if (reply.status == link::CallStatus::ok) return std::move(reply.bytes);
+    // A CORBA system exception carries no text, so it is logged here.
     if (!reply.bytes.empty() && failed_calls_.should_log())
         spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, reply.text(),
                      failed_calls_.count());

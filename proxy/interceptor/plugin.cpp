@@ -29,6 +29,7 @@ const char* const specification[] = {"implementation_id",
                                      ""};
 }
 
+// What an RTM manager looks up in a module: the library's name followed by Init.
 extern "C" void InterceptorCompInit(RTC::Manager* manager) {
     coil::Properties profile(specification);
     manager->registerFactory(profile, RTC::Create<tandem::interceptor::InterceptorComp>,

@@ -47,6 +47,7 @@ RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
     if (contexts->length() == 0)
         throw std::runtime_error(
             fmt::format("RTC '{}' has no execution context of its own", rtc.getInstanceName()));
+    // Contexts that the RTC was attached to later are driven by those who attached it.
     context_ = RTC::ExecutionContext::_duplicate(contexts[0]);
     rtc_.addPostComponentActionListener(entering_error, listener_.get(), false);
 }
@@ -68,6 +69,7 @@ RTC::LifeCycleState RtcDriver::state() const {
 std::string RtcDriver::activate() {
     const std::lock_guard lock(mutex_);
     if (state() == RTC::ACTIVE_STATE) return "";
+    // Not reset here: whether an error may be ignored is the user's decision.
     if (state() == RTC::ERROR_STATE) return name_ + " is in ERROR; reset it first";
     return transition(RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,
                       &RTC::_objref_ExecutionContext::activate_component, "activated");
@@ -95,6 +97,7 @@ std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState 
     try {
         auto result = RTC::PRECONDITION_NOT_MET;
         for (;;) {
+            // Another client, a tool for instance, may have made the same transition meanwhile: that is fine.
             if (state() == from) result = (context_->*operation)(reference_);
             if (result == RTC::RTC_OK || state() == to) return wait_for_state(to, verb);
             if (result != RTC::PRECONDITION_NOT_MET || std::chrono::steady_clock::now() >= deadline) break;

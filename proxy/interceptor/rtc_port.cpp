@@ -73,7 +73,7 @@ std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
     for (CORBA::ULong i = 0; i < services->length(); ++i) {
         RTC::PortService_var reference = RTC::PortService::_duplicate(services[i]);
         RTC::PortProfile_var profile = reference->get_port_profile();
-        if (!names.insert(short_name(profile)).second) continue;
+        if (!names.insert(short_name(profile)).second) continue; // of two ports of one name, the first counts
         const std::string kind = property(profile, "port.port_type");
         if (kind == "DataOutPort")
             ports.push_back({data_port(profile, PortKind::data_out), "", reference});

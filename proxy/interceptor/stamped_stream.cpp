@@ -21,6 +21,7 @@ StampedStream::StampedStream(std::span<std::byte> body) : body_(body) {
     const cdrMemoryStream default_stream;
     TCS_C(default_stream.TCS_C());
     TCS_W(default_stream.TCS_W());
+    // The peer runs on this machine: no bytes are swapped. The subclasses set the pointers of their direction.
     pd_marshal_byte_swap = pd_unmarshal_byte_swap = false;
     pd_inb_mkr = pd_inb_end = pd_outb_mkr = pd_outb_end = nullptr;
 }
@@ -38,6 +39,7 @@ std::byte* StampedStream::advance(void*& mark, void*& end, std::size_t bytes, om
     const auto place = reinterpret_cast<omni::ptr_arith_t>(mark);
     const auto padding = static_cast<std::size_t>(omni::align_to(place, alignment) - place);
     const std::size_t left = distance(mark, end);
+    // Subtracted, not added: the sum could overflow with a hostile length.
     if (padding > left || bytes > left - padding) throw_marshal();
     std::byte* const begin = byte_at(mark) + padding;
     mark = begin + bytes;
@@ -92,6 +94,7 @@ _CORBA_Boolean StampedOutStream::maybeReserveOutputSpace(omni::alignment_t align
 
 StampedInStream::StampedInStream(std::span<const std::byte> body, bool timed, std::uint64_t stamp)
     : StampedStream({byte_at(body.data()), body.size()}) {
+    // The two words as CDR has them, so that the stream reads them like any other bytes.
     const std::uint32_t words[2] = {wire::stamp_seconds(stamp), wire::stamp_nanoseconds(stamp)};
     std::memcpy(time_, words, sizeof words);
     in_time_ = timed;

@@ -42,6 +42,7 @@ void to_cdr_one(const Type& type, cdrStream& from, wire::CdrWriter& to) {
         for (const Type& member : type.children) to_cdr_one(member, from, to);
         break;
     case Kind::string: {
+        // The ORB allocates the string, and converts it from the connection's code set.
         const std::unique_ptr<char, void (*)(char*)> text(from.unmarshalString(), CORBA::string_free);
         to.put_string(text.get());
         break;
@@ -49,6 +50,7 @@ void to_cdr_one(const Type& type, cdrStream& from, wire::CdrWriter& to) {
     case Kind::sequence: {
         CORBA::ULong count;
         count <<= from;
+        // Checked before the count is written: a hostile one must not make this loop write for minutes.
         const auto bytes = static_cast<CORBA::ULong>(min_encoded_bytes(type.children.front()));
         if (!from.checkInputOverrun(bytes, count)) throw_marshal();
         to.put(static_cast<std::uint32_t>(count));
@@ -92,6 +94,7 @@ void from_cdr_one(const Type& type, wire::CdrReader& from, cdrStream& to) {
         to.marshalString(std::string(from.get_string()).c_str());
         break;
     case Kind::sequence: {
+        // get_count() refuses what the message cannot hold.
         const CORBA::ULong count = from.get_count(min_encoded_bytes(type.children.front()));
         if (!from.ok()) throw_marshal();
         count >>= to;

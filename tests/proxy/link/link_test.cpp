@@ -8,7 +8,7 @@
 using namespace tandem;
 using namespace tandem::link;
 using namespace tandem::link::test;
-TEST_CASE("data flow both ways whichever half opens first, and nothing is left behind") {
+TEST_CASE("data flow both ways whichever side opens first, and nothing is left behind") {
     const auto name = unique_name("flow");
     const bool adaptor_first = GENERATE(true, false);
     {
