@@ -58,7 +58,7 @@ TEST_CASE("rtm_host runs what rtc.conf names, and a signal ends it in order") {
     REQUIRE(host.wait_for_output("received "));
     host.send_signal(signal);
     CHECK(host.wait_for_exit() == 0);
-    CHECK(host.output.find("Reporter0 deactivated\nTeller0 finalized\n") != std::string::npos);
+    CHECK(host.output.find("Reporter0 deactivated\nReporter0 finalized\n") != std::string::npos);
 }
 
 TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
