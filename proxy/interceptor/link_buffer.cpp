@@ -66,7 +66,7 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
     }));
 }
 
-/// Without a peer the message is dropped and counted, and the RTC gets the same status as with an unconnected
+/// Without a peer the message is dropped, and the RTC gets the same status as with an unconnected
 /// port, so that its write() does not fail while the other host is restarted.
 BufferStatus LinkBuffer::write_status(bool written) const {
     return written || !channel_.writer->is_bound() ? BufferStatus::OK : BufferStatus::FULL;

@@ -7,10 +7,15 @@ namespace tandem::link {
 
 using namespace std::chrono_literals;
 
-CallWorkers::CallWorkers(const LinkState& state, LinkHandler& handler, unsigned max_workers,
-                         std::function<void()> wake_supervisor)
-    : state_(state), handler_(handler), max_workers_(max_workers),
-      wake_supervisor_(std::move(wake_supervisor)) {}
+namespace {
+
+// Calls of the peer that may be executed at once; the others wait in the call queue.
+constexpr std::size_t max_workers = 8;
+
+} // namespace
+
+CallWorkers::CallWorkers(const LinkState& state, LinkHandler& handler, std::function<void()> wake_supervisor)
+    : state_(state), handler_(handler), wake_supervisor_(std::move(wake_supervisor)) {}
 
 void CallWorkers::start() {
     const std::lock_guard lock(mutex_);
@@ -47,7 +52,7 @@ std::optional<shm::IncomingCall> CallWorkers::take_call() {
     const std::lock_guard lock(mutex_);
     --idle_;
     // One worker must stay idle for the calls that this call leads the peer to make in turn.
-    if (call && idle_ == 0 && threads_.size() < max_workers_ && !stopping_) start_worker();
+    if (call && idle_ == 0 && threads_.size() < max_workers && !stopping_) start_worker();
     return call;
 }
 

@@ -19,8 +19,7 @@ class CallWorkers {
   public:
     /// `wake_supervisor` makes the supervisor thread look for the peer now. All references must outlive this
     /// object.
-    CallWorkers(const LinkState& state, LinkHandler& handler, unsigned max_workers,
-                std::function<void()> wake_supervisor);
+    CallWorkers(const LinkState& state, LinkHandler& handler, std::function<void()> wake_supervisor);
     ~CallWorkers() { stop(); }
     CallWorkers(const CallWorkers&) = delete;
     CallWorkers& operator=(const CallWorkers&) = delete;
@@ -37,7 +36,6 @@ class CallWorkers {
 
     const LinkState& state_;
     LinkHandler& handler_;
-    const unsigned max_workers_;
     const std::function<void()> wake_supervisor_;
     std::mutex mutex_; ///< the members below
     std::vector<std::thread> threads_;

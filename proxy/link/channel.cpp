@@ -18,11 +18,6 @@ bool ChannelWriter::publish(std::size_t bytes, std::uint64_t stamp) {
     return true;
 }
 
-bool ChannelWriter::count_without_peer() {
-    ++dropped_without_peer_;
-    return false;
-}
-
 /// Logs why the ring refused a message of that length; the ring itself only counts it. Rings that drop the
 /// oldest message refuse for two reasons: the message is longer than a chunk, or /dev/shm has no memory left
 /// for the chunk. Always returns false.
@@ -51,16 +46,6 @@ bool ChannelWriter::is_bound() const {
 bool ChannelWriter::corrupt() const {
     const std::lock_guard lock(mutex_);
     return bound_ && bound_->ring.corrupt();
-}
-
-std::uint64_t ChannelWriter::dropped_without_peer() const {
-    const std::lock_guard lock(mutex_);
-    return dropped_without_peer_;
-}
-
-shm::RingCounters ChannelWriter::counters() const {
-    const std::lock_guard lock(mutex_);
-    return bound_ ? bound_->ring.counters() : shm::RingCounters{};
 }
 
 void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter ring) {

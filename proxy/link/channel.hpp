@@ -29,9 +29,8 @@ struct BoundRing {
     Ring ring;
 };
 
-/// The sending end of a data port across the link. It outlives the peer: while it is not bound to a ring, it
-/// counts the messages that nobody could receive. Its mutex belongs to this process; other threads hold it
-/// only to bind, unbind and read counters.
+/// The sending end of a data port across the link. It outlives the peer: while it is not bound to a ring,
+/// messages are dropped. Its mutex belongs to this process; other threads hold it only to bind and unbind.
 class ChannelWriter {
   public:
     explicit ChannelWriter(std::string port) : port_(std::move(port)) {}
@@ -42,7 +41,7 @@ class ChannelWriter {
     template <class Encode>
     bool write(const std::uint64_t& stamp, Encode&& encode) {
         const std::lock_guard lock(mutex_);
-        if (!bound_) return count_without_peer();
+        if (!bound_) return false;
         std::size_t bytes = bound_->ring.in_ring();
         for (int attempt = 0; attempt < 2; ++attempt) {
             const auto room = bound_->ring.reserve(bytes);
@@ -61,7 +60,7 @@ class ChannelWriter {
     template <class Fill>
     bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
-        if (!bound_) return count_without_peer();
+        if (!bound_) return false;
         const auto room = bound_->ring.reserve(bytes);
         if (room.data() == nullptr) return report_refusal(bytes);
         if (fill(room)) return publish(bytes, stamp);
@@ -72,9 +71,6 @@ class ChannelWriter {
     bool is_bound() const;
     /// True if the ring was damaged by another process; nothing more is sent through it.
     bool corrupt() const;
-    /// Messages written while there was no peer.
-    std::uint64_t dropped_without_peer() const;
-    shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
 
     /// Whether the peer waits for messages of this port: then each one rings its doorbell, which costs a
     /// system call if it sleeps. Ends with unbind(), because the next peer has to ask for it again.
@@ -85,14 +81,12 @@ class ChannelWriter {
 
   private:
     bool publish(std::size_t bytes, std::uint64_t stamp);
-    bool count_without_peer();
     bool report_refusal(std::size_t bytes);
 
     mutable std::mutex mutex_;
     std::optional<BoundRing<shm::RingWriter>> bound_;
     const std::string port_;
     std::atomic<bool> peer_listens_{false};
-    std::uint64_t dropped_without_peer_ = 0;
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     LogThrottle no_memory_;
 };

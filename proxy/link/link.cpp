@@ -10,8 +10,8 @@ namespace tandem::link {
 Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler& handler)
     : options_(std::move(options)), own_ports_(std::move(own_ports)), tasks_(options_.name),
       supervisor_(side, options_, own_ports_, handler, state_, channels_, tasks_),
-      workers_(state_, handler, options_.max_workers, [this] { supervisor_.wake(); }),
-      arrivals_(state_, channels_, options_.wait) {}
+      workers_(state_, handler, [this] { supervisor_.wake(); }), arrivals_(state_, channels_, options_.wait) {
+}
 
 Link::~Link() { close(); }
 

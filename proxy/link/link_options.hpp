@@ -15,8 +15,7 @@ struct LinkOptions {
     RingSizes rings{}; ///< of the data ports; where the two sides ask for different large_bytes, the larger
     /// Shared memory for each side's objects, without the chunks of its rings.
     std::size_t segment_bytes = 4 * 1024 * 1024;
-    unsigned max_workers = 8; ///< calls of the peer that may run at once
-    shm::WaitOptions wait{};  ///< how calls wait, in both directions, and how the doorbell is waited for
+    shm::WaitOptions wait{}; ///< how calls wait, in both directions, and how the doorbell is waited for
 };
 
 } // namespace tandem::link
