@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/process/log_throttle.hpp"
 #include "proxy/adaptor/cdr_archive.hpp"
 #include "proxy/link/channel.hpp"
-#include "proxy/link/log_throttle.hpp"
 #include "proxy/link/port_table.hpp"
 
 #include <DataPortSource.h>
@@ -61,7 +61,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortSour
     /// From next() to done(): the message's memory must not be reused while it is decoded.
     std::unique_lock<std::mutex> channel_lock_;
     std::size_t message_bytes_ = 0; ///< of the last message
-    link::LogThrottle undecodable_;
+    process::LogThrottle undecodable_;
     std::optional<CdrIarchive> archive_;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/process/log_throttle.hpp"
 #include "proxy/interceptor/generic_servant.hpp"
 #include "proxy/link/control.hpp"
 #include "proxy/link/link.hpp"
-#include "proxy/link/log_throttle.hpp"
 
 #include <chrono>
 #include <map>
@@ -40,7 +40,7 @@ class MirrorRequiredPort final : private CallTarget {
     std::map<std::string, std::unique_ptr<Operation>, std::less<>> operations_;
     /// Operations that were replaced. They are kept, because calls that are being executed may still use them.
     std::vector<std::unique_ptr<Operation>> retired_;
-    link::LogThrottle failed_calls_;
+    process::LogThrottle failed_calls_;
     GenericServant servant_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/log_throttle.hpp"
+#include "host/process/log_throttle.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "shm/segment.hpp"
 
@@ -88,7 +88,7 @@ class ChannelWriter {
     const std::string port_;
     std::atomic<bool> peer_listens_{false};
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
-    LogThrottle no_memory_;
+    process::LogThrottle no_memory_;
 };
 
 /// The receiving end of a data port across the link. Messages are read from the shared ring in the thread of
