@@ -41,6 +41,7 @@ struct Arguments {
     tandem::rt::RealTimeOptions real_time;
 };
 
+// -f -o -p -d -i -a are those of OpenRTM-aist's managers, the long options are ours.
 void declare_options(CLI::App& app, Arguments& a) {
     app.add_option("-f", a.conf_file,
                    "configuration file (default: $RTC_MANAGER_CONFIG, ./rtc.conf, /etc/rtc.conf)");
@@ -146,7 +147,7 @@ int run(const Arguments& a, char** argv_of_program) {
     for (const auto& notice : tandem::rt::apply(a.real_time)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep_socket.empty();
-    options.can_restart = true;
+    options.can_restart = true; // by restart() below
     options.cpu = a.real_time.cpu;
     options.tick_spin = a.real_time.tick_spin();
     options.plugin_path = plugin_path(a);
@@ -171,6 +172,7 @@ int run(const Arguments& a, char** argv_of_program) {
         steps.reset(); // its thread ends before restart() replaces the process
         if (manager.restartWanted()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
+        // The components that exist already end in order, so that they leave hardware in a safe state.
         std::fprintf(stderr, "rtm_host: %s\n", e.what());
         manager.shutdown();
         tandem::process::exit_process(1); // without static destructors: components may be half constructed

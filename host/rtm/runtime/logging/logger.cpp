@@ -46,6 +46,7 @@ std::string format_time(std::string format) {
 
 } // namespace
 
+// One level for all loggers of the process. False: unknown name; the level is unchanged.
 bool Logger::setLevel(const char* level) {
     const std::string upper_case = coil::toUpper(coil::eraseBothEndsBlank(level));
     for (std::size_t i = 0; i < level_names.size(); ++i) {
@@ -62,6 +63,7 @@ const char* Logger::getLevelString(int level) {
     return level >= 0 && level < static_cast<int>(level_names.size()) ? names[level] : "";
 }
 
+// RTL_SILENT for an unknown name, as in OpenRTM-aist.
 int Logger::strToLevel(const char* level) {
     const auto found =
         std::find(level_names.begin(), level_names.end(), coil::toUpper(coil::eraseBothEndsBlank(level)));
@@ -81,6 +83,7 @@ void Logger::setDateFormat(const char* format) {
     outputs().date_format = format;
 }
 
+// `stdout`, `stderr` or a file, which is appended to. False: it cannot be opened.
 bool Logger::addOutput(const std::string& file_name) {
     std::FILE* file = file_name == "stdout"   ? stdout
                       : file_name == "stderr" ? stderr
@@ -91,6 +94,7 @@ bool Logger::addOutput(const std::string& file_name) {
     return true;
 }
 
+// The file lock also orders the lines. Streams are called without it, because a stream may log.
 void Logger::write(int level, const std::string& message) const {
     if (level < 0 || level >= static_cast<int>(level_names.size())) return;
     std::string date;
