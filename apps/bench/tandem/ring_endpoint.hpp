@@ -5,7 +5,9 @@
 namespace tandem::bench {
 
 /// A link with one ring in each direction. Short messages are copied out of the ring, long ones are read where
-/// they were written. The reader polls, or waits on its side's doorbell.
+/// they were written. The reader polls, as a component that calls isNew() or pop() in its own cycle, or waits on
+/// its side's doorbell with wait_for(), which looks at the ring. (The proxy's ArrivalNotifier, which has many rings,
+/// waits with wait().)
 template <std::size_t bytes, Wake wake>
 class RingEndpoint {
   public:
