@@ -108,7 +108,7 @@ class StartupSignalWatcher {
         while (!done_) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             const auto now = std::chrono::steady_clock::now();
-            if (!RTC::Manager::endWanted()) continue;
+            if (!RTC::Manager::terminationRequested()) continue;
             requested_at = std::min(requested_at, now);
             if (now - requested_at < grace) continue;
             spdlog::warn("a callback of a component that is being created does not return; exiting without "
@@ -168,9 +168,9 @@ int run(const Arguments& a, char** argv_of_program) {
         std::puts("ready"); // supervisors and tests wait for this line
         std::fflush(stdout);
         manager.runManager();
-        all_ended = manager.endedInOrder();
+        all_ended = manager.stoppedInOrder();
         steps.reset(); // its thread ends before restart() replaces the process
-        if (manager.restartWanted()) restart(argv_of_program);
+        if (manager.restartRequested()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
         // The components that exist already end in order, so that they leave hardware in a safe state.
         std::fprintf(stderr, "rtm_host: %s\n", e.what());

@@ -68,7 +68,7 @@ class ExecutionContextBase {
     ReturnCode_t activateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t deactivateComponent(LightweightRTObject_ptr comp);
     ReturnCode_t resetComponent(LightweightRTObject_ptr comp);
-    /// CREATED_STATE for what is no participant.
+    /// CREATED_STATE for a component that is not a participant.
     LifeCycleState getComponentState(LightweightRTObject_ptr comp);
     static const char* getStateString(LifeCycleState state);
 
@@ -149,7 +149,7 @@ class ExecutionContextBase {
     std::timed_mutex m_cycleMutex;                                 // held during a cycle
     std::atomic<std::thread::id> m_cycleThread{std::thread::id()}; // the thread inside a cycle, if any
     std::mutex m_cycleDoneMutex;
-    std::condition_variable m_cycleDone; // for those who wait for a transition
+    std::condition_variable m_cycleDone; // notified after each cycle
 };
 
 /// Context types that libraries bring, by name; Manager::registerECFactory() is the way of 1.x to add one.

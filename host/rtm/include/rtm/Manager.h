@@ -72,11 +72,11 @@ class Manager {
     /// Ours: false when a component would not stop in time and was left behind.
     bool shutdown();
     /// Ours: what shutdown() returned.
-    bool endedInOrder() const;
-    /// Ours: a tool wants the program to begin anew when shutdown() is done.
-    bool restartWanted() const;
+    bool stoppedInOrder() const;
+    /// Ours: has a tool requested that the program starts anew after shutdown()?
+    bool restartRequested() const;
     /// Ours: has terminate() been called?
-    static bool endWanted();
+    static bool terminationRequested();
 
     coil::Properties& getConfig();
     std::string& getLogLevel();
@@ -85,11 +85,11 @@ class Manager {
     ReturnCode_t load(const std::string& file_name, const std::string& init_function);
     /// Ours: throws ManagerError. `init_function` empty: `<file base name>Init`.
     void loadOrThrow(const std::string& file_name, const std::string& init_function);
-    /// Ours: makes and deletes one component of each type, uninitialized; `before` is told each step. The
-    /// type whose destructor does not return within `patience`, after which no other is deleted; empty as a
-    /// rule. Throws ManagerError.
+    /// Ours: creates and deletes one component of each type, without initializing it; calls `before` with the
+    /// name of each step. Returns the type whose destructor has not returned within `timeout`, after which no
+    /// further component is deleted; empty when all have. Throws ManagerError.
     std::string tryFactories(const std::function<void(const std::string&)>& before,
-                             std::chrono::nanoseconds patience);
+                             std::chrono::nanoseconds timeout);
     /// Forgets a module's component types; its code stays for what may still use it. PRECONDITION_NOT_MET
     /// while there are components of it.
     ReturnCode_t unload(const char* file_name);

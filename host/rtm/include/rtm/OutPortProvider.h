@@ -34,7 +34,7 @@ class OutPortProvider {
     void setDataFlowType(const char* dataflow_type);
     void setSubscriptionType(const char* subs_type);
 
-    /// What publishInterface() publishes.
+    /// The address that publishInterface() publishes.
     SDOPackage::NVList m_properties;
     mutable Logger rtclog;
 

@@ -12,7 +12,7 @@ class ExecutionContextBase;
 
 namespace SDOPackage {
 
-/// The members of a composite, and what is done with one that comes or goes.
+/// The members of a composite; moves components that join or leave between contexts.
 class PeriodicECOrganization : public Organization_impl {
   public:
     PeriodicECOrganization(RTC::RTObject_impl* composite, SDOSystemElement_ptr owner);
@@ -23,7 +23,7 @@ class PeriodicECOrganization : public Organization_impl {
     CORBA::Boolean set_members(const SDOList& sdos) override;
     CORBA::Boolean remove_member(const char* id) override;
     void removeAllMembers();
-    /// What the parameter exported_ports now says.
+    /// Lists the ports that the parameter exported_ports names now, and only those.
     void updateDelegatedPorts();
     /// Ours: one transition of every member, in their order.
     void forAllMembers(RTC::ReturnCode_t (RTC::ExecutionContextBase::*request)(RTC::LightweightRTObject_ptr));

@@ -32,7 +32,7 @@ class RingBuffer : public BufferBase<DataType> {
         Lock lock(mutex_);
         return slots_.size();
     }
-    /// Drops what is in the buffer.
+    /// Drops the values in the buffer.
     BufferStatus length(std::size_t n) override {
         if (n == 0) return BufferStatus::NOT_SUPPORTED;
         Lock lock(mutex_);
@@ -88,7 +88,7 @@ class RingBuffer : public BufferBase<DataType> {
         write_ = wrapped_index(write_, 1);
         ++fill_;
         written_ = true;
-        if (block_read_) not_empty_.notify_all(); // else nobody waits, and the call would cost for nothing
+        if (block_read_) not_empty_.notify_all(); // otherwise no reader waits
         return BufferStatus::OK;
     }
     /// 1.x: the timeout as seconds and nanoseconds.

@@ -59,8 +59,8 @@ struct Manager::Impl {
     bool shut_down = false;
 
     std::atomic<bool> ever_had_components{false};
-    std::atomic<bool> ended_in_order{true};
-    std::atomic<bool> restart_wanted{false};
+    std::atomic<bool> stopped_in_order{true};
+    std::atomic<bool> restart_requested{false};
 
     std::vector<LogstreamBase*> log_streams; // created by open_log_streams()
 

@@ -19,7 +19,7 @@ struct HostOptions {
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
     std::vector<std::filesystem::path> plugin_path;    ///< searched after manager.modules.load_path
     std::optional<tandem::plugin::ProbeOptions> probe; ///< modules are loaded in a child process first
-    bool can_restart = false; ///< the program starts anew when Manager::restartWanted() is true
+    bool can_restart = false; ///< the program starts anew when Manager::restartRequested() is true
 };
 
 struct Manager::Options : HostOptions {};

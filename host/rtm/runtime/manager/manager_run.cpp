@@ -76,7 +76,7 @@ void Manager::terminate() {
     wake_main_loop();
 }
 
-bool Manager::endWanted() { return termination_requested != 0; }
+bool Manager::terminationRequested() { return termination_requested != 0; }
 
 // In OpenRTM-aist it waits for the thread that terminate() starts; here runManager() itself shuts down.
 void Manager::join() {}
@@ -140,7 +140,7 @@ void Manager::Impl::run_due_tasks() {
     for (auto& task : due) task();
 }
 
-bool Manager::endedInOrder() const { return m_impl->ended_in_order; }
-bool Manager::restartWanted() const { return m_impl->restart_wanted; }
+bool Manager::stoppedInOrder() const { return m_impl->stopped_in_order; }
+bool Manager::restartRequested() const { return m_impl->restart_requested; }
 
 } // namespace RTC

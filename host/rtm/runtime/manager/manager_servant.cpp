@@ -120,11 +120,11 @@ RTC::ReturnCode_t ManagerServant::shutdown() {
     RTC::Manager::terminate();
     return RTC::RTC_OK;
 }
-// Only a program that looks at Manager::restartWanted() when runManager() returns can start anew.
+// Only a program that looks at Manager::restartRequested() when runManager() returns can start anew.
 RTC::ReturnCode_t ManagerServant::restart() {
     RTC::Manager::Impl& impl = manager_.impl();
     if (!impl.options.can_restart) return RTC::UNSUPPORTED;
-    impl.restart_wanted = true;
+    impl.restart_requested = true;
     RTC::Manager::terminate();
     return RTC::RTC_OK;
 }

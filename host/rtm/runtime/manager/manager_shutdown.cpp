@@ -69,7 +69,7 @@ void Manager::Impl::destroy_component(const std::string& name, std::function<voi
     if (returns_in_time(std::move(call))) return;
     Logger& rtclog = log;
     RTC_ERROR(("%s: its destructor does not return; the host goes on without waiting for it", name.c_str()));
-    ended_in_order = false;
+    stopped_in_order = false;
 }
 
 bool Manager::shutdown() {
@@ -98,8 +98,8 @@ bool Manager::shutdown() {
     if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready) all_exited = false;
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
     close_log_streams(*m_impl);
-    if (!all_exited) m_impl->ended_in_order = false;
-    return m_impl->ended_in_order;
+    if (!all_exited) m_impl->stopped_in_order = false;
+    return m_impl->stopped_in_order;
 }
 
 } // namespace RTC
