@@ -61,11 +61,13 @@ int drive(Options options) {
     check(options);
     std::vector<Configuration> configurations{options.configuration};
     if (options.compare) {
+        // The mixed run last: the report compares it with each of the others.
         configurations = {Configuration::opros, Configuration::rtm, Configuration::mixed};
         if (options.plot.empty()) options.plot = (std::filesystem::current_path() / "fig14.svg").string();
     }
     std::vector<RunResult> runs;
     for (auto configuration : configurations) runs.push_back(run(options, configuration));
+    // Printed before files are written: a full disk must not cost the user the result.
     const Report report = make_report(std::move(runs), options);
     std::fputs(text_of(report).c_str(), stdout);
     std::fflush(stdout);

@@ -17,6 +17,7 @@ const std::map<std::string, Configuration> configurations{{"opros", Configuratio
                                                           {"swapped", Configuration::swapped},
                                                           {"memory", Configuration::memory}};
 
+// Profiles and rtc.conf of a kept run name these files, and a user may start the hosts from another folder.
 std::string absolute(const std::string& path) {
     return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
 }
@@ -85,6 +86,7 @@ Options parse_options(int argc, char** argv) {
     }
     o.configuration = configurations.at(configuration);
     for (std::string* path : {&o.joystick_file, &o.csv, &o.plot, &o.json, &o.keep}) *path = absolute(*path);
+    // The hosts have options of the same names.
     if (spin) o.host_arguments.insert(o.host_arguments.end(), {"--tick-spin", CLI::detail::to_string(*spin)});
     if (wait) o.host_arguments.insert(o.host_arguments.end(), {"--wait-mode", *wait});
     if (idle) o.host_arguments.push_back("--low-latency-idle");

@@ -7,9 +7,9 @@
 
 namespace tandem::wheelchair {
 
-/// Where the three components run. opros, rtm: all in that host. mixed: JoystickComp is an RTC, ControlComp and
-/// HWComp are OPRoS components; swapped: the other way round. memory: in this process, without hosts and ports;
-/// gives the rows that every other configuration must reproduce in lock-step.
+/// Where the three components run. opros, rtm: all in that host. mixed: JoystickComp is an RTC, ControlComp
+/// and HWComp are OPRoS components; swapped: the other way round. memory: in this process, without hosts and
+/// ports; gives the rows that every other configuration must reproduce in lock-step.
 enum class Configuration { opros, rtm, mixed, swapped, memory };
 
 std::string name_of(Configuration configuration);
@@ -32,7 +32,8 @@ struct Options {
     double poll_us = 3000.0; // ControlComp's parameter of this name
 };
 
-/// Parses the command line. Prints help, the version or one line about a wrong option, and ends the program then.
+/// Parses the command line. Prints help, the version or one line about a wrong option, and ends the program
+/// then.
 Options parse_options(int argc, char** argv);
 
 } // namespace tandem::wheelchair

@@ -27,8 +27,8 @@ std::string joined(const Numbers& numbers) {
                                           "); build it again" + remedy);
 }
 
-/// Searches the notes of loaded objects for ABI numbers of `owner` other than the expected one. Passed through
-/// dl_iterate_phdr().
+/// Searches the notes of loaded objects for ABI numbers of `owner` other than the expected one. Passed
+/// through dl_iterate_phdr().
 struct NoteSearch {
     std::string owner;
     std::uint32_t expected;

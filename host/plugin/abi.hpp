@@ -7,15 +7,15 @@
 
 namespace tandem::plugin {
 
-/// Checks a library before it is loaded. Throws Error abi_mismatch, with what to do, if the library has another
-/// ABI number than `expected` for this model, or has none although it refers to classes of the model's headers.
-/// A library that does not use these headers passes. [any-thread]
+/// Checks a library before it is loaded. Throws Error abi_mismatch, with what to do, if the library has
+/// another ABI number than `expected` for this model, or has none although it refers to classes of the
+/// model's headers. A library that does not use these headers passes. [any-thread]
 void require_abi(const std::filesystem::path& library, const LibraryContents& contents, ComponentModel model,
                  std::uint32_t expected);
 
-/// Checks the program and all loaded libraries instead: a plugin may have brought libraries built against other
-/// headers. Throws Error abi_mismatch for the first one with another number. With `plugin`, only this library
-/// and those loaded after it are checked. [any-thread]
+/// Checks the program and all loaded libraries instead: a plugin may have brought libraries built against
+/// other headers. Throws Error abi_mismatch for the first one with another number. With `plugin`, only this
+/// library and those loaded after it are checked. [any-thread]
 void require_abi_of_process(ComponentModel model, std::uint32_t expected,
                             const std::filesystem::path& plugin = {});
 

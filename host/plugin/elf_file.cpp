@@ -14,8 +14,8 @@
 namespace tandem::plugin {
 namespace {
 
-/// An open ELF file. libelf reads it piece by piece and checks each against the file's size; where it does not,
-/// contains_range() does.
+/// An open ELF file. libelf reads it piece by piece and checks each against the file's size; where it does
+/// not, contains_range() does.
 class ElfFile {
   public:
     explicit ElfFile(const std::filesystem::path& file) : file_(file) {

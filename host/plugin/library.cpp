@@ -17,8 +17,8 @@ std::string dlerror_text() {
 
 } // namespace
 
-// glibc's dlopen() ends the process when a static constructor throws; the dlopen() of the sanitizers passes the
-// exception on, which is caught here.
+// glibc's dlopen() ends the process when a static constructor throws; the dlopen() of the sanitizers passes
+// the exception on, which is caught here.
 Library::Library(const std::filesystem::path& file)
     : path_(std::filesystem::absolute(file)), contents_(read_contents(path_)) {
     boost::dll::fs::error_code refused;

@@ -14,11 +14,12 @@
 
 namespace tandem::plugin {
 
-/// A loaded library. It is unloaded when the last pointer to it, or to an instance of share_instance(), is gone.
+/// A loaded library. It is unloaded when the last pointer to it, or to an instance of share_instance(), is
+/// gone.
 class Library {
   public:
-    /// Reads the file's contents, then loads it. Throws Error: those of read_contents(), or load_failed with the
-    /// dynamic linker's reason. [any-thread]
+    /// Reads the file's contents, then loads it. Throws Error: those of read_contents(), or load_failed with
+    /// the dynamic linker's reason. [any-thread]
     static std::shared_ptr<Library> load(const std::filesystem::path& file);
 
     /// Whether the file is loaded in this process, no matter by which code. [any-thread]

@@ -19,8 +19,8 @@ HeaderUse header_use(ElfContents& elf, ComponentModel model, const std::string& 
     return {std::move(elf.note_numbers[note_owner(model)]), uses_class(elf, mangled)};
 }
 
-// An RTC module's init function is named after its file, NAMEInit. The file may have been renamed since, so any
-// exported C function with this suffix counts.
+// An RTC module's init function is named after its file, NAMEInit. The file may have been renamed since, so
+// any exported C function with this suffix counts.
 std::string init_function(const std::set<std::string>& exports) {
     if (exports.count("rtc_init")) return "rtc_init";
     const auto is_init = [](const std::string& name) {
@@ -78,7 +78,8 @@ LibraryContents read_contents(const std::filesystem::path& library) {
     contents.opros =
         header_use(elf, ComponentModel::opros, "_ZN9ComponentC2E");      // the constructor of Component
     contents.rtm = header_use(elf, ComponentModel::rtm, "3RTC7Manager"); // RTC::Manager
-    // getComponent decides first: no RTC exports it, but an OPRoS component may export some NAMEInit of its own.
+    // getComponent decides first: no RTC exports it, but an OPRoS component may export some NAMEInit of its
+    // own.
     if (elf.defined.count("getComponent")) {
         contents.kind = LibraryKind::opros_component;
         contents.entry = "getComponent";

@@ -40,8 +40,8 @@ struct LibraryContents {
     HeaderUse opros, rtm;
 };
 
-/// Reads the library's dynamic symbols and notes; maps and runs nothing of it. Throws Error as read_elf() does.
-/// [any-thread]
+/// Reads the library's dynamic symbols and notes; maps and runs nothing of it. Throws Error as read_elf()
+/// does. [any-thread]
 LibraryContents read_contents(const std::filesystem::path& library);
 
 /// Throws Error wrong_model unless the library is of this kind. The message says what it is instead and which

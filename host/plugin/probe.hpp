@@ -18,10 +18,10 @@ struct ProbeOptions {
     std::string subject = "library";           ///< what the file is, for messages
 };
 
-/// Starts the program in a child process, where serve_probe() performs the named task with the library and the
-/// arguments. Returns what the task passed to ProbeReport::finish(). Throws Error probe_failed when the child
-/// crashes, hangs, exits or reports an exception: one line that names the function in which it happened.
-/// [any-thread]
+/// Starts the program in a child process, where serve_probe() performs the named task with the library and
+/// the arguments. Returns what the task passed to ProbeReport::finish(). Throws Error probe_failed when the
+/// child crashes, hangs, exits or reports an exception: one line that names the function in which it
+/// happened. [any-thread]
 std::string run_probe(const ProbeOptions& options, const std::string& task,
                       const std::filesystem::path& library, const std::vector<std::string>& arguments = {});
 

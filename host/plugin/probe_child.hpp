@@ -12,11 +12,11 @@ namespace tandem::plugin {
 /// Reports from the child process to the parent's run_probe().
 class ProbeReport {
   public:
-    /// To be called before each call into the library, with the function's name ("getComponent()"): the parent
-    /// names this function if the child ends in it.
+    /// To be called before each call into the library, with the function's name ("getComponent()"): the
+    /// parent names this function if the child ends in it.
     void begin_stage(const std::string& function);
-    /// Makes the parent's run_probe() return this text. Ends the process at once; destructors of the library do
-    /// not run.
+    /// Makes the parent's run_probe() return this text. Ends the process at once; destructors of the library
+    /// do not run.
     [[noreturn]] void finish(const std::string& result);
 };
 

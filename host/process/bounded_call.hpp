@@ -10,8 +10,8 @@ namespace tandem::process {
 class BoundedCall {
   public:
     /// Runs `work` and waits at most `timeout` for its end. An exception that it throws in time is rethrown
-    /// here. False: `work` still runs; its thread is detached, so what `work` refers to must stay alive for the
-    /// rest of the process. [any-thread]
+    /// here. False: `work` still runs; its thread is detached, so what `work` refers to must stay alive for
+    /// the rest of the process. [any-thread]
     static bool returns_within(std::chrono::nanoseconds timeout, std::function<void()> work);
 
     /// Whether any call of this process has not returned yet. Static objects must not be destroyed while one

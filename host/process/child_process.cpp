@@ -114,8 +114,8 @@ void ChildProcess::kill_group() const {
 const std::optional<ExitStatus>& ChildProcess::poll() {
     if (ended_ || pid_ <= 0) return ended_;
     siginfo_t info{};
-    // WNOWAIT leaves the zombie: until it is reaped no other process can get its number, so that the group that
-    // is killed here is the child's for certain.
+    // WNOWAIT leaves the zombie: until it is reaped no other process can get its number, so that the group
+    // that is killed here is the child's for certain.
     if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0) {
         if (errno == ECHILD) ended_ = ExitStatus{false, -1};
         return ended_;

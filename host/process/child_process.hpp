@@ -37,9 +37,9 @@ struct ChildOptions {
 /// Not thread-safe; any one thread may use it.
 class ChildProcess {
   public:
-    /// Starts command[0] (looked up on PATH if it has no slash) with no signal blocked or ignored, in a process
-    /// group of its own: a terminal's Ctrl-C reaches only this process, which then ends the child in order.
-    /// Throws std::system_error that names the program when it cannot be started.
+    /// Starts command[0] (looked up on PATH if it has no slash) with no signal blocked or ignored, in a
+    /// process group of its own: a terminal's Ctrl-C reaches only this process, which then ends the child in
+    /// order. Throws std::system_error that names the program when it cannot be started.
     explicit ChildProcess(const std::vector<std::string>& command, const ChildOptions& options = {});
     /// Takes over a child that the caller has forked; it stays in this process's group, and only the child
     /// itself is ever signalled. Throws std::system_error, after having killed it.

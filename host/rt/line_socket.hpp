@@ -13,14 +13,16 @@ namespace tandem::rt {
 
 using process::FileDescriptor;
 
-/// The path as an address. Throws std::runtime_error when it is empty or longer than an address can hold (107).
+/// The path as an address. Throws std::runtime_error when it is empty or longer than an address can hold
+/// (107).
 sockaddr_un socket_address(const std::string& path);
 
-/// Collects received bytes and returns them line by line. The peer is not trusted: a line longer than 4096 bytes
-/// is an error.
+/// Collects received bytes and returns them line by line. The peer is not trusted: a line longer than 4096
+/// bytes is an error.
 class LineBuffer {
   public:
-    /// Receives what the socket has ready, without waiting. False: the peer has closed or sent an overlong line.
+    /// Receives what the socket has ready, without waiting. False: the peer has closed or sent an overlong
+    /// line.
     bool fill(int fd);
     /// The next complete line without its newline, if there is one.
     std::optional<std::string> take_line();

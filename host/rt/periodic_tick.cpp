@@ -11,18 +11,20 @@ namespace tandem::rt {
 namespace {
 
 constexpr std::int64_t second_ns = 1'000'000'000;
-// interrupt() sets a flag that a sleeping thread sees only when it wakes, so a longer wait is divided into sleeps
-// of this length. A period up to this length costs one system call.
+// interrupt() sets a flag that a sleeping thread sees only when it wakes, so a longer wait is divided into
+// sleeps of this length. A period up to this length costs one system call.
 constexpr std::int64_t max_sleep_ns = 100'000'000;
 
-// An absolute time: a relative sleep would add the time between reading the clock and sleeping to every period.
+// An absolute time: a relative sleep would add the time between reading the clock and sleeping to every
+// period.
 void sleep_until(std::int64_t when) {
     const timespec at{static_cast<time_t>(when / second_ns), static_cast<long>(when % second_ns)};
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
     }
 }
 
-// Tells the processor that this is a polling loop: saves power, and leaves the core to its other hyper-thread.
+// Tells the processor that this is a polling loop: saves power, and leaves the core to its other
+// hyper-thread.
 void relax() {
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();

@@ -10,8 +10,8 @@
 
 namespace tandem::rt {
 
-/// Offset of all aligned ticks on CLOCK_MONOTONIC. The kernel's own timer tick falls on whole multiples of its
-/// period (1 to 10 ms; so since Linux 6.3) and takes tens of us on a virtual machine: a tick on a whole
+/// Offset of all aligned ticks on CLOCK_MONOTONIC. The kernel's own timer tick falls on whole multiples of
+/// its period (1 to 10 ms; so since Linux 6.3) and takes tens of us on a virtual machine: a tick on a whole
 /// millisecond would wait for it. The offset keeps ticks apart from it for periods down to 250 us.
 inline constexpr std::chrono::nanoseconds grid_origin{375'000};
 
@@ -19,8 +19,8 @@ inline constexpr std::chrono::nanoseconds grid_origin{375'000};
 struct TickOptions {
     std::chrono::nanoseconds period;
     std::chrono::nanoseconds phase{0}; ///< shifts the ticks of this object on the common grid
-    /// True: ticks fall on grid_origin + phase + multiples of the period, so that two processes share one grid
-    /// without communicating. False: the grid starts at the first wait(), which returns at once.
+    /// True: ticks fall on grid_origin + phase + multiples of the period, so that two processes share one
+    /// grid without communicating. False: the grid starts at the first wait(), which returns at once.
     bool aligned = true;
     /// For this long before each tick the clock is polled instead of sleeping: on time to nanoseconds, for
     /// that share of a processor.
@@ -45,9 +45,9 @@ class PeriodicTick {
     /// Throws std::invalid_argument unless period > 0.
     explicit PeriodicTick(const TickOptions& options);
 
-    /// Waits for the next tick. Returns how many periods were skipped because the work since the last tick took
-    /// longer than a period: a tick late by less than one period comes at once, older ones are dropped, and the
-    /// grid stays as it is. [tick-thread]
+    /// Waits for the next tick. Returns how many periods were skipped because the work since the last tick
+    /// took longer than a period: a tick late by less than one period comes at once, older ones are dropped,
+    /// and the grid stays as it is. [tick-thread]
     std::uint64_t wait();
 
     /// Makes the current and all later calls of wait() return within 100 ms without a tick. [any-thread]

@@ -31,7 +31,8 @@ void add_real_time_options(CLI::App& cli, RealTimeOptions& options);
 
 /// Requests from the kernel what the options ask for, sets a timer slack of 1 ns, and passes the wait mode to
 /// plugins loaded later, as $TANDEM_WAIT_MODE. Returns one line for each request that was refused. Throws
-/// std::runtime_error when options contradict each other. [main-thread, before other threads exist: they inherit]
+/// std::runtime_error when options contradict each other. [main-thread, before other threads exist: they
+/// inherit]
 std::vector<std::string> apply(const RealTimeOptions& options);
 
 } // namespace tandem::rt

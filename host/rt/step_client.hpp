@@ -17,8 +17,9 @@ class StepClient {
     StepClient(const std::string& socket_path, std::chrono::nanoseconds connect_timeout);
 
     /// Runs one cycle of the component and returns when it has ended. Throws std::runtime_error with the
-    /// server's message when the cycle fails. Also throws when the server has closed or has not replied within
-    /// `reply_timeout`: the client cannot be used any further then, since a late reply would be taken for the next.
+    /// server's message when the cycle fails. Also throws when the server has closed or has not replied
+    /// within `reply_timeout`: the client cannot be used any further then, since a late reply would be taken
+    /// for the next.
     void step(const std::string& component,
               std::chrono::nanoseconds reply_timeout = std::chrono::seconds(10));
 

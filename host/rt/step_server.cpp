@@ -22,8 +22,8 @@ namespace {
     throw std::runtime_error("lock-step socket '" + path + "': " + what);
 }
 
-// A socket file stays when its process is killed, and bind() fails on it. Whether a process listens shows only a
-// connection. A file that is no socket is left alone.
+// A socket file stays when its process is killed, and bind() fails on it. Whether a process listens shows
+// only a connection. A file that is no socket is left alone.
 void remove_stale_socket(const std::string& path, const sockaddr_un& address) {
     const FileDescriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
     const auto* where = reinterpret_cast<const sockaddr*>(&address);

@@ -19,8 +19,9 @@ class StepServer {
     /// Runs one cycle of the named component; throws std::exception for an error reply.
     using Step = std::function<void(const std::string& component)>;
 
-    /// Listens when it returns; calls `step` in the server's thread. Throws std::runtime_error when the socket
-    /// cannot be created or another process listens on it. Replaces a socket file that a dead process has left.
+    /// Listens when it returns; calls `step` in the server's thread. Throws std::runtime_error when the
+    /// socket cannot be created or another process listens on it. Replaces a socket file that a dead process
+    /// has left.
     StepServer(const std::string& socket_path, Step step);
     /// Waits for the current cycle, if any, without a bound, and removes the socket file.
     ~StepServer();

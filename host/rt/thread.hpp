@@ -17,8 +17,8 @@ struct ThreadOptions {
     bool round_robin = false; ///< SCHED_RR in place of SCHED_FIFO
 };
 
-/// Applies the options to the calling thread, and always a timer slack of 1 ns (the default of 50 us would delay
-/// each wake-up by up to that). Returns a notice for each refusal. [any-thread]
+/// Applies the options to the calling thread, and always a timer slack of 1 ns (the default of 50 us would
+/// delay each wake-up by up to that). Returns a notice for each refusal. [any-thread]
 std::vector<std::string> configure_this_thread(const ThreadOptions& options);
 
 /// Pins the calling thread, and threads that it starts later, to one or several processors. The notice begins
@@ -33,8 +33,8 @@ std::optional<std::string> lock_memory();
 /// [any-thread]
 std::optional<std::string> hold_low_latency_idle();
 
-/// Makes the kernel send SIGTERM to this process when its parent dies. Also returns a notice when the parent is
-/// dead already. [main-thread]
+/// Makes the kernel send SIGTERM to this process when its parent dies. Also returns a notice when the parent
+/// is dead already. [main-thread]
 std::optional<std::string> terminate_with_parent();
 
 } // namespace tandem::rt

@@ -16,8 +16,8 @@ namespace {
 constexpr double step_time = 5.0, goal = 20.0; // s, deg
 // Rows are 10 ms apart. Steady state is measured over the last 2 s.
 constexpr std::size_t step_row = 500, last_row = 1000, steady_rows = 200;
-// `unbounded` is an open lower bound. `never` is the time of an event that does not occur; as a NaN it fails every
-// check.
+// `unbounded` is an open lower bound. `never` is the time of an event that does not occur; as a NaN it fails
+// every check.
 constexpr double unbounded = -std::numeric_limits<double>::infinity();
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
@@ -96,7 +96,8 @@ std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& all) {
 
 Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, double Row::*column, double from,
                       double to) {
-    // Rows are aligned by tick and not by time of day, or one tick of start offset would count as a difference.
+    // Rows are aligned by tick and not by time of day, or one tick of start offset would count as a
+    // difference.
     const auto first = static_cast<std::size_t>(std::lround(from / tick_seconds));
     const auto last =
         std::min({a.size(), b.size(), static_cast<std::size_t>(std::lround(to / tick_seconds)) + 1});

@@ -16,8 +16,8 @@ struct AcceptanceCheck {
     bool pass() const { return value >= min && value <= max; }
 };
 
-/// The checks of docs/wheelchair.md, section 8: the response of the steering angle to the step at 5 s. Empty if
-/// `rows` are fewer than those of a whole step20 run.
+/// The checks of docs/wheelchair.md, section 8: the response of the steering angle to the step at 5 s. Empty
+/// if `rows` are fewer than those of a whole step20 run.
 std::vector<AcceptanceCheck> check_step20(const std::vector<Row>& rows);
 
 /// Of two runs in one column: root mean square and largest absolute value.
@@ -28,8 +28,8 @@ struct Difference {
 Difference difference(const std::vector<Row>& a, const std::vector<Row>& b, double Row::*column, double from,
                       double to);
 
-/// The checks of section 10 for two real-time runs of step20: whether they steer almost the same over 5..10 s.
-/// `names` begins the name of each check.
+/// The checks of section 10 for two real-time runs of step20: whether they steer almost the same over 5..10
+/// s. `names` begins the name of each check.
 std::vector<AcceptanceCheck> check_similar(const std::string& names, const std::vector<Row>& a,
                                            const std::vector<Row>& b);
 

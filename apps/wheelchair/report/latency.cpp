@@ -61,8 +61,8 @@ SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
         if (r.references_received <= 0) continue;
         if (count.received == 0) first = r.reference_stamp;
         last = r.reference_stamp;
-        // Of several references in one tick only the newest one's stamp is recorded. The window begins with the
-        // first recorded stamp, so older ones of that tick are not in it.
+        // Of several references in one tick only the newest one's stamp is recorded. The window begins with
+        // the first recorded stamp, so older ones of that tick are not in it.
         count.received += count.received == 0 ? 1 : std::lround(r.references_received);
     }
     if (count.received == 0) return count;

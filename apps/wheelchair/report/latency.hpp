@@ -17,11 +17,12 @@ struct Statistics {
 };
 Statistics statistics(const std::vector<double>& values);
 
-/// The smallest of the values such that `fraction` of them are not above it (nearest rank); 0 if there are none.
+/// The smallest of the values such that `fraction` of them are not above it (nearest rank); 0 if there are
+/// none.
 double percentile(std::vector<double> values, double fraction);
 
-/// The time from JoystickComp's sending to ControlComp's receiving of each reference [us], in the order received.
-/// For real-time runs only, in which both components use CLOCK_MONOTONIC.
+/// The time from JoystickComp's sending to ControlComp's receiving of each reference [us], in the order
+/// received. For real-time runs only, in which both components use CLOCK_MONOTONIC.
 std::vector<double> latencies_us(const std::vector<ControlRecord>& control);
 
 /// The 100 samples of the paper's Table 1: those after the first second of data; fewer if the run is shorter.
@@ -31,8 +32,8 @@ std::vector<double> table_samples(const std::vector<double>& latencies);
 struct SampleCount {
     long sent = 0, received = 0, lost = 0;
 };
-/// Counts the references between the first and the last one received: those sent before ControlComp started or
-/// after it ended are not lost.
+/// Counts the references between the first and the last one received: those sent before ControlComp started
+/// or after it ended are not lost.
 SampleCount count_samples(const std::vector<JoystickRecord>& joystick,
                           const std::vector<ControlRecord>& control);
 
@@ -42,8 +43,8 @@ struct LatencyRow {
     std::vector<double> latencies; // us
     SampleCount samples;
 };
-/// The paper's Table 1 and a table of percentiles over the whole runs, with one line per configuration; then the
-/// difference of the last configuration's median to each other one's.
+/// The paper's Table 1 and a table of percentiles over the whole runs, with one line per configuration; then
+/// the difference of the last configuration's median to each other one's.
 std::string latency_tables(const std::vector<LatencyRow>& rows);
 
 } // namespace tandem::wheelchair

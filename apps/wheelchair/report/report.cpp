@@ -19,7 +19,8 @@ using nlohmann::ordered_json;
 ordered_json json_of(const std::vector<AcceptanceCheck>& checks) {
     ordered_json list = ordered_json::array();
     for (const AcceptanceCheck& j : checks) {
-        // JSON has no infinity and no NaN: the library writes null for an open bound or a figure that is missing.
+        // JSON has no infinity and no NaN: the library writes null for an open bound or a figure that is
+        // missing.
         list.push_back({{"name", j.name},
                         {"unit", j.unit},
                         {"value", j.value},

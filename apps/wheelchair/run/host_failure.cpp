@@ -5,7 +5,8 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// [s] A reference that arrives within this time after the failure was sent before it: no restart is that fast.
+// [s] A reference that arrives within this time after the failure was sent before it: no restart is that
+// fast.
 constexpr double in_flight = 0.020;
 
 // The record of the last reference read up to time `until`; null if there is none.

@@ -31,8 +31,8 @@ struct HostFailure {
     bool update(const std::vector<HWRecord>& hw, const std::vector<ControlRecord>& control);
 };
 
-/// Milliseconds from the last reference that ControlComp received before `failed_at` to the first tick in which
-/// HWComp applied 0 V to both motors. Nothing if the traces do not show it (yet).
+/// Milliseconds from the last reference that ControlComp received before `failed_at` to the first tick in
+/// which HWComp applied 0 V to both motors. Nothing if the traces do not show it (yet).
 std::optional<double> motors_off_after_ms(double failed_at, const std::vector<HWRecord>& hw,
                                           const std::vector<ControlRecord>& control);
 

@@ -12,15 +12,16 @@
 
 namespace tandem::wheelchair {
 
-/// Runs the three components in simulation time: asks the hosts for one component's cycle after the other, always
-/// in the same order (docs/wheelchair.md, section 5.1), so that every run of a scenario gives the same bytes.
+/// Runs the three components in simulation time: asks the hosts for one component's cycle after the other,
+/// always in the same order (docs/wheelchair.md, section 5.1), so that every run of a scenario gives the same
+/// bytes.
 class LockstepDriver {
   public:
     /// Connects to the hosts of the run. Throws std::runtime_error when one does not listen within 5 s.
     LockstepDriver(const RunDirectory& run, Configuration configuration);
 
-    /// Runs one cycle of JoystickComp, of ControlComp and of HWComp; of the latter not in the last tick, whose
-    /// log row ends before HWComp. Throws std::runtime_error with the host's message.
+    /// Runs one cycle of JoystickComp, of ControlComp and of HWComp; of the latter not in the last tick,
+    /// whose log row ends before HWComp. Throws std::runtime_error with the host's message.
     void run_tick(bool last);
 
   private:

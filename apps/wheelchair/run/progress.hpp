@@ -5,8 +5,8 @@
 
 namespace tandem::wheelchair {
 
-/// Shows on standard error how far a run is: on a terminal one line that is rewritten in place, elsewhere a new line
-/// every ten seconds. For one thread.
+/// Shows on standard error how far a run is: on a terminal one line that is rewritten in place, elsewhere a
+/// new line every ten seconds. For one thread.
 class Progress {
   public:
     explicit Progress(std::string what); // `what` names the run

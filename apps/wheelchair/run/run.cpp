@@ -29,8 +29,8 @@ Scenario scenario_of(const Options& options) {
     return scenario;
 }
 
-/// One run with hosts. The order of the members matters: at the end the hosts go before the folder into which they
-/// write.
+/// One run with hosts. The order of the members matters: at the end the hosts go before the folder into which
+/// they write.
 class HostedRun {
   public:
     HostedRun(const Options& options, Configuration configuration)
@@ -62,8 +62,8 @@ class HostedRun {
         }
         fmt::print("{}: {}\n", name_of(configuration_), pids);
         std::fflush(stdout);
-        // AdaptorComp and InterceptorComp wait for each other before their hosts report ready, so with a link each host
-        // may also need the other one's time.
+        // AdaptorComp and InterceptorComp wait for each other before their hosts report ready, so with a link
+        // each host may also need the other one's time.
         supervisor_.wait_until_ready(options_.host_wait * (directory_.links().empty() ? 1.0 : 2.0));
     }
 
@@ -104,8 +104,8 @@ class HostedRun {
         }
     }
 
-    /// True, and recorded as a failure, if a component has not ticked. A host reports ready although a component
-    /// refused to start, as the real engines do, so only the traces show it.
+    /// True, and recorded as a failure, if a component has not ticked. A host reports ready although a
+    /// component refused to start, as the real engines do, so only the traces show it.
     bool component_missing() {
         traces_.update();
         std::string missing;
@@ -132,7 +132,8 @@ class HostedRun {
         return !hw.empty() && hw.back().sequence > scenario_.last_tick() + 1;
     }
 
-    /// Without --restart the run continues as long as one host runs: the user may start the other one by hand.
+    /// Without --restart the run continues as long as one host runs: the user may start the other one by
+    /// hand.
     bool no_host_running() {
         const auto& hosts = supervisor_.hosts();
         return std::none_of(hosts.begin(), hosts.end(), [](const Host& h) { return h.running(); });

@@ -25,8 +25,9 @@ struct RunResult {
     bool complete() const; // every tick of the scenario was recorded
 };
 
-/// Runs one configuration: starts the hosts, drives the scenario, stops the hosts. Throws InputError (bad input, a
-/// host that did not become ready) or Interrupted; what goes wrong later is in the result. [main-thread]
+/// Runs one configuration: starts the hosts, drives the scenario, stops the hosts. Throws InputError (bad
+/// input, a host that did not become ready) or Interrupted; what goes wrong later is in the result.
+/// [main-thread]
 RunResult run(const Options& options, Configuration configuration);
 
 } // namespace tandem::wheelchair

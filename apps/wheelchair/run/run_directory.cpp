@@ -35,8 +35,9 @@ void write_file(const fs::path& path, const std::string& text) {
 
 constexpr const char* marker_file = "wheelchair-run"; // an empty file in each folder that a run has made
 
-/// Prepares the folder that the user wants to keep. An earlier run in it is removed, because components continue
-/// trace files that exist. A folder with anything else in it is refused: this program never deletes user files.
+/// Prepares the folder that the user wants to keep. An earlier run in it is removed, because components
+/// continue trace files that exist. A folder with anything else in it is refused: this program never deletes
+/// user files.
 fs::path kept_folder(const fs::path& path) {
     std::error_code error;
     const bool is_run_folder = fs::exists(path / marker_file);

@@ -31,16 +31,16 @@ class Folder {
     bool keep_;
 };
 
-/// The folder of one run: profiles and configuration files with the run's parameters, traces and logs. A user can
-/// start the hosts on a kept folder by hand. It contains:
+/// The folder of one run: profiles and configuration files with the run's parameters, traces and logs. A user
+/// can start the hosts on a kept folder by hand. It contains:
 ///   opros/wheelchair.xml     application profile; component profiles are beside the plugins
 ///   rtm/rtc.conf             configuration of rtm_host, and COMPONENT0.conf for each RTC
 ///   trace/COMPONENT.trace    what each component did, tick by tick (core/record/trace.hpp)
 ///   log/HOST.log             standard error of each host
 class RunDirectory {
   public:
-    /// Writes all files. `programs` is the folder of the hosts' programs. Throws InputError when the folder to keep
-    /// holds other files than an earlier run's, or cannot be written.
+    /// Writes all files. `programs` is the folder of the hosts' programs. Throws InputError when the folder
+    /// to keep holds other files than an earlier run's, or cannot be written.
     RunDirectory(const Options& options, Configuration configuration, const std::filesystem::path& programs);
 
     const std::filesystem::path& path() const { return folder_.path(); }

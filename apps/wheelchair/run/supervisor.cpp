@@ -51,8 +51,8 @@ Started start_process(const std::vector<std::string>& command, const std::string
     return {std::move(child), std::move(output)};
 }
 
-// Quotes a word for a POSIX shell if it has to be: a single quote inside ends the quotes, is escaped, and begins
-// them again.
+// Quotes a word for a POSIX shell if it has to be: a single quote inside ends the quotes, is escaped, and
+// begins them again.
 std::string quoted(const std::string& word) {
     const bool plain = word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
                                               "_-./:=,+@%") == word.npos;

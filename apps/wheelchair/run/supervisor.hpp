@@ -31,8 +31,8 @@ struct Host {
     std::string first_error() const;  // first line with "error" that this process logged, else its last line
 };
 
-/// Starts, watches and stops the hosts of a run. While it exists, SIGINT, SIGTERM and SIGHUP of this program are
-/// blocked and reported by watch() instead, so that the hosts can be stopped in order. [main-thread]
+/// Starts, watches and stops the hosts of a run. While it exists, SIGINT, SIGTERM and SIGHUP of this program
+/// are blocked and reported by watch() instead, so that the hosts can be stopped in order. [main-thread]
 class Supervisor {
   public:
     Supervisor();
@@ -51,8 +51,8 @@ class Supervisor {
     /// Waits until something happens, at most `timeout`.
     Events watch(std::chrono::milliseconds timeout);
 
-    /// Waits until all hosts are ready. Throws InputError with the host's first error when one ends or is not ready
-    /// within `seconds`, and Interrupted when a signal asks this program to end.
+    /// Waits until all hosts are ready. Throws InputError with the host's first error when one ends or is not
+    /// ready within `seconds`, and Interrupted when a signal asks this program to end.
     void wait_until_ready(double seconds);
 
     /// Sends SIGTERM, and SIGKILL if the host has not ended after 5 s. True if it exited with code 0.

@@ -6,12 +6,12 @@ namespace tandem::wheelchair {
 namespace {
 
 // Within 10 ms: HWComp publishes at 5 ms, JoystickComp reads that at 11 ms and sends a reference, for which
-// ControlComp has been polling since 10.5 ms; HWComp applies the voltages at 15 ms. Polling must not keep the other
-// two from a core, so ControlComp has the lowest priority.
+// ControlComp has been polling since 10.5 ms; HWComp applies the voltages at 15 ms. Polling must not keep the
+// other two from a core, so ControlComp has the lowest priority.
 const RunComponent hw{"HWComp", 5.0, 7}, joystick{"JoystickComp", 1.0, 6}, control{"ControlComp", 0.5, 5};
 
-// All connections of the wheelchair (docs/wheelchair.md, section 5), with `stick` as the instance that provides
-// JoystickComp's ports: itself, or the AdaptorComp that mirrors it.
+// All connections of the wheelchair (docs/wheelchair.md, section 5), with `stick` as the instance that
+// provides JoystickComp's ports: itself, or the AdaptorComp that mirrors it.
 std::vector<Connection> all_connections(const std::string& stick) {
     return {{Connection::data, "HWComp", "joystickPos", stick, "joystickPos"},
             {Connection::data, stick, "reference", "ControlComp", "reference"},

@@ -30,8 +30,8 @@ std::vector<RunComponent> rtm_components(Configuration configuration);
 std::vector<Connection> opros_connections(Configuration configuration);
 std::vector<Connection> rtm_connections(Configuration configuration);
 
-/// A link between the hosts: the instance name of its AdaptorComp in opros_host, and the RTC in rtm_host whose
-/// ports that AdaptorComp mirrors.
+/// A link between the hosts: the instance name of its AdaptorComp in opros_host, and the RTC in rtm_host
+/// whose ports that AdaptorComp mirrors.
 struct Bridge {
     std::string adaptor, rtc;
     std::string link_suffix; // appended to the run's link name

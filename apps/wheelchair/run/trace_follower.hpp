@@ -9,14 +9,15 @@
 
 namespace tandem::wheelchair {
 
-/// Reads a component's trace file while the component writes it. The file may not exist yet, and the component may
-/// have been killed since. For one thread.
+/// Reads a component's trace file while the component writes it. The file may not exist yet, and the
+/// component may have been killed since. For one thread.
 template <class Record>
 class TraceFollower {
   public:
     explicit TraceFollower(std::string path) : path_(std::move(path)) {}
 
-    /// Reads the records added since the last call. Throws InputError when the file is no trace of this record type.
+    /// Reads the records added since the last call. Throws InputError when the file is no trace of this
+    /// record type.
     void update() {
         if (!reader_) {
             if (!trace_exists(path_)) return;

@@ -69,7 +69,8 @@ class HWComp : public Component, public IChair, private HWPorts {
     Received<Voltage> voltages() override { return component::receive_all<Voltage>(refVoltage_); }
     Received<LinkState> link_states() override { return component::receive_all<LinkState>(linkState_); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
-        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the same tick.
+        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the
+        // same tick.
         component::push(wheelSpeed_, buffer_, wheels);
         component::push(joystickPos_, buffer_, position);
     }

@@ -23,8 +23,9 @@ using Values = std::vector<double>;
 /// Messages that a port holds. A sender ticks every 10 ms, so this covers a reader that is late by 150 ms.
 constexpr int queue_length = 16;
 
-/// Bounds the messages taken in one tick, so that a sender that never pauses cannot hold the tick. It is more than a
-/// sender at 10 ms leaves while this process is paused for half a minute: the newest message comes after all older.
+/// Bounds the messages taken in one tick, so that a sender that never pauses cannot hold the tick. It is more
+/// than a sender at 10 ms leaves while this process is paused for half a minute: the newest message comes
+/// after all older.
 constexpr int max_messages_per_tick = 4096;
 
 /// Takes all messages from the port. [tick-thread]
@@ -54,7 +55,8 @@ inline Settings settings_of(Component& component) {
                           component.getProperty("trace")});
 }
 
-/// Runs a life-cycle callback. An exception becomes one line on standard error and an error code for the engine.
+/// Runs a life-cycle callback. An exception becomes one line on standard error and an error code for the
+/// engine.
 template <class Step>
 ReturnType guarded(const char* component, Step step) {
     try {

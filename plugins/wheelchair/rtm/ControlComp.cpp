@@ -42,7 +42,8 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
     RTC::ReturnCode_t onAborting(RTC::UniqueId) override { return stop(); }
 
   private:
-    // The first call over the service port: it fails at activation, and not in mid-run, if the port is not connected.
+    // The first call over the service port: it fails at activation, and not in mid-run, if the port is not
+    // connected.
     void ask_joystick() {
         if (CORBA::is_nil(joystick_._ptr()))
             throw InputError(

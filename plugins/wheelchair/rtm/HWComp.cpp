@@ -79,7 +79,8 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     Received<Voltage> voltages() override { return refVoltage_.receive_all<Voltage>(); }
     Received<LinkState> link_states() override { return linkState_.receive_all<LinkState>(); }
     void send(const Stamped<JoystickPosition>& position, const Stamped<WheelSpeed>& wheels) override {
-        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the same tick.
+        // joystickPos last: JoystickComp reacts to it, and ControlComp then finds the wheel speeds of the
+        // same tick.
         wheelSpeed_.write(wheels);
         joystickPos_.write(position);
     }

@@ -21,7 +21,8 @@ class JoystickService : public POA_Wheelchair::Joystick, public virtual Portable
     std::atomic<double> direction_rate_{JoystickParameters{}.direction_rate};
 };
 
-// Calls limits() of service chair. Throws InputError if the port is not connected, CORBA exceptions if the call fails.
+// Calls limits() of service chair. Throws InputError if the port is not connected, CORBA exceptions if the
+// call fails.
 std::vector<double> limits(Wheelchair::Chair_ptr chair) {
     if (CORBA::is_nil(chair))
         throw InputError("port chair is not connected; connect it to a provider of Wheelchair::Chair");

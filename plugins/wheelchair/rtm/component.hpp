@@ -79,7 +79,8 @@ struct Parameters {
 
 /// The component profile for the manager and for tools such as RTSystemEditor.
 inline coil::Properties profile(const char* name, const char* description) {
-    // kind, max_instance and the like are what OpenRTM-aist's tools expect; conf.default.* are the default set.
+    // kind, max_instance and the like are what OpenRTM-aist's tools expect; conf.default.* are the default
+    // set.
     const char* const spec[] = {"implementation_id",
                                 name,
                                 "type_name",

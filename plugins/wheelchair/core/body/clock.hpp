@@ -7,7 +7,8 @@
 
 namespace tandem::wheelchair {
 
-/// CLOCK_MONOTONIC in seconds: one clock for all processes of a machine, so stamps of different hosts compare.
+/// CLOCK_MONOTONIC in seconds: one clock for all processes of a machine, so stamps of different hosts
+/// compare.
 inline double monotonic_seconds() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);

@@ -11,8 +11,8 @@ ControlBody::ControlBody(const Settings& settings)
 
 namespace {
 
-/// Waits about a third of a microsecond between two polls of the port. A sender that needs the port's lock would
-/// otherwise nearly always find it taken by this poller.
+/// Waits about a third of a microsecond between two polls of the port. A sender that needs the port's lock
+/// would otherwise nearly always find it taken by this poller.
 void pause_between_polls() {
     for (int i = 0; i < 8; ++i) {
 #if defined(__x86_64__)
@@ -26,9 +26,9 @@ void pause_between_polls() {
 } // namespace
 
 /// Polls for this tick's reference, at most for poll_us. All components tick on one grid in real time, so the
-/// reference is read the moment it becomes visible: what the trace measures is the transport and not the phase
-/// between two timers. A reference left from the tick before does not end the polling, or ControlComp would stay one
-/// tick behind for the rest of the run.
+/// reference is read the moment it becomes visible: what the trace measures is the transport and not the
+/// phase between two timers. A reference left from the tick before does not end the polling, or ControlComp
+/// would stay one tick behind for the rest of the run.
 ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
     // Real time even in simulation: the time is that of polling. In lock-step poll_us is 0.
     const double give_up = monotonic_seconds() + poll_seconds_;
@@ -52,16 +52,17 @@ void ControlBody::tick(ControlPorts& ports) {
     const Read read = read_reference(ports);
     if (const auto in = ports.wheels(); in.newest) wheels_ = *in.newest;
     const double t = clock_.at(tick_);
-    // A message sent before the first tick is not late: this component could not have read it. A stamp from the
-    // future is reduced to now, or its message would never become stale.
+    // A message sent before the first tick is not late: this component could not have read it. A stamp from
+    // the future is reduced to now, or its message would never become stale.
     if (tick_ == 0) first_tick_at_ = t;
     const auto bounded = [&](auto message) {
         message.stamp = std::min(std::max(message.stamp, first_tick_at_), t);
         return message;
     };
     auto reference = bounded(reference_);
-    // A restarted JoystickComp begins at speed 0, and following it would stop the chair with a jerk. Its first
-    // reference is treated as stale: the chair slows down, and drives again after the stick was released.
+    // A restarted JoystickComp begins at speed 0, and following it would stop the chair with a jerk. Its
+    // first reference is treated as stale: the chair slows down, and drives again after the stick was
+    // released.
     if (std::exchange(sender_restarted_, false)) reference.stamp = t - 2.0 * stale_seconds;
     const Voltage voltage = law_.tick(t, reference, bounded(wheels_));
     ports.send({t, static_cast<double>(tick_), voltage});

@@ -53,7 +53,8 @@ void HWBody::publish(HWPorts& ports) {
     auto wheels = chair_.wheel_speed();
     if (emergency_) position.emergency_stop = wheels.emergency_stop = true;
     const double stamp = clock_.at(chair_.tick()), sequence = chair_.tick();
-    // Recorded before it is sent: merge() relies on records of receivers being later than that of the publication.
+    // Recorded before it is sent: merge() relies on records of receivers being later than that of the
+    // publication.
     if (chair_.tick() == 0) trace_.append(record({}, monotonic_seconds()));
     ports.send({stamp, sequence, position}, {stamp, sequence, wheels});
 }

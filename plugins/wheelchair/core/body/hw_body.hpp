@@ -11,8 +11,8 @@
 
 namespace tandem::wheelchair {
 
-/// HWComp without a component model: constructed at each activation, ticked every 10 ms. Deactivation, stop and error
-/// of the component call stop(), which works without any other component.
+/// HWComp without a component model: constructed at each activation, ticked every 10 ms. Deactivation, stop
+/// and error of the component call stop(), which works without any other component.
 class HWBody {
   public:
     explicit HWBody(const Settings& settings); // throws InputError

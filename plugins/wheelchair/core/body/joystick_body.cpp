@@ -28,8 +28,8 @@ void JoystickBody::tick(JoystickPorts& ports) {
     const auto in = ports.positions();
     if (in.newest) position_ = *in.newest;
     const Reference reference = law_.tick(position_.value);
-    // A reference gets a new stamp, so an old stick position would look new: after a pause of this process the driver
-    // may have released the stick long ago. Without a reference ControlComp stops the chair.
+    // A reference gets a new stamp, so an old stick position would look new: after a pause of this process
+    // the driver may have released the stick long ago. Without a reference ControlComp stops the chair.
     const bool position_is_stale = clock_.at(tick_) - position_.stamp > stale_seconds + 1e-9;
     // The mute window belongs to the scenario, whose time is counted in HWComp's ticks.
     const bool sent = !position_is_stale && !scenario_.muted(position_.sequence * tick_seconds);

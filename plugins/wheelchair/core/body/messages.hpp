@@ -15,7 +15,8 @@
 
 namespace tandem::wheelchair {
 
-/// What AdaptorComp and InterceptorComp send on their port `linkState`: 1 while the peer process is there, else 0.
+/// What AdaptorComp and InterceptorComp send on their port `linkState`: 1 while the peer process is there,
+/// else 0.
 struct LinkState {
     bool up = true;
 };
@@ -52,8 +53,8 @@ Message<T> pack(const Stamped<T>& in) {
     return out;
 }
 
-/// The inverse of pack(). Nothing if the length is not that of T's message, or stamp or sequence number are not
-/// finite: the sender may be a component of somebody else.
+/// The inverse of pack(). Nothing if the length is not that of T's message, or stamp or sequence number are
+/// not finite: the sender may be a component of somebody else.
 template <class T>
 std::optional<Stamped<T>> unpack(std::span<const double> in) {
     if (in.size() != message_size<T> || !std::isfinite(in[0]) || !std::isfinite(in[1])) return {};

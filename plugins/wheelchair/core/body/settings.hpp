@@ -7,8 +7,8 @@
 
 namespace tandem::wheelchair {
 
-/// The parameters of a component as texts, as profiles (OPRoS) and rtc.conf (RTM) have them. Empty: the default. Each
-/// component has only some of them.
+/// The parameters of a component as texts, as profiles (OPRoS) and rtc.conf (RTM) have them. Empty: the
+/// default. Each component has only some of them.
 struct RawSettings {
     std::string scenario{};      // name, default step20
     std::string joystick_file{}; // CSV with stick positions, default none

@@ -16,8 +16,9 @@ bool finite(const Reference& r, const WheelSpeed& w) {
            std::isfinite(w.right);
 }
 
-/// A PI controller with feed-forward whose output is limited to +-max. The integral is used before it is updated, and
-/// is not updated while the output is limited and the error would drive it further into the limit (anti-windup).
+/// A PI controller with feed-forward whose output is limited to +-max. The integral is used before it is
+/// updated, and is not updated while the output is limited and the error would drive it further into the
+/// limit (anti-windup).
 double proportional_integral(double setpoint, double error, double feed_forward, double gain,
                              double integral_gain, double max, double& integral) {
     const double unlimited = feed_forward * setpoint + gain * error + integral;
@@ -83,8 +84,8 @@ Voltage ControlLaw::drive(const Reference& reference, double mean, double differ
         filtered_direction_ += p.direction_filter * (direction - filtered_direction_);
         const double k = p.kappa * std::tan(filtered_direction_ / degrees);
         mean_setpoint = v / p.wheel_radius;
-        // At standstill the ratio is not defined, so the requested mean speed replaces the measured one there; between
-        // standstill and blend_speed both are blended.
+        // At standstill the ratio is not defined, so the requested mean speed replaces the measured one
+        // there; between standstill and blend_speed both are blended.
         double blend = 1.0 - std::abs(mean) / p.blend_speed;
         if (blend < 0.0) blend = 0.0;
         difference_setpoint = k * (mean + blend * (mean_setpoint - mean));

@@ -6,14 +6,14 @@
 
 namespace tandem::wheelchair {
 
-/// The safety states of docs/wheelchair.md, section 6.5. stale: the reference is older than 50 ms; the chair slows down
-/// in its last direction. fault: a number is not finite, or the wheel speed is older than 50 ms. emergency_stop and
-/// fault set 0 V and the brake, and last as long as the ControlLaw.
+/// The safety states of docs/wheelchair.md, section 6.5. stale: the reference is older than 50 ms; the chair
+/// slows down in its last direction. fault: a number is not finite, or the wheel speed is older than 50 ms.
+/// emergency_stop and fault set 0 V and the brake, and last as long as the ControlLaw.
 enum class ControlState { run = 0, stale = 1, emergency_stop = 2, fault = 3 };
 
-/// Speed-ratio control of two drive wheels (docs/wheelchair.md, section 6). The difference of the voltages, which
-/// controls the ratio of the wheel speeds and so the curve, is limited first; the mean voltage gets what is left.
-/// If the voltage does not suffice, the chair becomes slower and stays on its curve.
+/// Speed-ratio control of two drive wheels (docs/wheelchair.md, section 6). The difference of the voltages,
+/// which controls the ratio of the wheel speeds and so the curve, is limited first; the mean voltage gets
+/// what is left. If the voltage does not suffice, the chair becomes slower and stays on its curve.
 class ControlLaw {
   public:
     explicit ControlLaw(const ControlParameters& parameters = {}) : parameters_(parameters) {}

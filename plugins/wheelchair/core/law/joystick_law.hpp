@@ -6,8 +6,8 @@
 
 namespace tandem::wheelchair {
 
-/// Turns stick positions into a reference direction and speed (docs/wheelchair.md, section 5.3): dead zone, driving or
-/// turning on the spot, limits of lateral acceleration and of rates. Not thread-safe.
+/// Turns stick positions into a reference direction and speed (docs/wheelchair.md, section 5.3): dead zone,
+/// driving or turning on the spot, limits of lateral acceleration and of rates. Not thread-safe.
 class JoystickLaw {
   public:
     explicit JoystickLaw(const JoystickParameters& parameters = {}) : parameters_(parameters) {}

@@ -11,8 +11,8 @@
 
 namespace tandem::wheelchair {
 
-/// Result of limits() of service chair: largest speed forward, in reverse and in a spin (of the point between the
-/// casters) [m/s], largest lateral acceleration [m/s^2].
+/// Result of limits() of service chair: largest speed forward, in reverse and in a spin (of the point between
+/// the casters) [m/s], largest lateral acceleration [m/s^2].
 struct ChairLimits {
     double forward, reverse, spin, lateral_acceleration;
 };

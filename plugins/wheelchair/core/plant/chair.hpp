@@ -10,9 +10,9 @@
 namespace tandem::wheelchair {
 
 /// The simulated hardware: chair, motor drivers, encoders and an IO board with a safe stop
-/// (docs/wheelchair.md, section 5.2). The safe stop depends on no other component: when no voltage has come for
-/// 50 ms, when stop() is called or the link is down, both voltages go to 0 and the brake is set.
-/// For one thread. Times are in seconds on the clock of the caller.
+/// (docs/wheelchair.md, section 5.2). The safe stop depends on no other component: when no voltage has come
+/// for 50 ms, when stop() is called or the link is down, both voltages go to 0 and the brake is set. For one
+/// thread. Times are in seconds on the clock of the caller.
 class Chair {
   public:
     /// Until the first voltage comes, the watchdog counts from `now`.
@@ -20,8 +20,8 @@ class Chair {
     /// Makes the watchdog count from `now`: the first tick may come long after the construction.
     void start_watchdog(double now) { last_voltage_ = now; }
 
-    /// First half of a tick at time `now`: sets the voltages to the newest ones received, if any; then applies the
-    /// watchdog, the safe stop if `forced_stop` is true, and the parking brake.
+    /// First half of a tick at time `now`: sets the voltages to the newest ones received, if any; then
+    /// applies the watchdog, the safe stop if `forced_stop` is true, and the parking brake.
     void apply(double now, const std::optional<Stamped<Voltage>>& voltage, bool forced_stop);
 
     /// Second half of a tick: simulates 10 ms and reads the encoders.

@@ -5,8 +5,8 @@
 
 namespace tandem::wheelchair {
 
-/// A smooth sign function, x / sqrt(x^2 + scale^2). Division and square root are exact in IEEE arithmetic, unlike
-/// tanh(), so that every compiler and C library gives the same bits.
+/// A smooth sign function, x / sqrt(x^2 + scale^2). Division and square root are exact in IEEE arithmetic,
+/// unlike tanh(), so that every compiler and C library gives the same bits.
 inline double smooth_sign(double x, double scale) { return x / std::sqrt(x * x + scale * scale); }
 
 /// As std::clamp, but returns a NaN unchanged, and low > high is defined.

@@ -19,8 +19,8 @@ struct Drive {
     double torque;       // N m at the wheel
 };
 
-/// One motor with driver, gear, wheel and brake. `wheel` is the wheel's speed [rad/s], `k` the motor constant at
-/// the wheel, `load` the force on the ground [N].
+/// One motor with driver, gear, wheel and brake. `wheel` is the wheel's speed [rad/s], `k` the motor constant
+/// at the wheel, `load` the force on the ground [N].
 Drive drive(const PlantParameters& p, double volts, double current, double wheel, double k, double load,
             const PlantInput& in) {
     const double back_emf = k * wheel;
@@ -42,8 +42,9 @@ struct Caster {
     double steering; // N m about the pivot, without the chassis' own yaw acceleration
 };
 
-/// Forces of one caster, whose pivot is `side` to the left of the centre line [m]; `angle` and `rate` are those of
-/// the caster in the chair, `v` and `w` speed and yaw rate of the chair, `load` the force on the ground [N].
+/// Forces of one caster, whose pivot is `side` to the left of the centre line [m]; `angle` and `rate` are
+/// those of the caster in the chair, `v` and `w` speed and yaw rate of the chair, `load` the force on the
+/// ground [N].
 Caster caster(const PlantParameters& p, double side, double angle, double rate, double v, double w,
               double load) {
     const double c = std::cos(angle), q = std::sin(angle);

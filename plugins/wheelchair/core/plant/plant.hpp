@@ -8,7 +8,8 @@
 
 namespace tandem::wheelchair {
 
-/// Positions in State. A caster's angle is relative to the chair (0: it trails); a wheel's angle is not wrapped.
+/// Positions in State. A caster's angle is relative to the chair (0: it trails); a wheel's angle is not
+/// wrapped.
 namespace index {
 enum : int {
     x,

@@ -24,8 +24,9 @@ class JoystickRecording {
     std::vector<Sample> samples_;
 };
 
-/// Reads a CSV file with lines `t, jx, jy, estop`: seconds (not falling), two counts from -2000 to 2000, 0 or 1. A
-/// heading line, blank lines and lines that begin with # are skipped. Throws InputError with file and line.
+/// Reads a CSV file with lines `t, jx, jy, estop`: seconds (not falling), two counts from -2000 to 2000, 0 or
+/// 1. A heading line, blank lines and lines that begin with # are skipped. Throws InputError with file and
+/// line.
 JoystickRecording read_joystick_file(const std::string& path);
 
 } // namespace tandem::wheelchair

@@ -11,8 +11,8 @@ namespace tandem::wheelchair {
 
 namespace {
 
-// The inverse of JoystickLaw: 50 counts per degree, 1000 per m/s forward and 2000 in reverse, beyond a dead zone of
-// 100 counts.
+// The inverse of JoystickLaw: 50 counts per degree, 1000 per m/s forward and 2000 in reverse, beyond a dead
+// zone of 100 counts.
 double counts_for_direction(double deg) {
     if (deg == 0.0) return 0;
     const double c = std::floor(std::abs(deg) * 50.0 + 0.5) + 100;
@@ -68,7 +68,8 @@ Scenario named(std::string name, double seconds, std::function<JoystickPosition(
 // 5 deg, reached within half a second from `start` on.
 Slope uphill(double start) { return {5.0, start, 0.5, 0.0, true}; }
 
-/// The paper's test and its variants. The paper gives the reference electronically, so there is no rate limit.
+/// The paper's test and its variants. The paper gives the reference electronically, so there is no rate
+/// limit.
 std::vector<Scenario> step_family() {
     const auto turn = steps({{50, 0, .8}, {500, 20, .8}});
     std::vector<Scenario> list{named("step20", 10.0, turn),

@@ -17,8 +17,8 @@ class InputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// One test drive (docs/wheelchair.md, section 7): what the user does with the stick, and in what chair and ground
-/// differ from the normal ones.
+/// One test drive (docs/wheelchair.md, section 7): what the user does with the stick, and in what chair and
+/// ground differ from the normal ones.
 struct Scenario {
     std::string name;
     double seconds = 0.0;
@@ -35,14 +35,15 @@ struct Scenario {
     bool muted(double t) const;
 };
 
-/// All scenarios, in the order of docs/wheelchair.md; then `recorded`, whose stick comes from a file. [any-thread]
+/// All scenarios, in the order of docs/wheelchair.md; then `recorded`, whose stick comes from a file.
+/// [any-thread]
 const std::vector<Scenario>& scenarios();
 
 /// Throws InputError that lists all names if there is no scenario of this name.
 const Scenario& find_scenario(const std::string& name);
 
-/// The scenario `name`; if `joystick_file` is not empty, with the stick positions of that file. An empty name means
-/// `recorded` with a file and `step20` without. Throws InputError.
+/// The scenario `name`; if `joystick_file` is not empty, with the stick positions of that file. An empty name
+/// means `recorded` with a file and `step20` without. Throws InputError.
 Scenario load_scenario(const std::string& name, const std::string& joystick_file);
 
 } // namespace tandem::wheelchair

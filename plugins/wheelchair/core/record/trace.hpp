@@ -35,12 +35,12 @@ inline constexpr std::size_t max_trace_columns =
 /// Names of a record's columns, one per double (column_names() in records.hpp).
 using ColumnNames = std::span<const char* const>;
 
-/// Writes a trace. One writer per file, in one thread. Enters the kernel only to grow the file, every 8192 records;
-/// if the disk is full then, recording ends and dropped() counts the records that are lost.
+/// Writes a trace. One writer per file, in one thread. Enters the kernel only to grow the file, every 8192
+/// records; if the disk is full then, recording ends and dropped() counts the records that are lost.
 class TraceFile {
   public:
-    /// Creates the file, or continues it if it is a trace with the same columns. Throws InputError if it is anything
-    /// else, if another process writes it, or if there is no room for the next records.
+    /// Creates the file, or continues it if it is a trace with the same columns. Throws InputError if it is
+    /// anything else, if another process writes it, or if there is no room for the next records.
     TraceFile(const std::string& path, ColumnNames columns);
     ~TraceFile();
     TraceFile(const TraceFile&) = delete;
