@@ -8,39 +8,41 @@
 namespace tandem::shm {
 
 Segment::Segment(std::shared_ptr<const Mapping> mapping)
-    : mapping_(std::move(mapping)), directory_(mapping_), mine_(mapping_, mapping_->side()),
-      theirs_(mapping_, other(mapping_->side())), joined_by_(getpid()) {}
+    : mapping_(std::move(mapping)), directory_(mapping_), doorbell_(mapping_, mapping_->side()),
+      peer_doorbell_(mapping_, other(mapping_->side())), joined_by_(getpid()) {}
 
 Segment::~Segment() { leave(); }
 
 void Segment::leave() {
-    // A fork()ed child shares the open file: if it unlocked, its parent would be dead to the peer.
+    // A fork()ed child shares the open file: if it unlocked, the peer would take its parent for dead.
     if (getpid() != joined_by_ || left_.exchange(true)) return;
     const int fd = mapping_->fd();
-    // If the hand-over byte cannot be had (its holder was stopped), the file stays for remove_dead().
-    const HandOver hand_over(fd);
-    unlock(fd, life_of(side()));
-    if (hand_over.held() && !held_by_other(fd, life_of(other(side()))) && still_named(fd))
+    // If the hand-over byte is not available (its holder was stopped), the file is left to remove_dead().
+    const HandOverLock hand_over(fd);
+    unlock(fd, life_byte(side()));
+    if (hand_over.held() && !held_by_other(fd, life_byte(other(side()))) && still_named(fd))
         ::unlink(path().c_str());
-    theirs_.ring(Doorbell::attention_bit);
+    peer_doorbell_.ring(Doorbell::attention_bit);
 }
 
 std::uint32_t Segment::peer_pid() const {
-    return mapping_->half(other(side())).pid.load(std::memory_order_relaxed);
+    return mapping_->side_header(other(side())).pid.load(std::memory_order_relaxed);
 }
 
-void Segment::heartbeat() { mapping_->half(side()).heartbeat_ns.store(now_ns(), std::memory_order_relaxed); }
+void Segment::heartbeat() {
+    mapping_->side_header(side()).heartbeat_ns.store(now_ns(), std::memory_order_relaxed);
+}
 
 bool Segment::superseded() const {
-    // In this order: what was truncated has no header.
+    // In this order: a truncated file may have no header to read.
     return mapping_->truncated() || !still_named(mapping_->fd()) ||
            load_word(&mapping_->header().superseded_by) > generation();
 }
 
 RingHandle Segment::add_ring(const std::string& name, const RingOptions& options) {
     const RingMemory bytes = ring_memory(name, options);
-    return create_ring(mapping_, directory_.add(name, layout::ObjectKind::ring, bytes.all, bytes.at_once),
-                       options);
+    return create_ring(
+        mapping_, directory_.add(name, layout::ObjectKind::ring, bytes.total, bytes.without_chunks), options);
 }
 
 CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueueOptions& options) {
@@ -55,37 +57,37 @@ std::span<std::byte> Segment::add_blob(const std::string& name, std::size_t byte
 
 void Segment::publish() {
     directory_.publish();
-    theirs_.ring(Doorbell::attention_bit);
+    peer_doorbell_.ring(Doorbell::attention_bit);
 }
 
 bool Segment::peer_published() const {
-    return mapping_->half(other(side())).published.load(std::memory_order_acquire) != 0;
+    return mapping_->side_header(other(side())).published.load(std::memory_order_acquire) != 0;
 }
 
-std::optional<RingHandle> Segment::find_ring(Side half, const std::string& name) const {
-    const auto memory = directory_.find(half, name, layout::ObjectKind::ring);
+std::optional<RingHandle> Segment::find_ring(Side owner, const std::string& name) const {
+    const auto memory = directory_.find(owner, name, layout::ObjectKind::ring);
     if (!memory) return std::nullopt;
     return open_ring(mapping_, *memory, name);
 }
 
-std::optional<CallQueueHandle> Segment::find_call_queue(Side half, const std::string& name) const {
-    const auto memory = directory_.find(half, name, layout::ObjectKind::call_queue);
+std::optional<CallQueueHandle> Segment::find_call_queue(Side owner, const std::string& name) const {
+    const auto memory = directory_.find(owner, name, layout::ObjectKind::call_queue);
     if (!memory) return std::nullopt;
     return open_call_queue(mapping_, *memory, name);
 }
 
-std::optional<std::span<std::byte>> Segment::find_blob(Side half, const std::string& name) const {
-    return directory_.find(half, name, layout::ObjectKind::blob);
+std::optional<std::span<std::byte>> Segment::find_blob(Side owner, const std::string& name) const {
+    return directory_.find(owner, name, layout::ObjectKind::blob);
 }
 
-std::optional<std::vector<std::byte>> Segment::copy_blob(Side half, const std::string& name) const {
-    const auto memory = find_blob(half, name);
+std::optional<std::vector<std::byte>> Segment::copy_blob(Side owner, const std::string& name) const {
+    const auto memory = find_blob(owner, name);
     if (!memory) return std::nullopt;
     std::vector<std::byte> copy(memory->size());
     copy_from_shared(copy.data(), memory->data(), copy.size());
     return copy;
 }
 
-std::vector<ObjectInfo> Segment::list(Side half) const { return directory_.list(half); }
+std::vector<ObjectInfo> Segment::list(Side owner) const { return directory_.list(owner); }
 
 } // namespace tandem::shm

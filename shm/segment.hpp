@@ -2,7 +2,8 @@
 #pragma once
 #include "shm/call/call_queue.hpp"
 #include "shm/os/error.hpp"
-#include "shm/ring/ring.hpp"
+#include "shm/ring/ring_reader.hpp"
+#include "shm/ring/ring_writer.hpp"
 #include "shm/segment/directory.hpp"
 #include "shm/segment/segment_file.hpp"
 #include "shm/wait/doorbell.hpp"
@@ -10,81 +11,88 @@
 namespace tandem::shm {
 
 struct JoinOptions {
-    std::size_t arena_bytes = std::size_t{4}
-                              << 20; ///< wanted at least for my half (and for the peer's, if I create)
-    std::size_t loan_bytes = 0;      ///< wanted beside it in my half, for the chunks of rings
-    std::size_t peer_loan_bytes = 0; ///< the same in the peer's half, if I create
-    /// If I create: nothing of the arenas is reserved in advance (only that there are arena_bytes for each is
-    /// checked), but every object when it is added, and of chunks what is used, when it is first used.
+    /// Wanted at least for the own arena, and for the peer's, if this side creates the segment.
+    std::size_t arena_bytes = std::size_t{4} << 20;
+    /// Wanted in addition to that in the own arena, for the chunks of rings.
+    std::size_t chunk_pool_bytes = 0;
+    /// The same in the peer's arena, if this side creates the segment.
+    std::size_t peer_chunk_pool_bytes = 0;
+    /// If this side creates the segment: no memory of the arenas is reserved in advance (only whether there
+    /// is room for arena_bytes each is checked). An object gets its memory when it is added, a chunk when it
+    /// is first used.
     bool sparse = false;
-    std::uint64_t contract = 0; ///< the caller's own version; a segment of another is refused
-    std::string group;          ///< if named: mode 0660, owned by that group
-    std::chrono::nanoseconds late_after =
-        std::chrono::milliseconds(100); ///< age of heartbeat that makes a peer late
+    std::uint64_t contract =
+        0;             ///< version of the users' own agreement; a segment with another one is refused
+    std::string group; ///< if not empty: mode 0660, owned by that group
+    /// Age of the peer's heartbeat that makes it late.
+    std::chrono::nanoseconds late_after = std::chrono::milliseconds(100);
 };
 
-/// One generation of a link, seen from one side. Join, add objects to my half, publish(); when the peer has
-/// published, find its objects. Set-up calls: one thread at a time; the objects found have their own rules.
+/// One generation of a link, seen from one side. Join, add objects, publish(); when the peer has published,
+/// find its objects. Calls that set up: one thread at a time; the objects found have rules of their own.
 class Segment {
   public:
-    /// Attaches to the newest generation in which the peer lives and my side was never taken, otherwise
-    /// creates the next one; removes those whose holders are all dead. Never waits for the peer. Throws
-    /// SideTaken if my side is held by somebody alive, Error for anything else that is in the way.
+    /// Attaches to the newest generation in which the peer lives and this side was never taken, otherwise
+    /// creates the next one; removes those in which no side lives. Never waits for the peer. Throws SideTaken
+    /// if this side is held by a living process, Error for any other obstacle.
     static std::unique_ptr<Segment> join(const std::string& link, Side side, const JoinOptions& options = {});
 
     ~Segment(); ///< leave()
     Segment(const Segment&) = delete;
     Segment& operator=(const Segment&) = delete;
 
-    /// [any-thread] Gives my side back and tells the peer; the last one to leave removes the file. The memory
-    /// stays mapped as long as this, or a ring, call queue or doorbell object of it, exists.
+    /// [any-thread] Gives this side back and rings the peer; the last side to leave removes the file. The
+    /// memory stays mapped as long as this, or a ring, call queue or doorbell object of it, exists.
     void leave();
 
     std::uint64_t generation() const { return mapping_->generation(); }
     Side side() const { return mapping_->side(); }
     const std::string& path() const { return mapping_->path(); }
 
-    /// [any-thread] One system call: cheap enough for every 5 ms, not for every message.
-    PeerState peer() const { return mapping_->peer(); }
-    std::size_t arena_bytes(Side half) const { return mapping_->arena(half).size(); }
+    /// [any-thread] Makes one system call: cheap enough for every 5 ms, not for every message.
+    PeerState peer_state() const { return mapping_->peer_state(); }
+    std::size_t arena_bytes(Side owner) const { return mapping_->arena(owner).size(); }
     std::uint32_t peer_pid() const; ///< As the peer wrote it: for messages to people only.
-    void heartbeat();               ///< [any-thread] I am well. Call it more often than late_after.
+    /// [any-thread] Tells the peer that this side still works. Call it more often than late_after.
+    void heartbeat();
 
-    /// [any-thread] A newer generation exists, or the file was removed or cut: leave and join again. Two
-    /// system calls.
+    /// [any-thread] A newer generation exists, or the file was removed or truncated: leave and join again.
+    /// Makes two system calls.
     bool superseded() const;
-    bool truncated() const { return mapping_->truncated(); } ///< [any-thread] The file was cut.
+    bool truncated() const { return mapping_->truncated(); } ///< [any-thread]
 
-    /// New objects in my half; the peer sees them after publish(). Throw Error if the arena or the directory
-    /// is full, or the name (at most 103 characters, unique in my half) or an option is not acceptable.
+    /// New objects of this side; the peer sees them after publish(). They throw Error if the arena or the
+    /// directory is full, or the name (at most 103 characters, unique on this side) or an option is not
+    /// acceptable.
     RingHandle add_ring(const std::string& name, const RingOptions& options);
     CallQueueHandle add_call_queue(const std::string& name, const CallQueueOptions& options);
     std::span<std::byte> add_blob(const std::string& name, std::size_t bytes); ///< zero-filled, 128-aligned
 
-    /// Makes everything added so far visible and rings the peer. May be called again after further additions.
+    /// Makes all objects added so far visible and rings the peer. May be called again after further
+    /// additions.
     void publish();
     bool peer_published() const;
 
-    /// Objects of either half by name; empty if there is none (yet). Throw Error if what stands there is not
-    /// sound.
-    std::optional<RingHandle> find_ring(Side half, const std::string& name) const;
-    std::optional<CallQueueHandle> find_call_queue(Side half, const std::string& name) const;
-    std::optional<std::span<std::byte>> find_blob(Side half, const std::string& name) const;
-    std::optional<std::vector<std::byte>> copy_blob(Side half,
-                                                    const std::string& name) const; ///< safe to parse
-    std::vector<ObjectInfo> list(Side half) const;
+    /// Objects of either side by name; empty if there is none (yet). They throw Error if the peer has damaged
+    /// it.
+    std::optional<RingHandle> find_ring(Side owner, const std::string& name) const;
+    std::optional<CallQueueHandle> find_call_queue(Side owner, const std::string& name) const;
+    std::optional<std::span<std::byte>> find_blob(Side owner, const std::string& name) const;
+    /// A copy that the peer cannot change while it is parsed.
+    std::optional<std::vector<std::byte>> copy_blob(Side owner, const std::string& name) const;
+    std::vector<ObjectInfo> list(Side owner) const;
 
-    Doorbell& doorbell() { return mine_; }
-    Doorbell& peer_doorbell() { return theirs_; }
-    void ring_peer(unsigned bit) { theirs_.ring(bit); }
+    Doorbell& doorbell() { return doorbell_; }
+    Doorbell& peer_doorbell() { return peer_doorbell_; }
+    void ring_peer(unsigned bit) { peer_doorbell_.ring(bit); }
 
   private:
-    friend class Joining;
+    friend class SegmentJoiner;
     explicit Segment(std::shared_ptr<const Mapping> mapping);
 
     std::shared_ptr<const Mapping> mapping_;
     Directory directory_;
-    Doorbell mine_, theirs_;
+    Doorbell doorbell_, peer_doorbell_;
     pid_t joined_by_;
     std::atomic<bool> left_{false};
 };

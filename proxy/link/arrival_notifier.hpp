@@ -3,7 +3,7 @@
 
 #include "proxy/link/channel_table.hpp"
 #include "proxy/link/link_state.hpp"
-#include "shm/os/futex.hpp"
+#include "shm/wait/wait_options.hpp"
 
 #include <cstdint>
 #include <functional>

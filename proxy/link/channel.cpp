@@ -12,7 +12,7 @@ namespace tandem::link {
 // ---- ChannelWriter; the private functions are called with mutex_ held
 
 bool ChannelWriter::publish(std::size_t bytes, std::uint64_t stamp) {
-    if (!bound_->ring.commit(bytes, stamp, 0)) return false;
+    if (!bound_->ring.commit(bytes, stamp)) return false;
     // After the commit, so that whoever the doorbell wakes finds the message.
     if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
     return true;
@@ -22,7 +22,7 @@ bool ChannelWriter::publish(std::size_t bytes, std::uint64_t stamp) {
 /// oldest message refuse for two reasons: the message is longer than a chunk, or /dev/shm has no memory left
 /// for the chunk. Always returns false.
 bool ChannelWriter::report_refusal(std::size_t bytes) {
-    const std::size_t limit = bound_->ring.longest();
+    const std::size_t limit = bound_->ring.max_message();
     if (bytes > limit) {
         // Once per limit: a component sends such messages in every cycle.
         if (limit != std::exchange(reported_limit_, limit))

@@ -42,7 +42,7 @@ class ChannelWriter {
     bool write(const std::uint64_t& stamp, Encode&& encode) {
         const std::lock_guard lock(mutex_);
         if (!bound_) return false;
-        std::size_t bytes = bound_->ring.in_ring();
+        std::size_t bytes = bound_->ring.max_record();
         for (int attempt = 0; attempt < 2; ++attempt) {
             const auto room = bound_->ring.reserve(bytes);
             if (room.data() == nullptr) return report_refusal(bytes);

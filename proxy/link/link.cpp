@@ -46,7 +46,7 @@ Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
     // One buffer per thread: its capacity is kept, so that calls do not allocate once it is large enough.
     thread_local std::vector<std::byte> encoded;
     encode(request, encoded);
-    auto reply = session->outgoing_calls()->call(0, encoded, timeout);
+    auto reply = session->outgoing_calls()->call(encoded, timeout);
     return {reply.status, std::move(reply.bytes)};
 }
 

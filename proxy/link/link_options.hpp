@@ -2,7 +2,7 @@
 #pragma once
 
 #include "proxy/link/ring_plan.hpp"
-#include "shm/os/futex.hpp"
+#include "shm/wait/wait_options.hpp"
 
 #include <cstddef>
 #include <string>

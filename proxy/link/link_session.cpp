@@ -15,7 +15,7 @@ std::string LinkSession::end_reason() const {
     // A truncated file reads as zeros, which the other checks would take for something else: so it is first.
     if (segment_->truncated())
         return segment_->path() + " was truncated by another process; the link starts afresh";
-    if (segment_->peer() == shm::PeerState::dead) return "the peer process has gone";
+    if (segment_->peer_state() == shm::PeerState::dead) return "the peer process has gone";
     if (segment_->superseded())
         return segment_->path() + " was removed or superseded; the link starts afresh";
     return "";

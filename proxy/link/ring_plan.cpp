@@ -30,7 +30,6 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
         ring.capacity = sizes.ring_bytes;
         ring.max_record = sizes.ring_bytes / 2 - record_overhead;
         // The newest data are worth most to a controller, and a writer must never wait for the other process.
-        ring.policy = shm::RingPolicy::drop_oldest;
         // Ports whose type bounds their messages to what a ring holds need no chunks.
         const bool may_be_long = wire::max_encoded_bytes(wire::parse_signature(port.signature)) >
                                  static_cast<double>(ring.max_record);
@@ -39,7 +38,7 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
             ring.chunks = chunks_per_ring;
         }
         const auto memory = shm::ring_memory(port.name, ring);
-        plan.chunk_bytes += memory.all - memory.at_once;
+        plan.chunk_bytes += memory.total - memory.without_chunks;
         plan.rings.push_back({port.name, ring});
     }
     return plan;

@@ -31,8 +31,8 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
 
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
-    join_options.loan_bytes = plan.chunk_bytes;
-    join_options.peer_loan_bytes = peer_chunk_bytes_;
+    join_options.chunk_pool_bytes = plan.chunk_bytes;
+    join_options.peer_chunk_pool_bytes = peer_chunk_bytes_;
     // Most ports whose messages may be long never send a long one: their chunks take no memory until used.
     join_options.sparse = true;
     join_options.contract = protocol_version;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shm/os/futex.hpp"
+#include "shm/wait/wait_options.hpp"
 
 namespace tandem::link {
 

@@ -8,89 +8,86 @@
 namespace tandem::shm {
 namespace {
 
-constexpr std::uint32_t most_slots = 256;
-constexpr std::uint64_t longest_arguments = std::uint64_t{1} << 30;
-constexpr std::size_t slots_at = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
+constexpr std::uint32_t max_slots = 256;
+constexpr std::uint64_t max_argument_bytes = std::uint64_t{1} << 30;
+constexpr std::size_t slots_offset = sizeof(layout::CallQueueHeader) + sizeof(layout::CallTimes);
 
-/// Arguments have less room in the slot than results, so what is enough for theirs is enough for both.
+/// Bytes of one overflow buffer. The slot has less room for arguments than for results, so a buffer that is
+/// large enough for the longest arguments is large enough for both.
 std::uint64_t overflow_size(std::uint64_t max_bytes) {
     const std::uint64_t room = CallView::argument_room;
     return max_bytes > room ? round_up(max_bytes - room, layout::line_pair) : 0;
 }
 
-CallQueueParts parts(std::span<std::byte> memory, std::uint32_t slots, std::uint64_t max_bytes,
-                     Side callers) {
+CallQueueHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
+                            const CallQueueOptions& options) {
     std::byte* at = memory.data();
-    CallQueueParts found{};
+    CallQueueHandle found{};
     found.view.header = reinterpret_cast<layout::CallQueueHeader*>(at);
     found.times = reinterpret_cast<layout::CallTimes*>(at + sizeof(layout::CallQueueHeader));
-    found.view.slots = reinterpret_cast<layout::CallSlot*>(at + slots_at);
+    found.view.slots = reinterpret_cast<layout::CallSlot*>(at + slots_offset);
     found.view.overflow =
-        reinterpret_cast<RealAtomics::Cell*>(at + slots_at + slots * sizeof(layout::CallSlot));
-    found.view.slot_count = slots;
-    found.view.max_bytes = max_bytes;
-    found.view.overflow_cells = overflow_size(max_bytes) / word_bytes;
-    found.callers = callers;
+        reinterpret_cast<RealAtomics::Cell*>(at + slots_offset + options.slots * sizeof(layout::CallSlot));
+    found.view.slot_count = options.slots;
+    found.view.max_bytes = options.max_bytes;
+    found.view.overflow_cells = overflow_size(options.max_bytes) / word_bytes;
+    found.callers = options.callers;
+    found.mapping = std::move(mapping);
+    found.mapping->touch(memory);
     return found;
 }
 
 } // namespace
 
 const char* name_of(CallStatus status) {
-    constexpr const char* names[] = {"ok",        "no such operation", "bad arguments",
-                                     "exception", "timeout",           "peer died",
-                                     "overload",  "shut down",         "cancelled"};
+    constexpr const char* names[] = {"ok",      "no such operation", "bad arguments", "exception",
+                                     "timeout", "peer died",         "overload",      "shut down"};
     const auto index = static_cast<std::uint32_t>(status);
     return index < std::size(names) ? names[index] : "unknown status";
 }
 
 std::uint64_t call_queue_size(const CallQueueOptions& options) {
-    if (options.slots < 1 || options.slots > most_slots || options.max_bytes > longest_arguments ||
+    if (options.slots < 1 || options.slots > max_slots || options.max_bytes > max_argument_bytes ||
         options.callers > Side::second)
         return 0;
-    return slots_at + options.slots * (sizeof(layout::CallSlot) + overflow_size(options.max_bytes));
+    return slots_offset + options.slots * (sizeof(layout::CallSlot) + overflow_size(options.max_bytes));
 }
 
 std::uint64_t call_queue_bytes(const std::string& name, const CallQueueOptions& options) {
     const std::uint64_t bytes = call_queue_size(options);
     if (bytes == 0)
-        throw Error("call queue '" + name + "': 1 to " + std::to_string(most_slots) +
+        throw Error("call queue '" + name + "': 1 to " + std::to_string(max_slots) +
                     " slots and max_bytes up to 1 GiB expected");
     return bytes;
 }
 
 CallQueueHandle create_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                                   const CallQueueOptions& options) {
-    const auto made = parts(memory, options.slots, options.max_bytes, options.callers);
+    auto made = make_handle(std::move(mapping), memory, options);
     auto* header = new (made.view.header) layout::CallQueueHeader{};
     header->slot_count = options.slots;
     header->callers = static_cast<std::uint32_t>(options.callers);
     header->max_bytes = options.max_bytes;
     header->overflow_bytes = overflow_size(options.max_bytes);
     new (made.times) layout::CallTimes{};
-    mapping->touch(memory);
     for (std::uint32_t i = 0; i < options.slots; ++i) new (&made.view.slots[i]) layout::CallSlot{};
-    return {std::move(mapping), made.view, made.times, made.callers};
-}
-
-CallQueueParts find_call_queue_parts(std::span<std::byte> memory, const std::string& where) {
-    struct {
-        std::uint32_t slot_count, callers;
-        std::uint64_t max_bytes, overflow_bytes;
-    } copy{};
-    if (memory.size() >= slots_at) copy_from_shared(&copy, memory.data(), sizeof copy);
-    const bool sound =
-        copy.callers <= 1 && copy.overflow_bytes == overflow_size(copy.max_bytes) &&
-        memory.size() == call_queue_size({static_cast<Side>(copy.callers), copy.slot_count, copy.max_bytes});
-    if (!sound) throw Error(where + " is damaged; restart the side that made it");
-    return parts(memory, copy.slot_count, copy.max_bytes, static_cast<Side>(copy.callers));
+    return made;
 }
 
 CallQueueHandle open_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                                 const std::string& name) {
-    const auto found = find_call_queue_parts(memory, mapping->path() + ": call queue '" + name + "'");
-    mapping->touch(memory);
-    return {std::move(mapping), found.view, found.times, found.callers};
+    struct { // the first fields of CallQueueHeader
+        std::uint32_t slot_count, callers;
+        std::uint64_t max_bytes, overflow_bytes;
+    } copy{};
+    if (memory.size() >= slots_offset) copy_from_shared(&copy, memory.data(), sizeof copy);
+    const CallQueueOptions options{static_cast<Side>(copy.callers), copy.slot_count, copy.max_bytes};
+    const bool valid = copy.callers <= 1 && copy.overflow_bytes == overflow_size(copy.max_bytes) &&
+                       memory.size() == call_queue_size(options);
+    if (!valid)
+        throw Error(mapping->path() + ": call queue '" + name +
+                    "' is damaged; restart the side that made it");
+    return make_handle(std::move(mapping), memory, options);
 }
 
 CallCounters read_counters(const CallView& queue) {

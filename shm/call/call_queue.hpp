@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls from many threads of one side to many workers of the other. Bounded: a fixed number of slots, a
-// deadline on every call, no queue behind the slots. Each call runs at most once.
+// A call queue carries calls from many threads of one side to many workers of the other. It is bounded: a
+// fixed number of slots, a deadline on every call, no queue behind the slots. Each call runs at most once.
 //
 // Calls may be nested: a worker may call back through a queue of the other direction, to any depth. Each
 // level holds one slot and one worker of its queue until the levels below have returned, so a chain that
@@ -24,8 +24,7 @@ enum class CallStatus : std::uint32_t {
     timeout,
     peer_died,
     overload,
-    shut_down,
-    cancelled
+    shut_down
 };
 const char* name_of(CallStatus status);
 
@@ -37,7 +36,7 @@ struct CallQueueOptions {
 
 using CallView = BasicCallView<RealAtomics>;
 
-/// A call queue found or made by Segment: its place, and this process's own copy of its sizes.
+/// A call queue found or made by Segment, to make a CallClient or a CallServer from.
 struct CallQueueHandle {
     std::shared_ptr<const Mapping> mapping;
     CallView view;
@@ -45,35 +44,31 @@ struct CallQueueHandle {
     Side callers;
 };
 
-/// calls: submitted. answered: by a worker, whether or not somebody still waited; of these, expired were not
-/// run because their deadline was over. in_use: slots with a call that is not answered, taken: answered, and
-/// in use by a worker. worker_wakes, caller_wakes: system calls that were needed to wake somebody.
+/// calls: submitted. answered: by a worker, whether or not the caller still waited; of these, expired were
+/// not run, because their deadline was over. in_use: slots with a call that is not answered. taken: answered,
+/// or in use by a worker. cancels: given up for shut-down. worker_wakes, caller_wakes: system calls made to
+/// wake a worker or a caller.
 struct CallCounters {
     std::uint64_t calls, overloads, timeouts, cancels, taken, answered, expired, in_use, worker_wakes,
         caller_wakes;
 };
 CallCounters read_counters(const CallView& queue); ///< [any-process]
 
-/// Adds what the words of one slot say (answered and the reply's word are to be read first).
+/// Adds the calls that the words of one slot tell of. `answered` and the reply's word are to be read first,
+/// so that no more calls are counted as answered than as submitted.
 void count_slot(CallCounters& sum, std::uint64_t answered, std::uint64_t reply_word,
                 std::uint64_t request_word, std::uint64_t calls);
 
-/// The parts of a call queue in memory that anybody may have written. Throws Error if they are not sound;
-/// `where` begins its text.
-struct CallQueueParts {
-    CallView view;
-    layout::CallTimes* times;
-    Side callers;
-};
-CallQueueParts find_call_queue_parts(std::span<std::byte> memory, const std::string& where);
-
-/// What a call queue takes in an arena; 0 if there is no such call queue.
+/// Bytes that a call queue takes in an arena; 0 for options that no call queue can have.
 std::uint64_t call_queue_size(const CallQueueOptions& options);
 
 // Used by Segment.
-std::uint64_t call_queue_bytes(const std::string& name, const CallQueueOptions& options); ///< Throws Error.
+
+/// call_queue_size(), but throws Error instead of returning 0.
+std::uint64_t call_queue_bytes(const std::string& name, const CallQueueOptions& options);
 CallQueueHandle create_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                                   const CallQueueOptions& options);
+/// Throws Error if the memory, which the peer may have written, does not hold a sound call queue.
 CallQueueHandle open_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                                 const std::string& name);
 

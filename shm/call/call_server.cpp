@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call/call_server.hpp"
 
-#include "shm/call/incoming_call.hpp"
+#include "shm/call/call_server_state.hpp"
 #include "shm/os/error.hpp"
 
 namespace tandem::shm {
@@ -20,7 +20,7 @@ CallCounters CallServer::counters() const { return read_counters(state_->queue.v
 
 std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
     if (const auto call = state_->take(bound)) return IncomingCall(state_, *call);
-    if (state_->queue.mapping->peer() == PeerState::dead) state_->worker.drop_submitted();
+    if (state_->queue.mapping->peer_state() == PeerState::dead) state_->worker.drop_submitted();
     return std::nullopt;
 }
 
@@ -28,8 +28,8 @@ void CallServer::interrupt() { state_->worker.interrupt(); }
 
 void CallServer::shut_down() {
     state_->worker.close();
-    bool watches = false;
-    state_->take_waiting(watches); // hands nothing out, now that the queue is closed
+    bool polling = false;
+    state_->take_runnable(polling); // answers what waits and hands nothing out, because the queue is closed
     interrupt();
 }
 

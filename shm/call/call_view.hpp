@@ -1,33 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the call queue: where its parts are, and how arguments and results lie in a slot.
+// Internal to the call queue: where its parts are, and how arguments and results lie in a slot.
 #pragma once
 #include "shm/call/call_words.hpp"
 
 namespace tandem::shm {
 
-/// A call in progress: its slot, and the request word that was submitted there.
+/// A call in progress as its caller knows it: its slot, and the request word that was submitted there.
 struct CallTicket {
     std::uint32_t slot = 0;
     std::uint64_t word = 0;
     std::uint64_t begun_ns = 0, deadline_ns = 0;
-    bool rung = false; ///< a worker was woken for it
+    bool worker_woken = false; ///< for this call
 };
 
-/// A call that a worker has taken.
+/// A call in progress as its worker knows it.
 struct TakenCall {
     std::uint32_t slot = 0;
-    std::uint64_t word = 0; ///< the request word as this worker has left it: running
-    std::uint32_t operation = 0;
+    std::uint64_t word = 0; ///< the request word as this worker stored it: running
     std::uint64_t deadline_ns = 0;
-    const void* arguments = nullptr; ///< private; until the answer
-    bool sound = false;              ///< its length is one that the queue takes
-    bool watched = false;            ///< by a worker that was polling
+    const void* arguments = nullptr; ///< a private copy; valid until the answer
+    bool valid = false;              ///< its length is one that the queue takes
+    bool by_poller = false;          ///< taken by the worker that was polling
     std::uint64_t taken_ns = 0;
-    std::uint64_t bytes() const { return sound ? length_of(word) : 0; }
+    std::uint64_t bytes() const { return valid ? length_of(word) : 0; }
 };
 
-/// A template over the atomics policy, like everything that touches a slot: what ships is what is
-/// model-checked (tests/shm/model). The sizes are this process' own copies.
+/// Where a call queue lies, and this process's own copy of its sizes. A template over the atomics policy,
+/// like everything that touches a slot, so that the code that ships is the code that tests/shm/model runs.
 template <class A>
 struct BasicCallView {
     layout::BasicCallQueueHeader<A>* header = nullptr;
@@ -43,57 +42,59 @@ struct BasicCallView {
 
     typename A::Cell* overflow_of(std::uint32_t slot) const { return overflow + slot * overflow_cells; }
 
-    // Ask for the second line of a request or reply, which is written before the first one: a worker when it
-    // has found a call, a caller all the time while it polls the first one.
-    void expect_request(std::uint32_t slot) const { fetch(&slots[slot].request); }
-    void expect_reply(std::uint32_t slot) const { fetch(&slots[slot].reply); }
+    // Request the second line of a request or reply, which is written before the first one: a worker does so
+    // when it has found a call, a caller all the time while it polls the first line.
+    void prefetch_request(std::uint32_t slot) const { prefetch_second_line(&slots[slot].request); }
+    void prefetch_reply(std::uint32_t slot) const { prefetch_second_line(&slots[slot].reply); }
 
-    // A worker asks to own both lines of the reply as soon as the call is its: they come while the call runs,
-    // and the reply then needs no transfer before it is seen (a tenth of a short call).
-    void own_reply(std::uint32_t slot) const {
+    // A worker requests both lines of the reply for writing as soon as it has taken the call: they arrive
+    // while the call runs, which saves a tenth of a short call.
+    void prefetch_reply_for_writing(std::uint32_t slot) const {
         __builtin_prefetch(&slots[slot].reply, 1);
         __builtin_prefetch(reinterpret_cast<const std::byte*>(&slots[slot].reply) + line, 1);
     }
 
-    // All four are word-wise atomic copies: an honest side never writes what the other reads, but a caller
-    // that gives up and calls again writes while a worker may still read the arguments of before (it finds
-    // out by its compare-and-swap, call_worker.hpp), and a hostile one writes whenever it likes.
-    void put_arguments(std::uint32_t slot, const void* from, std::size_t bytes) const {
-        put(slots[slot].request.arguments, arguments_in_line, argument_room, slot, from, bytes);
+    // All four are word-wise atomic copies, because the peer may write while this side reads: a caller that
+    // gives up and calls again does so while a worker may still read the arguments of the call before (which
+    // the worker notices by its compare-and-swap, call_worker.hpp), and a hostile peer does so at any time.
+    void copy_arguments_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
+        copy_in(slots[slot].request.arguments, arguments_in_line, argument_room, slot, from, bytes);
     }
-    void get_arguments(std::uint32_t slot, void* to, std::size_t bytes) const {
-        get(slots[slot].request.arguments, argument_room, slot, to, bytes);
+    void copy_arguments_out(std::uint32_t slot, void* to, std::size_t bytes) const {
+        copy_out(slots[slot].request.arguments, argument_room, slot, to, bytes);
     }
-    void put_results(std::uint32_t slot, const void* from, std::size_t bytes) const {
-        put(slots[slot].reply.results, results_in_line, result_room, slot, from, bytes);
+    void copy_results_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
+        copy_in(slots[slot].reply.results, results_in_line, result_room, slot, from, bytes);
     }
-    void get_results(std::uint32_t slot, void* to, std::size_t bytes) const {
-        get(slots[slot].reply.results, result_room, slot, to, bytes);
+    void copy_results_out(std::uint32_t slot, void* to, std::size_t bytes) const {
+        copy_out(slots[slot].reply.results, result_room, slot, to, bytes);
     }
 
   private:
-    static void fetch(const void* first_line) {
+    static void prefetch_second_line(const void* first_line) {
         __builtin_prefetch(static_cast<const std::byte*>(first_line) + line);
     }
 
-    // Of the bytes in the slot, those that share the line of the word. The other side polls that line, and
-    // takes it away at once when it is touched: so everything else is written before.
+    // Payload bytes in the line of the request or reply word. The peer polls that line and takes it away at
+    // once when it is written, so everything else is written before.
     static constexpr std::size_t arguments_in_line = line - offsetof(layout::CallSlot, request.arguments);
     static constexpr std::size_t results_in_line =
         line - (offsetof(layout::CallSlot, reply.results) - offsetof(layout::CallSlot, reply));
 
-    void put(typename A::Cell* cells, std::size_t in_line, std::size_t room, std::uint32_t slot,
-             const void* from, std::size_t bytes) const {
+    void copy_in(typename A::Cell* cells, std::size_t in_line, std::size_t room, std::uint32_t slot,
+                 const void* from, std::size_t bytes) const {
         const auto* at = static_cast<const std::byte*>(from);
-        if (bytes > room) A::copy_in(overflow_of(slot), at + room, bytes - room);
+        if (bytes > room) A::copy_atomic_to_shared(overflow_of(slot), at + room, bytes - room);
         if (bytes > in_line)
-            A::copy_in(cells + in_line / word_bytes, at + in_line, std::min(bytes, room) - in_line);
-        A::copy_in(cells, at, std::min(bytes, in_line));
+            A::copy_atomic_to_shared(cells + in_line / word_bytes, at + in_line,
+                                     std::min(bytes, room) - in_line);
+        A::copy_atomic_to_shared(cells, at, std::min(bytes, in_line));
     }
-    void get(const typename A::Cell* cells, std::size_t room, std::uint32_t slot, void* to,
-             std::size_t bytes) const {
-        A::copy_out(to, cells, std::min(bytes, room));
-        if (bytes > room) A::copy_out(static_cast<std::byte*>(to) + room, overflow_of(slot), bytes - room);
+    void copy_out(const typename A::Cell* cells, std::size_t room, std::uint32_t slot, void* to,
+                  std::size_t bytes) const {
+        A::copy_atomic_from_shared(to, cells, std::min(bytes, room));
+        if (bytes > room)
+            A::copy_atomic_from_shared(static_cast<std::byte*>(to) + room, overflow_of(slot), bytes - room);
     }
 };
 

@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the call queue: the request word and the reply word of a slot (layout.hpp draws them).
+// Internal to the call queue: the request word and the reply word of a slot, whose format layout.hpp defines.
 #pragma once
 #include "shm/segment/layout.hpp"
 
 namespace tandem::shm {
 
-constexpr std::uint64_t sequence_mask = (std::uint64_t{1} << 28) - 1;
+constexpr std::uint64_t call_sequence_mask = (std::uint64_t{1} << 28) - 1;
 
 /// tag: a CallState in a request word, a CallStatus in a reply word.
 constexpr std::uint64_t call_word(std::uint32_t tag, std::uint64_t sequence, std::uint64_t length) {
-    return (length << 32) | ((sequence & sequence_mask) << 4) | (tag & 15U);
+    return (length << 32) | ((sequence & call_sequence_mask) << 4) | (tag & 15U);
 }
 constexpr std::uint64_t call_word(layout::CallState state, std::uint64_t sequence, std::uint64_t length) {
     return call_word(static_cast<std::uint32_t>(state), sequence, length);
 }
 
 constexpr std::uint32_t tag_of(std::uint64_t word) { return static_cast<std::uint32_t>(word & 15U); }
-constexpr std::uint64_t sequence_of(std::uint64_t word) { return (word >> 4) & sequence_mask; }
+constexpr std::uint64_t sequence_of(std::uint64_t word) { return (word >> 4) & call_sequence_mask; }
 constexpr std::uint64_t length_of(std::uint64_t word) { return word >> 32; }
 
 constexpr bool has_state(std::uint64_t word, layout::CallState state) {
     return tag_of(word) == static_cast<std::uint32_t>(state);
 }
-/// The same call in another state.
+/// The word of the same call in another state.
 constexpr std::uint64_t with_state(std::uint64_t word, layout::CallState state) {
     return (word & ~std::uint64_t{15}) | static_cast<std::uint32_t>(state);
 }
 
-/// Is the duration of this call taken? Reading the clock costs a tenth of a short call.
+/// Whether the duration of this call is measured. Not of every call, because reading the clock costs a tenth
+/// of a short call.
 constexpr bool is_timed(std::uint64_t word) {
     return sequence_of(word) <= 1024 || sequence_of(word) % 16 == 0;
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside of CallServer: what workers do with slots.
+// Internal to CallServer: what workers do with slots.
 //
 // A worker copies the arguments first and then takes the call by compare-and-swap of the whole request word.
-// If that succeeds, the word was the same all the time (its sequence never comes back within reach), so the
+// If that succeeds, the word was the same all the time (its sequence does not come back within reach), so the
 // copy is of one call:
 //
 //     caller: cancels n (CAS)   writes n+1    word = submitted n+1
 //     worker:    word = submitted n    copies (n, n+1 mixed)    CAS on submitted n fails: looks again
 //
-// Workers of one process keep off each other by `busy`, which the other side cannot reach: each slot has one
-// private copy of its arguments, and one worker in it at a time whatever the shared words say.
+// Workers of one process exclude each other from a slot by `busy`, which the peer cannot reach: each slot has
+// one private copy of its arguments, and one worker in it at a time whatever the shared words say.
 #pragma once
 #include "shm/call/call_view.hpp"
-#include "shm/os/futex.hpp"
+#include "shm/wait/sleep_until.hpp"
 
 #include <climits>
 #include <optional>
@@ -20,7 +20,7 @@
 
 namespace tandem::shm {
 
-/// [any-thread, any number at once]
+/// [any-thread, any number at once] The serving end of a queue.
 template <class A>
 class CallWorker {
   public:
@@ -28,34 +28,33 @@ class CallWorker {
         : view_(view), words_per_slot_(round_up(view.max_bytes, word_bytes) / word_bytes),
           copies_(words_per_slot_ * view.slot_count), busy_(view.slot_count) {}
 
-    /// The call that waits longest becomes this worker's, to be answered. `watches`: this worker is the one
-    /// that polls; with a call it ceases to be.
-    std::optional<TakenCall> take(bool& watches) {
-        // Another worker or the caller may be faster: then look again, as often as there are slots; who loses
-        // that often leaves the rest to those who won.
+    /// Takes the call that waits longest, to be answered. `polling`: this worker is the one that polls; when
+    /// it has got a call, it no longer is.
+    std::optional<TakenCall> take(bool& polling) {
+        // Another worker or the caller may be faster: then look again, as often as there are slots. A worker
+        // that loses that often leaves the rest to those that won.
         for (std::uint32_t attempt = 0; attempt < view_.slot_count; ++attempt) {
             std::uint64_t word = 0;
-            const std::uint32_t slot = oldest(word);
+            const std::uint32_t slot = find_oldest(word);
             if (slot == no_slot) return std::nullopt;
             if (busy_[slot].exchange(1, std::memory_order_acquire) != 0) continue;
             auto& request = view_.slots[slot].request;
-            // The line for the compare-and-swap and the second one come while the clock is read.
+            // The line for the compare-and-swap and the second one arrive while the clock is read.
             __builtin_prefetch(&request, 1);
-            view_.expect_request(slot);
+            view_.prefetch_request(slot);
             const std::uint64_t running = with_state(word, layout::CallState::running);
             TakenCall taken{slot, running};
-            taken.watched = watches;
+            taken.by_poller = polling;
             taken.taken_ns = A::now();
-            taken.operation = static_cast<std::uint32_t>(request.what.load(std::memory_order_relaxed));
             taken.deadline_ns = request.deadline_ns.load(std::memory_order_relaxed);
-            taken.sound = length_of(word) <= view_.max_bytes;
+            taken.valid = length_of(word) <= view_.max_bytes;
             taken.arguments = &copies_[slot * words_per_slot_];
-            view_.get_arguments(slot, &copies_[slot * words_per_slot_], taken.bytes());
+            view_.copy_arguments_out(slot, &copies_[slot * words_per_slot_], taken.bytes());
             // release: the reads above stay above
             if (request.word.compare_exchange_strong(word, running, std::memory_order_acq_rel)) {
-                view_.own_reply(slot);
-                leave_watch(watches);
-                watches = false;
+                view_.prefetch_reply_for_writing(slot);
+                leave_with_call(polling);
+                polling = false;
                 return taken;
             }
             busy_[slot].store(0, std::memory_order_release);
@@ -66,37 +65,34 @@ class CallWorker {
     /// Ends a call that was taken. True: that took a system call.
     bool answer(const TakenCall& taken, std::uint32_t status, const void* results, std::size_t bytes) {
         auto& slot = view_.slots[taken.slot];
-        view_.put_results(taken.slot, results, bytes);
+        view_.copy_results_in(taken.slot, results, bytes);
         slot.reply.answered.store(slot.reply.answered.load(std::memory_order_relaxed) + 1,
                                   std::memory_order_relaxed);
-        // Before the reply: from there on the caller may submit again, and another worker come in.
+        // Before the reply: after it the caller may submit again, and another worker may enter the slot.
         busy_[taken.slot].store(0, std::memory_order_release);
-        if (taken.watched) expect_back();
-        // seq_cst: release for the caller that reads the results; and against its announcement of sleep
+        if (taken.by_poller) announce_return();
+        // seq_cst: release for the caller that reads the results; and before the look whether the caller
+        // sleeps
         slot.reply.word.store(call_word(status, sequence_of(taken.word), bytes), std::memory_order_seq_cst);
-        return wake<A>(slot.request.caller_sleeps);
+        return wake_sleeper<A>(slot.request.caller_asleep);
     }
 
-    /// Has the caller of a call that was taken given up?
-    bool cancelled(const TakenCall& taken) const {
-        return view_.slots[taken.slot].request.word.load(std::memory_order_relaxed) != taken.word;
-    }
-
-    /// Becomes the worker that polls, if no other is. It sees a call quickest; more would only heat cores.
-    bool watch() {
-        if (spinning_.exchange(1, std::memory_order_seq_cst) != 0) return false;
-        set_watching(layout::CallWatch::yes);
+    /// Makes this worker the one that polls, unless there is one already. One sees a call soonest; more of
+    /// them would only use more cores.
+    bool try_become_poller() {
+        if (has_poller_.exchange(1, std::memory_order_seq_cst) != 0) return false;
+        announce(layout::WorkerPolling::yes);
         return true;
     }
-    /// The end of watch() without a call.
-    void stop_watching() {
-        spinning_.store(0, std::memory_order_seq_cst);
-        set_watching(layout::CallWatch::no);
+    /// Ends polling without a call.
+    void stop_polling() {
+        has_poller_.store(0, std::memory_order_seq_cst);
+        announce(layout::WorkerPolling::no);
     }
 
-    /// Polls until there is a call to take or interrupted(); false: now() has reached `until`. It does not
-    /// ask for the second line of the next call, as a caller does for its reply's: measured, that takes the
-    /// line from the caller while it is being written.
+    /// Polls until there is a call to take, or interrupted(); false: now() has reached `until`. Unlike a
+    /// caller it does not prefetch the second line of the next request: measured, that takes the line from
+    /// the caller while it is being written.
     bool spin(std::uint64_t until) const {
         for (unsigned round = 1;; ++round) {
             if (any_submitted() || interrupted()) return true;
@@ -107,35 +103,36 @@ class CallWorker {
 
     /// Sleeps until there may be a call, or interrupt(), or now() reaches `until`.
     ///
-    ///     worker: ++sleepers, r = rung | calls? sleep(r)    caller: word = submitted | sleepers? ++rung,
-    ///     wake
+    ///     worker: ++workers_asleep, w = wake_count | calls? sleep(w)
+    ///     caller: word = submitted | workers_asleep? wake
     ///
     /// All seq_cst: either the worker sees the call, or the caller sees the sleeper; and then the kernel sees
-    /// that rung is no longer r. If a colleague has been polling and has left with a call while nobody slept
-    /// yet, `watching` still says yes; so who lies down corrects it (or the poller is back, and sees all).
+    /// that wake_count is no longer w. If the poller has left with a call while nobody slept yet, `polling`
+    /// still says yes; so a worker that is about to sleep corrects it (or the poller is back, and sees all).
     void sleep(std::uint64_t until) {
         auto& header = *view_.header;
-        header.sleepers.fetch_add(1, std::memory_order_seq_cst);
-        if (spinning_.load(std::memory_order_seq_cst) == 0) set_watching(layout::CallWatch::no);
-        const std::uint32_t rung = header.rung.load(std::memory_order_seq_cst);
-        if (!any_submitted() && !interrupted()) A::futex_wait(header.rung, rung, until);
-        header.sleepers.fetch_sub(1, std::memory_order_seq_cst);
+        header.workers_asleep.fetch_add(1, std::memory_order_seq_cst);
+        if (has_poller_.load(std::memory_order_seq_cst) == 0) announce(layout::WorkerPolling::no);
+        const std::uint32_t wake_count = header.wake_count.load(std::memory_order_seq_cst);
+        if (!any_submitted() && !interrupted()) A::futex_wait(header.wake_count, wake_count, until);
+        header.workers_asleep.fetch_sub(1, std::memory_order_seq_cst);
     }
 
     /// Ends all waits of this object's workers, now and from now on.
     void interrupt() {
         interrupted_.store(1, std::memory_order_seq_cst);
-        view_.header->rung.fetch_add(1, std::memory_order_seq_cst);
-        A::futex_wake(view_.header->rung, INT_MAX);
+        view_.header->wake_count.fetch_add(1, std::memory_order_seq_cst);
+        A::futex_wake(view_.header->wake_count, INT_MAX);
     }
     bool interrupted() const { return interrupted_.load(std::memory_order_seq_cst) != 0; }
 
-    /// Callers that begin after close() see it; those before are seen by take() (call_caller.hpp, begin()).
+    /// Callers that begin after close() see it; calls submitted before are seen by take()
+    /// (CallCaller::begin()).
     void open() { view_.header->closed.store(0, std::memory_order_relaxed); }
     void close() { view_.header->closed.store(1, std::memory_order_seq_cst); }
     bool closed() const { return view_.header->closed.load(std::memory_order_relaxed) != 0; }
 
-    /// The callers are dead: what none of them waits for is not run.
+    /// The callers are dead: cancels the calls that are not running, since nobody waits for them.
     void drop_submitted() {
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot) {
             auto& request = view_.slots[slot].request;
@@ -149,71 +146,69 @@ class CallWorker {
   private:
     static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
 
-    bool submitted(std::uint32_t slot) const {
+    bool is_submitted(std::uint32_t slot) const {
         return has_state(view_.slots[slot].request.word.load(std::memory_order_seq_cst),
                          layout::CallState::submitted);
     }
     bool any_submitted() const {
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot)
-            if (submitted(slot)) return true;
+            if (is_submitted(slot)) return true;
         return false;
     }
 
-    std::uint32_t ticket(std::uint32_t slot) const {
-        return static_cast<std::uint32_t>(view_.slots[slot].request.what.load(std::memory_order_relaxed) >>
-                                          32);
-    }
-
-    /// Of the submitted calls, outside of slots in which a worker still is, the one with the oldest ticket.
-    std::uint32_t oldest(std::uint64_t& word) const {
-        std::uint32_t found = no_slot;
+    /// Of the submitted calls, but in slots that another worker is in, the one submitted first.
+    std::uint32_t find_oldest(std::uint64_t& word) const {
+        std::uint32_t oldest = no_slot;
+        std::uint64_t oldest_ns = 0;
         for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot) {
+            const auto& request = view_.slots[slot].request;
             // seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin().
-            const std::uint64_t seen = view_.slots[slot].request.word.load(std::memory_order_seq_cst);
+            const std::uint64_t seen = request.word.load(std::memory_order_seq_cst);
             if (!has_state(seen, layout::CallState::submitted) ||
                 busy_[slot].load(std::memory_order_relaxed) != 0)
                 continue;
-            // The difference, not the order: tickets wrap around.
-            if (found != no_slot && static_cast<std::int32_t>(ticket(slot) - ticket(found)) >= 0) continue;
-            found = slot;
+            const std::uint64_t submitted_ns = request.submitted_ns.load(std::memory_order_relaxed);
+            if (oldest != no_slot && submitted_ns >= oldest_ns) continue;
+            oldest = slot;
+            oldest_ns = submitted_ns;
             word = seen;
         }
-        return found;
+        return oldest;
     }
 
-    /// Stored only if it changes: callers look at it with every call.
-    void set_watching(layout::CallWatch watch) {
-        const auto value = static_cast<std::uint32_t>(watch);
-        auto& watching = view_.header->watching;
-        if (watching.load(std::memory_order_relaxed) != value)
-            watching.store(value, std::memory_order_seq_cst);
+    /// Stores only if it changes, because callers read it with every call.
+    void announce(layout::WorkerPolling state) {
+        const auto value = static_cast<std::uint32_t>(state);
+        auto& polling = view_.header->polling;
+        if (polling.load(std::memory_order_relaxed) != value) polling.store(value, std::memory_order_seq_cst);
     }
 
-    /// A worker that polled is about to poll again: a caller that is quicker need not wake another one.
-    void expect_back() {
-        auto& watching = view_.header->watching;
-        if (view_.header->sleepers.load(std::memory_order_relaxed) != 0 &&
-            watching.load(std::memory_order_relaxed) == static_cast<std::uint32_t>(layout::CallWatch::no))
-            watching.store(static_cast<std::uint32_t>(layout::CallWatch::soon), std::memory_order_relaxed);
+    /// The poller has answered and will poll again: a caller that is quicker need not wake another worker.
+    void announce_return() {
+        auto& polling = view_.header->polling;
+        if (view_.header->workers_asleep.load(std::memory_order_relaxed) != 0 &&
+            polling.load(std::memory_order_relaxed) == static_cast<std::uint32_t>(layout::WorkerPolling::no))
+            polling.store(static_cast<std::uint32_t>(layout::WorkerPolling::soon), std::memory_order_relaxed);
     }
 
-    /// Goes off with a call. While all others are awake nobody needs to be told; otherwise callers have to
-    /// wake one from now on, and this worker wakes one for those calls whose callers still relied on it.
-    void leave_watch(bool watched) {
+    /// This worker goes off to run a call. If all others are awake, nothing has to be done. Otherwise callers
+    /// have to wake one from now on, and this worker wakes one for the calls whose callers still relied on
+    /// it.
+    void leave_with_call(bool was_polling) {
         auto& header = *view_.header;
-        if (watched) spinning_.store(0, std::memory_order_seq_cst);
-        if (header.sleepers.load(std::memory_order_seq_cst) == 0) return;
-        if (watched) set_watching(layout::CallWatch::no);
+        if (was_polling) has_poller_.store(0, std::memory_order_seq_cst);
+        if (header.workers_asleep.load(std::memory_order_seq_cst) == 0) return;
+        if (was_polling) announce(layout::WorkerPolling::no);
         if (!any_submitted()) return;
-        header.rung.fetch_add(1, std::memory_order_seq_cst);
-        A::futex_wake(header.rung, 1);
+        header.wake_count.fetch_add(1, std::memory_order_seq_cst);
+        A::futex_wake(header.wake_count, 1);
     }
 
     BasicCallView<A> view_;
     std::size_t words_per_slot_;
     std::vector<std::uint64_t> copies_;
     std::vector<typename A::template Atomic<std::uint32_t>> busy_; // 1 = a worker is in the slot
-    typename A::template Atomic<std::uint32_t> spinning_{0}, interrupted_{0};
+    typename A::template Atomic<std::uint32_t> has_poller_{0}, interrupted_{0};
 };
 
 } // namespace tandem::shm

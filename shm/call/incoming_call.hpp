@@ -1,29 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside of the serving end; users include call_server.hpp.
 #pragma once
-#include "shm/call/call_server.hpp"
-#include "shm/call/call_worker.hpp"
-#include "shm/wait/adaptive_spin.hpp"
+#include "shm/call/call_queue.hpp"
+#include "shm/wait/wait_options.hpp"
+
+#include <optional>
 
 namespace tandem::shm {
 
-/// What all calls of one server share.
-struct IncomingCall::State {
-    State(const CallQueueHandle& handle, const WaitOptions& options)
-        : queue(handle), how(options), spin_ns(bounded_ns(options.spin)), worker(handle.view) {}
+/// A call taken by a worker, to be answered exactly once. Destroyed unanswered, it answers
+/// CallStatus::exception. It may outlive its CallServer.
+class IncomingCall {
+  public:
+    IncomingCall(IncomingCall&& from) noexcept = default;
+    IncomingCall& operator=(IncomingCall&&) = delete;
+    ~IncomingCall();
 
-    std::optional<TakenCall> take(std::chrono::nanoseconds bound);
-    std::optional<TakenCall> take_waiting(bool& watches);
-    void answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes);
+    /// A private copy; valid until reply().
+    std::span<const std::byte> arguments() const {
+        return {static_cast<const std::byte*>(taken_.arguments), taken_.bytes()};
+    }
 
-    const CallQueueHandle queue;
-    const WaitOptions how;
-    const std::uint64_t spin_ns;
-    CallWorker<RealAtomics> worker;
+    /// Results, or the text of an error. Results longer than the queue takes become CallStatus::exception.
+    void reply(CallStatus status, std::span<const std::byte> bytes);
+    void reply(CallStatus status, const std::string& text = {});
 
   private:
-    AdaptiveSpin spin;
-    std::atomic<bool> timing{false};
+    friend class CallServer;
+    struct State;
+    IncomingCall(std::shared_ptr<State> server, const TakenCall& taken)
+        : server_(std::move(server)), taken_(taken) {}
+
+    std::shared_ptr<State> server_; // empty once answered (or moved from)
+    TakenCall taken_;
 };
 
 } // namespace tandem::shm

@@ -8,7 +8,7 @@
 
 namespace tandem::shm {
 
-/// A private copy of the counts of a layout::Histogram, to be looked at.
+/// A private copy of the counts of a layout::Histogram.
 struct HistogramCounts {
     std::array<std::uint64_t, layout::Histogram::buckets> counts{};
 
@@ -18,8 +18,8 @@ struct HistogramCounts {
         return sum;
     }
 
-    /// What a share p (0 to 1) of the durations does not exceed, in ns: the end of a bucket, so at most a
-    /// quarter too long (of the last bucket, which has none: its begin). 0 if there are no durations.
+    /// The duration in ns that a share p (0 to 1) of the durations does not exceed: the end of a bucket, so at most a
+    /// quarter too long (of the last bucket, which has no end, its begin). 0 if there are no durations.
     std::uint64_t percentile(double p) const {
         const auto wanted = static_cast<std::uint64_t>(std::ceil(p * static_cast<double>(total())));
         std::uint64_t seen = 0;

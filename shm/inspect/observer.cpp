@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/inspect/observer.hpp"
 
-#include "shm/inspect/quiet_file.hpp"
+#include "shm/inspect/read_only_snapshot.hpp"
 #include "shm/os/clock.hpp"
 #include "shm/os/error.hpp"
 #include "shm/segment/liveness.hpp"
@@ -21,85 +21,89 @@ bool member_of(gid_t group) {
     return known > 0 && std::find(groups.begin(), groups.begin() + known, group) != groups.begin() + known;
 }
 
-/// May this process be a user of the segment: its owner, or of the group that it was shared with?
-bool ours(const struct stat& file) {
+/// Whether this process may use the segment: as its owner, or as a member of the group that it was shared
+/// with.
+bool may_use(const struct stat& file) {
     return file.st_uid == geteuid() || ((file.st_mode & 07777) == 0660 && member_of(file.st_gid));
 }
 
-void measure(const struct stat& file, ObservedSegment& view) {
+/// A sparse file takes less memory than its size says, so both are shown.
+void set_sizes(const struct stat& file, ObservedSegment& view) {
     constexpr std::uint64_t block = 512; // unit of st_blocks
     view.file_bytes = static_cast<std::uint64_t>(file.st_size);
     view.memory_bytes = static_cast<std::uint64_t>(file.st_blocks) * block;
 }
 
-/// What the directory says of the file, without opening it. Empty: it is gone.
-std::optional<ObservedSegment> view_file(const std::string& link, std::uint64_t generation) {
+/// What is known of the file without opening it. Empty: it is gone.
+std::optional<ObservedSegment> read_file_status(const std::string& link, std::uint64_t generation) {
     ObservedSegment view;
     view.link = link;
     view.generation = generation;
     view.path = segment_path(link, generation);
     struct stat file {};
     if (lstat(view.path.c_str(), &file) != 0) return std::nullopt;
-    measure(file, view);
+    set_sizes(file, view);
     view.owner = file.st_uid;
     view.mode = file.st_mode & 07777;
-    view.readability = S_ISREG(file.st_mode) && ours(file) ? Readability::readable
-                       : S_ISREG(file.st_mode)             ? Readability::foreign
-                                                           : Readability::damaged;
+    view.readability = S_ISREG(file.st_mode) && may_use(file) ? Readability::readable
+                       : S_ISREG(file.st_mode)                ? Readability::foreign
+                                                              : Readability::damaged;
     if (view.readability == Readability::damaged) view.reason = "not a regular file";
     if (view.readability == Readability::foreign) view.reason = "of another user";
     return view;
 }
 
-void unreadable(ObservedSegment& view, Readability as, std::string reason) {
+void set_unreadable(ObservedSegment& view, Readability as, std::string reason) {
     view.readability = as;
     view.reason = std::move(reason);
 }
 
-void view_header(const QuietFile& file, ObservedSegment& view) {
+/// Reads the segment header. Whatever does not fit makes the segment unreadable, with the reason.
+void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
     using layout::SegmentHeader;
-    Copied<sizeof(SegmentHeader)> copy;
-    if (!file.read(0, copy.bytes)) return unreadable(view, Readability::damaged, "shorter than a header");
+    StructCopy<sizeof(SegmentHeader)> copy;
+    if (!file.read(0, copy.bytes)) return set_unreadable(view, Readability::damaged, "shorter than a header");
     const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
     if (word(offsetof(SegmentHeader, magic)) != layout::magic)
-        return unreadable(view, Readability::damaged, "not a Tandem segment");
+        return set_unreadable(view, Readability::damaged, "not a Tandem segment");
     view.layout_version = copy.get<std::uint32_t>(offsetof(SegmentHeader, layout_version));
     if (view.layout_version != layout::layout_version)
-        return unreadable(view, Readability::other_layout,
-                          "layout version " + std::to_string(view.layout_version) + ", this program reads " +
-                              std::to_string(layout::layout_version));
+        return set_unreadable(view, Readability::other_layout,
+                              "layout version " + std::to_string(view.layout_version) +
+                                  ", this program reads " + std::to_string(layout::layout_version));
     view.contract = word(offsetof(SegmentHeader, contract));
     view.created_ns = word(offsetof(SegmentHeader, created_ns));
     view.superseded_by = word(offsetof(SegmentHeader, superseded_by));
-    for (std::size_t half = 0; half < 2; ++half) {
-        view.arena_offset[half] = word(offsetof(SegmentHeader, arena_offset) + half * 8);
-        view.arena_bytes[half] = word(offsetof(SegmentHeader, arena_bytes) + half * 8);
+    for (std::size_t i = 0; i < 2; ++i) {
+        view.arena_offset[i] = word(offsetof(SegmentHeader, arena_offset) + i * 8);
+        view.arena_bytes[i] = word(offsetof(SegmentHeader, arena_bytes) + i * 8);
     }
+    // The same checks as read_header() of segment_file.cpp, but a reason for people instead of an Error.
     const std::uint64_t total = word(offsetof(SegmentHeader, total_bytes));
     const auto& offset = view.arena_offset;
     const auto& bytes = view.arena_bytes;
     if (total > view.file_bytes)
-        return unreadable(view, Readability::damaged,
-                          "truncated: " + std::to_string(view.file_bytes) + " of " + std::to_string(total) +
-                              " bytes are left");
+        return set_unreadable(view, Readability::damaged,
+                              "truncated: " + std::to_string(view.file_bytes) + " of " +
+                                  std::to_string(total) + " bytes are left");
     const bool sound =
         copy.get<std::uint32_t>(offsetof(SegmentHeader, header_bytes)) == sizeof(SegmentHeader) &&
         total == view.file_bytes && total >= layout::arenas_begin && offset[0] == layout::arenas_begin &&
         bytes[0] <= total - offset[0] && offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1] &&
         word(offsetof(SegmentHeader, generation)) == view.generation;
-    if (!sound) unreadable(view, Readability::damaged, "its header contradicts itself");
+    if (!sound) set_unreadable(view, Readability::damaged, "its header contradicts itself");
 }
 
-/// See Mapping::peer(): `taken` is read before the lock is looked at.
-void view_side(const QuietFile& file, ObservedSegment& view, Side which,
+/// `taken` is read before the lock is tested, for the reason given in Mapping::peer_state().
+void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which,
                std::chrono::nanoseconds late_after) {
     using layout::SideHeader;
     ObservedSide& side = view.sides[index_of(which)];
-    Copied<offsetof(SideHeader, directory)> copy;
+    StructCopy<offsetof(SideHeader, directory)> copy;
     const bool known =
         view.readability == Readability::readable &&
         file.read(sizeof(layout::SegmentHeader) + index_of(which) * sizeof(SideHeader), copy.bytes);
-    side.held = held_by_other(file.fd(), life_of(which));
+    side.held = held_by_other(file.fd(), life_byte(which));
     if (!known) return;
     side.pid = copy.get<std::uint32_t>(offsetof(SideHeader, pid));
     side.joined_ns = copy.get<std::uint64_t>(offsetof(SideHeader, joined_ns));
@@ -113,24 +117,25 @@ void view_side(const QuietFile& file, ObservedSegment& view, Side which,
                                                                            : PeerState::alive;
 }
 
-/// Fills in what is in the file. False: it is gone.
-bool view_content(const QuietFile& file, ObservedSegment& view, std::chrono::nanoseconds late_after) {
+/// Reads the content of the file. False: it is gone.
+bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view, std::chrono::nanoseconds late_after) {
     if (!file && errno == ENOENT) return false;
     if (!file) {
-        unreadable(view, Readability::damaged, "cannot be opened (" + errno_text() + ")");
+        set_unreadable(view, Readability::damaged, "cannot be opened (" + errno_text() + ")");
         return true;
     }
     struct stat opened {};
-    if (fstat(file.fd(), &opened) != 0 || !S_ISREG(opened.st_mode) || !ours(opened))
-        return false; // just replaced
-    measure(opened, view);
-    view_header(file, view);
-    for (const Side which : {Side::first, Side::second}) view_side(file, view, which, late_after);
+    if (fstat(file.fd(), &opened) != 0 || !S_ISREG(opened.st_mode) || !may_use(opened))
+        return false; // replaced since read_file_status() looked at it
+    set_sizes(opened, view);
+    read_header_fields(file, view);
+    for (const Side which : {Side::first, Side::second}) read_side(file, view, which, late_after);
     view.changing_hands = held_by_other(file.fd(), LockByte::hand_over);
     return true;
 }
 
-std::set<std::string> links() {
+/// The names of all links that have a file in /dev/shm: tandem.<link>.<generation>.
+std::set<std::string> list_links() {
     std::set<std::string> found;
     constexpr std::string_view prefix = "tandem.";
     std::error_code failure;
@@ -152,12 +157,12 @@ std::set<std::string> links() {
 
 std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after) {
     std::vector<ObservedSegment> found;
-    for (const auto& link : links())
+    for (const auto& link : list_links())
         for (const auto generation : list_generations(link)) {
-            auto view = view_file(link, generation);
+            auto view = read_file_status(link, generation);
             if (!view) continue;
             if (view->readability == Readability::readable &&
-                !view_content(QuietFile(view->path), *view, late_after))
+                !read_content(ReadOnlySnapshot(view->path), *view, late_after))
                 continue;
             found.push_back(std::move(*view));
         }
@@ -169,12 +174,12 @@ std::optional<Observation> observe(const std::string& link, std::uint64_t genera
     check_link_name(link);
     for (const auto candidate : list_generations(link)) {
         if (generation != 0 && candidate != generation) continue;
-        auto view = view_file(link, candidate);
+        auto view = read_file_status(link, candidate);
         if (!view) continue;
         Observation observation{std::move(*view), {}, {}, {}, {}};
         if (observation.segment.readability != Readability::readable) return observation;
-        const QuietFile file(observation.segment.path);
-        if (!view_content(file, observation.segment, late_after)) continue;
+        const ReadOnlySnapshot file(observation.segment.path);
+        if (!read_content(file, observation.segment, late_after)) continue;
         if (observation.segment.readability == Readability::readable) observe_objects(file, observation);
         return observation;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking at segments from outside, while their sides run: nothing is written, woken or locked, and whatever
-// the bytes are, what comes out is what could be read and a reason for what could not.
+// Observes segments from outside, while their sides run. Nothing is written, woken or locked. Whatever the
+// bytes are, the result says what could be read and gives a reason for what could not.
 #pragma once
 #include "shm/call/call_queue.hpp"
 #include "shm/inspect/histogram_counts.hpp"
@@ -15,30 +15,31 @@
 
 namespace tandem::shm {
 
-/// readable: the header is sound. foreign: another user's, not opened. other_layout: of another build of
+/// readable: the header is valid. foreign: another user's, not opened. other_layout: of another build of
 /// Tandem.
 enum class Readability { readable, foreign, other_layout, damaged };
 
 /// One side of a segment. Of a segment that is not readable only `held` is known.
 struct ObservedSide {
     PeerState state = PeerState::absent;
-    bool held = false;                             ///< somebody alive holds this side's lock
+    bool held = false;                             ///< a living process holds this side's lock
     std::uint32_t pid = 0;                         ///< as the side wrote it, in its own pid namespace
     std::uint64_t joined_ns = 0, heartbeat_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
     bool published = false;
 };
 
+/// A segment as its file and its header describe it.
 struct ObservedSegment {
     std::string link, path;
     std::uint64_t generation = 0;
     Readability readability = Readability::damaged;
     std::string reason; ///< why it is not readable
 
-    std::uint64_t file_bytes = 0;   // of the file
-    std::uint64_t memory_bytes = 0; // that it takes: less than that if it is sparse
+    std::uint64_t file_bytes = 0;   ///< size of the file
+    std::uint64_t memory_bytes = 0; ///< memory that it takes: less than its size if it is sparse
     uid_t owner = 0;
     mode_t mode = 0;
-    bool changing_hands = false; ///< somebody joins, leaves or removes it at this moment
+    bool changing_hands = false; ///< a process joins, leaves or removes it at this moment
 
     std::uint32_t layout_version = 0; // of the header, if readable
     std::uint64_t contract = 0, created_ns = 0, superseded_by = 0;
@@ -50,22 +51,23 @@ struct ObservedSegment {
 
 /// What rings, call queues and blobs have in common.
 struct ObservedObject {
-    Side half;        ///< in whose arena it lies
+    Side owner;       ///< in whose arena it lies
     std::string name; ///< as it was written: may hold any byte but zero
     std::uint64_t bytes;
-    std::string damage; ///< empty: sound; otherwise nothing behind this line means anything
+    std::string damage; ///< empty: valid; otherwise the fields of the derived struct mean nothing
 };
 
+/// See RingOptions for the sizes and RingCounters for the counters.
 struct ObservedRing : ObservedObject {
     Side writer{};
-    RingPolicy policy{};
-    std::uint64_t capacity = 0, max_record = 0, wait_ns = 0;
+    std::uint64_t capacity = 0, max_record = 0;
     std::uint64_t chunk_bytes = 0; ///< of each chunk for payloads longer than max_record
     std::uint32_t chunks = 0;
     RingCounters counters{};
     HistogramCounts age{}; ///< from published to read, a sample of the records
 };
 
+/// See CallQueueOptions for the sizes and CallCounters for the counters.
 struct ObservedCallQueue : ObservedObject {
     Side callers{};
     std::uint32_t slots = 0;
@@ -75,28 +77,29 @@ struct ObservedCallQueue : ObservedObject {
     HistogramCounts round_trip{}, service{}; ///< a sample of the calls, see layout::CallTimes
 };
 
+/// A segment and all of its objects, as they were while it was read: not a snapshot of one moment.
 struct Observation {
     ObservedSegment segment;
     std::vector<ObservedRing> rings;
     std::vector<ObservedCallQueue> call_queues;
     std::vector<ObservedObject> blobs;
-    std::vector<std::string> damage; ///< entries of the directories that cannot be read
+    std::vector<std::string> damage; ///< one line for each directory entry that cannot be read
 };
 
-/// An age of heartbeat beyond this makes a side late, unless told otherwise.
-constexpr std::chrono::nanoseconds usually_late_after = std::chrono::milliseconds(100);
+/// Age of a heartbeat beyond which a side is late.
+constexpr std::chrono::nanoseconds default_late_after = std::chrono::milliseconds(100);
 
 /// [any-process] All segments of the machine, by link, newest first. Throws Error if /dev/shm cannot be
 /// listed.
-std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after = usually_late_after);
+std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after = default_late_after);
 
 /// [any-process] One generation of a link (0: the newest) and the objects in it; empty if there is none.
 /// Throws Error for an impossible link name.
 std::optional<Observation> observe(const std::string& link, std::uint64_t generation = 0,
-                                   std::chrono::nanoseconds late_after = usually_late_after);
+                                   std::chrono::nanoseconds late_after = default_late_after);
 
-class QuietFile;
-/// The objects of a readable segment. Used by observe().
-void observe_objects(const QuietFile& file, Observation& into);
+class ReadOnlySnapshot;
+/// Used by observe(): adds the objects of a readable segment.
+void observe_objects(const ReadOnlySnapshot& file, Observation& into);
 
 } // namespace tandem::shm

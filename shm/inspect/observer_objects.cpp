@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/inspect/observer.hpp"
-#include "shm/inspect/quiet_file.hpp"
+#include "shm/inspect/read_only_snapshot.hpp"
 #include "shm/os/shared_copy.hpp"
 
 #include <bit>
@@ -14,54 +14,53 @@ using layout::DirectoryEntry;
 using layout::RingHeader;
 using layout::SideHeader;
 
-constexpr auto cut_off = "the file ends within it";
+constexpr auto truncated_text = "the file ends within it";
 
-/// Reads part of a struct into its place in the copy.
+/// Reads the bytes [from, to) of a struct into the same bytes of its copy.
 template <std::size_t Bytes>
-bool read_part(const QuietFile& file, std::uint64_t place, Copied<Bytes>& copy, std::size_t from,
+bool read_part(const ReadOnlySnapshot& file, std::uint64_t base, StructCopy<Bytes>& copy, std::size_t from,
                std::size_t to) {
-    return file.read(place + from, {copy.bytes + from, to - from});
+    return file.read(base + from, {copy.bytes + from, to - from});
 }
 
-bool copy_histogram(const QuietFile& file, std::uint64_t place, HistogramCounts& counts) {
-    Copied<sizeof(layout::Histogram)> copy;
-    if (!file.read(place, copy.bytes)) return false;
+/// Copies the counts of a histogram. False: the file ends within it.
+bool copy_histogram(const ReadOnlySnapshot& file, std::uint64_t base, HistogramCounts& counts) {
+    StructCopy<sizeof(layout::Histogram)> copy;
+    if (!file.read(base, copy.bytes)) return false;
     for (std::size_t i = 0; i < counts.counts.size(); ++i)
         counts.counts[i] = copy.get<std::uint64_t>(offsetof(layout::Histogram, counts) + 8 * i);
     return true;
 }
 
-/// What a ring of these sizes takes in the arena; 0 for sizes that none has.
+/// Bytes that a ring of these sizes takes in the arena; 0 for sizes that no ring has.
 std::uint64_t ring_bytes(const ObservedRing& ring) {
-    constexpr std::uint64_t largest = std::uint64_t{1} << 36, most_chunks = 64;
-    if (ring.capacity > largest || ring.chunk_bytes > largest || ring.chunks > most_chunks) return 0;
+    constexpr std::uint64_t largest = std::uint64_t{1} << 36, max_chunks = 64;
+    if (ring.capacity > largest || ring.chunk_bytes > largest || ring.chunks > max_chunks) return 0;
     const std::uint64_t records = sizeof(RingHeader) + ring.capacity;
     if (ring.chunks == 0) return records;
     return records + ring.chunks * (sizeof(layout::ChunkWords) + ring.chunk_bytes) + layout::page;
 }
 
-ObservedRing view_ring(const QuietFile& file, ObservedObject object, std::uint64_t place) {
+/// Reads the ring whose RingHeader begins at `base`; damage says what is wrong with it.
+ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
     ObservedRing ring{std::move(object)};
-    Copied<sizeof(RingHeader)> copy;
-    // The reader's counters first: what was received then had been sent before, so never more is received
-    // than sent.
+    StructCopy<sizeof(RingHeader)> copy;
+    // The reader's counters first: a message that was received had been sent before, so the copy never says
+    // that more were received than sent.
     const bool complete =
-        ring.bytes >= sizeof(RingHeader) && read_part(file, place, copy, 0, offsetof(RingHeader, head)) &&
-        read_part(file, place, copy, offsetof(RingHeader, received), offsetof(RingHeader, age)) &&
-        read_part(file, place, copy, offsetof(RingHeader, sent), offsetof(RingHeader, received)) &&
-        copy_histogram(file, place + offsetof(RingHeader, age), ring.age);
+        ring.bytes >= sizeof(RingHeader) && read_part(file, base, copy, 0, offsetof(RingHeader, head)) &&
+        read_part(file, base, copy, offsetof(RingHeader, received), offsetof(RingHeader, age)) &&
+        read_part(file, base, copy, offsetof(RingHeader, sent), offsetof(RingHeader, received)) &&
+        copy_histogram(file, base + offsetof(RingHeader, age), ring.age);
     if (!complete) {
-        ring.damage = cut_off;
+        ring.damage = truncated_text;
         return ring;
     }
     const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
-    const auto policy = copy.get<std::uint32_t>(offsetof(RingHeader, policy));
     const auto writer = copy.get<std::uint32_t>(offsetof(RingHeader, writer));
-    ring.policy = static_cast<RingPolicy>(policy);
     ring.writer = static_cast<Side>(writer);
     ring.capacity = word(offsetof(RingHeader, capacity));
     ring.max_record = word(offsetof(RingHeader, max_record));
-    ring.wait_ns = word(offsetof(RingHeader, wait_ns));
     ring.chunk_bytes = word(offsetof(RingHeader, chunk_bytes));
     ring.chunks = copy.get<std::uint32_t>(offsetof(RingHeader, chunks));
     ring.counters.sent = word(offsetof(RingHeader, sent));
@@ -72,21 +71,22 @@ ObservedRing view_ring(const QuietFile& file, ObservedObject object, std::uint64
     ring.counters.skipped = word(offsetof(RingHeader, skipped));
     ring.counters.bytes_received = word(offsetof(RingHeader, bytes_received));
     if (ring.bytes != ring_bytes(ring) || !std::has_single_bit(ring.capacity) ||
-        ring.max_record > ring.capacity / 2 || policy > 3 || writer > 1)
+        ring.max_record > ring.capacity / 2 || writer > 1)
         ring.damage = "its header is not that of a ring of " + std::to_string(ring.bytes) + " bytes";
     return ring;
 }
 
-bool count_slots(const QuietFile& file, std::uint64_t slots_begin, ObservedCallQueue& queue) {
+/// Adds up the counters of all slots. False: the file ends within them.
+bool count_slots(const ReadOnlySnapshot& file, std::uint64_t slots_begin, ObservedCallQueue& queue) {
     using layout::CallReply;
     using layout::CallRequest;
     for (std::uint32_t i = 0; i < queue.slots; ++i) {
-        const std::uint64_t place = slots_begin + i * sizeof(CallSlot);
-        Copied<sizeof(CallReply)> reply;
-        Copied<sizeof(CallRequest)> request;
-        // The reply first: what was answered then had been submitted before.
-        if (!file.read(place + offsetof(CallSlot, reply), reply.bytes) ||
-            !file.read(place + offsetof(CallSlot, request), request.bytes))
+        const std::uint64_t base = slots_begin + i * sizeof(CallSlot);
+        StructCopy<sizeof(CallReply)> reply;
+        StructCopy<sizeof(CallRequest)> request;
+        // The reply first: a call that was answered had been submitted before.
+        if (!file.read(base + offsetof(CallSlot, reply), reply.bytes) ||
+            !file.read(base + offsetof(CallSlot, request), request.bytes))
             return false;
         count_slot(queue.counters, reply.get<std::uint64_t>(offsetof(CallReply, answered)),
                    reply.get<std::uint64_t>(offsetof(CallReply, word)),
@@ -96,24 +96,26 @@ bool count_slots(const QuietFile& file, std::uint64_t slots_begin, ObservedCallQ
     return true;
 }
 
-bool copy_times(const QuietFile& file, std::uint64_t place, ObservedCallQueue& queue) {
-    return copy_histogram(file, place + offsetof(layout::CallTimes, round_trip), queue.round_trip) &&
-           copy_histogram(file, place + offsetof(layout::CallTimes, service), queue.service);
+/// Copies both histograms of a call queue. False: the file ends within them.
+bool copy_times(const ReadOnlySnapshot& file, std::uint64_t base, ObservedCallQueue& queue) {
+    return copy_histogram(file, base + offsetof(layout::CallTimes, round_trip), queue.round_trip) &&
+           copy_histogram(file, base + offsetof(layout::CallTimes, service), queue.service);
 }
 
-ObservedCallQueue view_call_queue(const QuietFile& file, ObservedObject object, std::uint64_t place) {
+/// Reads the call queue whose CallQueueHeader begins at `base`; damage says what is wrong with it.
+ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
     ObservedCallQueue queue{std::move(object)};
-    Copied<sizeof(CallQueueHeader)> copy;
-    if (queue.bytes < sizeof(CallQueueHeader) || !file.read(place, copy.bytes)) {
-        queue.damage = cut_off;
+    StructCopy<sizeof(CallQueueHeader)> copy;
+    if (queue.bytes < sizeof(CallQueueHeader) || !file.read(base, copy.bytes)) {
+        queue.damage = truncated_text;
         return queue;
     }
     const auto word = [&](std::size_t offset) { return copy.get<std::uint64_t>(offset); };
-    const auto half_word = [&](std::size_t offset) { return copy.get<std::uint32_t>(offset); };
-    queue.slots = half_word(offsetof(CallQueueHeader, slot_count));
-    queue.callers = static_cast<Side>(half_word(offsetof(CallQueueHeader, callers)));
+    const auto word32 = [&](std::size_t offset) { return copy.get<std::uint32_t>(offset); };
+    queue.slots = word32(offsetof(CallQueueHeader, slot_count));
+    queue.callers = static_cast<Side>(word32(offsetof(CallQueueHeader, callers)));
     queue.max_bytes = word(offsetof(CallQueueHeader, max_bytes));
-    queue.closed = half_word(offsetof(CallQueueHeader, closed)) != 0;
+    queue.closed = word32(offsetof(CallQueueHeader, closed)) != 0;
     const std::uint64_t bytes = call_queue_size({queue.callers, queue.slots, queue.max_bytes});
     if (bytes == 0 || queue.bytes != bytes) {
         queue.damage = "its header is not that of a call queue of " + std::to_string(queue.bytes) + " bytes";
@@ -125,20 +127,22 @@ ObservedCallQueue view_call_queue(const QuietFile& file, ObservedObject object, 
     queue.counters.expired = word(offsetof(CallQueueHeader, expired));
     queue.counters.worker_wakes = word(offsetof(CallQueueHeader, worker_wakes));
     queue.counters.caller_wakes = word(offsetof(CallQueueHeader, caller_wakes));
-    const std::uint64_t times = place + sizeof(CallQueueHeader);
+    const std::uint64_t times = base + sizeof(CallQueueHeader);
     if (!count_slots(file, times + sizeof(layout::CallTimes), queue) || !copy_times(file, times, queue))
-        queue.damage = cut_off;
+        queue.damage = truncated_text;
     return queue;
 }
 
-void view_entry(const QuietFile& file, Observation& into, Side half, std::uint32_t index) {
+/// Reads one entry of a directory and the object that it names. An entry that points outside of the arena is not
+/// followed.
+void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std::uint32_t index) {
     const ObservedSegment& segment = into.segment;
     const std::string where =
-        std::string("directory of side ") + name_of(half) + ", entry " + std::to_string(index);
-    const std::uint64_t place = sizeof(layout::SegmentHeader) + index_of(half) * sizeof(SideHeader) +
-                                offsetof(SideHeader, directory) + index * sizeof(DirectoryEntry);
-    Copied<sizeof(DirectoryEntry)> copy;
-    if (!file.read(place, copy.bytes)) {
+        std::string("directory of side ") + name_of(owner) + ", entry " + std::to_string(index);
+    const std::uint64_t base = sizeof(layout::SegmentHeader) + index_of(owner) * sizeof(SideHeader) +
+                               offsetof(SideHeader, directory) + index * sizeof(DirectoryEntry);
+    StructCopy<sizeof(DirectoryEntry)> copy;
+    if (!file.read(base, copy.bytes)) {
         into.damage.push_back(where + ": the file ends before it");
         return;
     }
@@ -146,20 +150,20 @@ void view_entry(const QuietFile& file, Observation& into, Side half, std::uint32
     const auto kind = copy.get<std::uint32_t>(offsetof(DirectoryEntry, kind));
     const auto offset = copy.get<std::uint64_t>(offsetof(DirectoryEntry, offset));
     const auto bytes = copy.get<std::uint64_t>(offsetof(DirectoryEntry, bytes));
-    const std::uint64_t arena = segment.arena_bytes[index_of(half)];
+    const std::uint64_t arena = segment.arena_bytes[index_of(owner)];
     if (name[layout::name_bytes - 1] != '\0' || kind < 1 || kind > 3 || offset % layout::line_pair != 0 ||
         offset > arena || bytes > arena - offset) {
         into.damage.push_back(where + ": names no object within the arena");
         return;
     }
-    ObservedObject object{half, name, bytes, {}};
-    const std::uint64_t at = segment.arena_offset[index_of(half)] + offset;
+    ObservedObject object{owner, name, bytes, {}};
+    const std::uint64_t at = segment.arena_offset[index_of(owner)] + offset;
     switch (static_cast<layout::ObjectKind>(kind)) {
     case layout::ObjectKind::ring:
-        into.rings.push_back(view_ring(file, std::move(object), at));
+        into.rings.push_back(read_ring(file, std::move(object), at));
         break;
     case layout::ObjectKind::call_queue:
-        into.call_queues.push_back(view_call_queue(file, std::move(object), at));
+        into.call_queues.push_back(read_call_queue(file, std::move(object), at));
         break;
     case layout::ObjectKind::blob:
         into.blobs.push_back(std::move(object));
@@ -169,24 +173,24 @@ void view_entry(const QuietFile& file, Observation& into, Side half, std::uint32
 
 } // namespace
 
-void observe_objects(const QuietFile& file, Observation& into) {
-    for (const Side half : {Side::first, Side::second}) {
-        Copied<4> count;
-        const std::uint64_t place = sizeof(layout::SegmentHeader) + index_of(half) * sizeof(SideHeader) +
-                                    offsetof(SideHeader, published);
-        if (!file.read(place, count.bytes)) {
-            into.damage.push_back(std::string("side ") + name_of(half) +
+void observe_objects(const ReadOnlySnapshot& file, Observation& into) {
+    for (const Side owner : {Side::first, Side::second}) {
+        StructCopy<4> count;
+        const std::uint64_t base = sizeof(layout::SegmentHeader) + index_of(owner) * sizeof(SideHeader) +
+                                   offsetof(SideHeader, published);
+        if (!file.read(base, count.bytes)) {
+            into.damage.push_back(std::string("side ") + name_of(owner) +
                                   ": the file ends before its directory");
             continue;
         }
-        const auto published = count.get<std::uint32_t>(0);
+        const auto published = count.get<std::uint32_t>(0); // 0 = nothing yet, else 1 + number of entries
         if (published > 1 + layout::max_objects) {
-            into.damage.push_back(std::string("directory of side ") + name_of(half) + ": claims " +
+            into.damage.push_back(std::string("directory of side ") + name_of(owner) + ": claims " +
                                   std::to_string(published - 1) + " entries, " +
                                   std::to_string(layout::max_objects) + " are possible");
             continue;
         }
-        for (std::uint32_t i = 0; i + 1 < published; ++i) view_entry(file, into, half, i);
+        for (std::uint32_t i = 0; i + 1 < published; ++i) read_entry(file, into, owner, i);
     }
 }
 

@@ -7,14 +7,15 @@
 namespace tandem::shm {
 
 /// [one thread] now_ns() as it was at most 2^16 ticks of the time-stamp counter ago: 30 us, or 66 us at 1
-/// GHz. For those to whom that is exact enough: the clock's own fences cost a short call a sixth of its time.
+/// GHz. For users to whom that is exact enough, because the fences in reading the clock cost a short call a
+/// sixth of its time.
 class RecentClock {
   public:
-    static constexpr std::uint64_t oldest_ns = 100'000;
+    static constexpr std::uint64_t max_age_ns = 100'000;
 
     std::uint64_t now_ns() {
         const std::uint64_t ticks = __rdtsc();
-        if (ticks - ticks_ > most_ticks) { // also if it went backwards, on another core
+        if (ticks - ticks_ > max_ticks) { // true also if the counter went back, on another core
             ticks_ = ticks;
             ns_ = shm::now_ns();
         }
@@ -22,7 +23,7 @@ class RecentClock {
     }
 
   private:
-    static constexpr std::uint64_t most_ticks = std::uint64_t{1} << 16;
+    static constexpr std::uint64_t max_ticks = std::uint64_t{1} << 16;
     std::uint64_t ticks_ = 0, ns_ = 0;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copies between private memory and memory that another process may be changing at the same moment.
 //
-// Word by word, with acquire loads and release stores: on x86-64 those are plain moves, a torn copy is a
-// wrong value and not undefined behaviour, and whoever has read one word of a later write has also seen
-// everything the writer did before it. The lossy rings rest on that last sentence (ring_reader.cpp).
+// Word by word, with acquire loads and release stores. On x86-64 these are plain moves. A torn copy is a
+// wrong value and not undefined behaviour; and a thread that has read one word of a write also sees
+// everything that the writer did before that write, on which rings rely (ring_producer.hpp).
 #pragma once
 #include <atomic>
 #include <cstddef>

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The writing end of a ring, over whatever atomics. Inside of the ring: users include ring.hpp.
+// The writing end of a ring, a template over the atomics policy so that tests can run it in a model. Internal
+// to the ring: users include ring_writer.hpp.
 //
-// head is this end's own; everybody else's word is checked before it is used. One publication stores, in this
-// order, each release:
+// head belongs to this end; the reader's words are checked before they are used. One publication makes these
+// stores in this order, each with release:
 //
 //     0 where the next record will begin | payload, stamp | commit word (| padding before it) | head | newest
 //
-// Killed anywhere before the commit word (of the padding, if there is one: it is what the reader looks at),
-// it has published nothing. Two ways to the bytes:
+// A writer killed before the commit word (of the padding, if there is one, since that is what the reader
+// looks at) has published nothing.
 //
-// Lossless (reject, wait): the payload is written in place. Only the reader moves the tail, so what lies
-// between head and tail + capacity is this end's alone:
-//
-//     writer: payload | commit (release)            reader: commit (acquire) | copy | tail = t (release)
-//     writer: t = tail (acquire) | overwrites what lies before t
-//
-// Lossy (latest_only, drop_oldest): the writer takes the oldest records away by moving the tail itself, and
-// the reader may be in the midst of copying them. Then the reader must find out (SOFI: the copy counts only
-// if the reader can still move the tail from where it was):
+// When the ring is full the writer takes the oldest records away by moving the tail itself, while the reader
+// may be copying them. So the reader counts a copy only if it can still move the tail from where it was (the
+// SOFI protocol, after iceoryx's safely overflowing FIFO):
 //
 //     writer: W1 CAS tail t -> t'  | W2 stores words over [t, t') (release, each)
 //     reader: R1 loads tail t      | R2 loads words of [t, t') (acquire, each)    | R3 CAS tail t -> t'
@@ -25,89 +20,79 @@
 //     If any R2 saw a word of W2, that pair synchronizes, W1 happens before R3, and R3 fails (the tail only
 //     grows, so it is never t again). If R3 succeeds, no R2 saw W2, and the copy is whole.
 //
-// So those stores must be word-wise atomic ones: the payload is made elsewhere and copied in.
+// Therefore payloads are stored word by word with atomic stores: the user makes them in private memory, and
+// commit() copies them in. Only the content of a chunk, which nobody overwrites while it is lent, is written
+// in place.
 #pragma once
-#include "shm/os/futex.hpp"
-#include "shm/ring/ring_view.hpp"
+#include "shm/ring/chunk_pool.hpp"
 
-#include <optional>
+#include <algorithm>
+#include <cstring>
 #include <utility>
-#include <vector>
 
 namespace tandem::shm {
 
-/// On lines of its own: in one process, a reader in the same line would make every write a transfer.
+/// [one thread] On cache lines of its own: in one process, a reader in the same line would make every write a
+/// transfer of that line.
 template <class A>
 class alignas(layout::line_pair) RingProducer {
   public:
     explicit RingProducer(const RingView<A>& ring);
 
-    /// Where reserve() has found room. refused: nowhere, which counts as one sent and dropped.
-    enum class Place { refused, ring, elsewhere, chunk };
+    /// Where a reserved payload is to be made. refused: nowhere; the message counts as sent and dropped.
+    /// scratch: in memory of the caller's own, to be given to commit(). chunk: in chunk().
+    enum class Reservation { refused, scratch, chunk };
 
-    /// ring: write to cells(). elsewhere (lossy rings, short payloads): anywhere, and give it to commit().
-    /// chunk: write to chunk().
-    Place reserve(std::size_t bytes);
-    typename A::Cell* cells() const { return ring_.cell(start_of_reserved() + layout::record_header); }
-    std::byte* chunk() const { return ring_.chunk(chunk_); }
-    bool open() const { return place_ != Place::refused; }
-    std::size_t reserved() const { return reserved_; }
-    void abandon() { place_ = Place::refused; }
+    Reservation reserve(std::size_t bytes);
+    std::byte* chunk() const { return ring_.chunk(chunks_.current()); }
+    bool is_open() const { return reservation_ != Reservation::refused; }
+    std::size_t reserved_bytes() const { return reserved_bytes_; }
+    void abandon() { reservation_ = Reservation::refused; }
 
-    /// Publishes the first `used` bytes. False: refused and counted after all.
-    bool commit(const void* elsewhere, std::size_t used, std::uint64_t stamp, std::uint8_t tag);
+    /// Publishes the first `used` bytes of what was reserved. False: refused and counted after all.
+    bool commit(const void* scratch, std::size_t used, std::uint64_t stamp);
 
-    /// All in one.
-    bool write(const void* bytes, std::size_t count, std::uint64_t stamp, std::uint8_t tag);
+    /// reserve(), copy and commit() in one.
+    bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
 
     bool corrupt() const { return corrupt_; }
-    std::uint64_t longest() const { return std::max(ring_.max_record, ring_.chunk_bytes); }
+    std::uint64_t max_message() const { return std::max(ring_.max_record, ring_.chunk_bytes); }
 
   private:
     std::uint64_t padding_before(std::uint64_t record) const {
-        return record <= ring_.to_end(head_) ? 0 : ring_.to_end(head_);
+        return record <= ring_.bytes_to_end(head_) ? 0 : ring_.bytes_to_end(head_);
     }
-    std::uint64_t start_of_reserved() const { return head_ + padding_before(record_bytes(reserved_)); }
-    std::uint64_t need(std::uint64_t record) const { return padding_before(record) + record + layout::line; }
-    bool plausible(std::uint64_t tail) const;
-    bool fits(std::uint64_t need);
-    template <class Ready>
-    bool wait_until_ready(Ready&& ready);
-    bool make_room(std::uint64_t need);
+    std::uint64_t room_for(std::uint64_t record) const {
+        return padding_before(record) + record + layout::line; // one line always stays free, for the next 0
+    }
+    bool is_plausible(std::uint64_t tail) const;
+    bool fits(std::uint64_t room);
     bool drop_oldest();
-    bool drop_until_fits(std::uint64_t need);
-    bool chunk_is_free(std::uint32_t index) const;
-    bool back_chunk(std::uint32_t index, std::uint64_t bytes);
-    bool find_chunk(std::uint64_t bytes);
+    bool drop_until_fits(std::uint64_t room);
+    bool fail();
     bool claim_chunk(std::uint64_t bytes);
     bool refuse();
-    bool write_slowly(const void* bytes, std::size_t count, std::uint64_t stamp, std::uint8_t tag);
-    void end_at(std::uint64_t end);
-    void expect_another(std::uint64_t record);
+    bool write_slowly(const void* bytes, std::size_t count, std::uint64_t stamp);
+    void clear_commit_word(std::uint64_t position);
+    void prepare_next(std::uint64_t record);
     void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
-                 std::uint64_t stamp, std::uint8_t tag);
-
-    static constexpr std::uint64_t nowhere = ~std::uint64_t{0};
+                 std::uint64_t stamp);
 
     RingView<A> ring_;
-    std::uint64_t head_, tail_; // head is mine; tail as last seen
-    std::uint64_t ended_at_;    // where 0 was stored last
+    std::uint64_t head_, tail_; // tail as this end saw it last
+    std::uint64_t cleared_at_;  // the position at which 0 was stored last
     std::uint64_t sequence_;    // of the newest record
     std::uint64_t sent_, refused_, overwritten_, bytes_;
-    Place place_ = Place::refused;
-    std::size_t reserved_ = 0;
-    std::uint32_t chunk_ = 0;
-    std::vector<std::uint64_t> loans_;  // per chunk: sequence of the record that holds it, 0 = none
-    std::vector<std::uint64_t> backed_; // per chunk: bytes that have memory, if the ring gives it bit by bit
-    bool no_memory_ = false;
+    Reservation reservation_ = Reservation::refused;
+    std::size_t reserved_bytes_ = 0;
+    ChunkPool<A> chunks_;
     bool corrupt_ = false;
 };
 
 template <class A>
-RingProducer<A>::RingProducer(const RingView<A>& ring)
-    : ring_(ring), loans_(ring.chunk_count), backed_(ring.back != nullptr ? ring.chunk_count : 0) {
+RingProducer<A>::RingProducer(const RingView<A>& ring) : ring_(ring), chunks_(ring) {
     auto& shared = *ring_.shared;
-    head_ = ended_at_ = shared.head.load(std::memory_order_acquire);
+    head_ = cleared_at_ = shared.head.load(std::memory_order_acquire);
     tail_ = 0;
     tail_ = shared.tail.load(std::memory_order_acquire);
     sent_ = shared.sent.load(std::memory_order_relaxed);
@@ -115,125 +100,78 @@ RingProducer<A>::RingProducer(const RingView<A>& ring)
     overwritten_ = shared.overwritten.load(std::memory_order_relaxed);
     bytes_ = shared.bytes_sent.load(std::memory_order_relaxed);
     sequence_ = shared.published.load(std::memory_order_relaxed);
-    corrupt_ = head_ % layout::line != 0 || !plausible(tail_);
+    corrupt_ = head_ % layout::line != 0 || !is_plausible(tail_);
 }
 
 template <class A>
-bool RingProducer<A>::plausible(std::uint64_t tail) const {
+bool RingProducer<A>::is_plausible(std::uint64_t tail) const {
     return tail >= tail_ && tail <= head_ && head_ - tail <= ring_.capacity && tail % layout::line == 0;
 }
 
+/// Marks the ring corrupt. Returns false, for the callers to return.
 template <class A>
-bool RingProducer<A>::fits(std::uint64_t need) {
-    if (head_ + need - tail_ <= ring_.capacity) return true; // as last seen: no look at the reader's line
-    // seq_cst for RingPolicy::wait: this end announces its sleep and looks at the tail, the reader moves the
-    // tail and looks for the announcement (futex.hpp).
-    const std::uint64_t tail = ring_.shared->tail.load(std::memory_order_seq_cst);
-    if (!plausible(tail)) corrupt_ = true;
-    if (corrupt_) return false;
+bool RingProducer<A>::fail() {
+    corrupt_ = true;
+    return false;
+}
+
+template <class A>
+bool RingProducer<A>::fits(std::uint64_t room) {
+    // By the tail as last seen, if possible: that does not touch the reader's line.
+    if (head_ + room - tail_ <= ring_.capacity) return true;
+    const std::uint64_t tail = ring_.shared->tail.load(std::memory_order_acquire);
+    if (corrupt_ || !is_plausible(tail)) return fail();
     tail_ = tail;
-    return head_ + need - tail_ <= ring_.capacity;
+    return head_ + room - tail_ <= ring_.capacity;
 }
 
-template <class A>
-template <class Ready>
-bool RingProducer<A>::wait_until_ready(Ready&& ready) {
-    const std::uint64_t deadline = A::now() + ring_.wait_ns;
-    wait_until<A>(ring_.shared->writer_sleeps, {}, deadline, [&] { return ready() || corrupt_; });
-    return !corrupt_ && ready();
-}
-
-template <class A>
-bool RingProducer<A>::make_room(std::uint64_t need) {
-    if (corrupt_) return false;
-    if (ring_.lossy() || fits(need)) return true; // a lossy ring drops when it knows the exact length
-    return ring_.policy == RingPolicy::wait && wait_until_ready([&] { return fits(need); });
-}
-
-/// Takes the record at the tail away, or the padding there; the reader may be faster.
+/// Takes the record at the tail away, or the padding there; the reader may be faster. False: corrupt.
 template <class A>
 bool RingProducer<A>::drop_oldest() {
-    const Commit oldest = Commit::of(A::load(*ring_.cell(tail_), std::memory_order_relaxed));
+    const auto oldest = CommitWord::unpack(A::load(*ring_.cell(tail_), std::memory_order_relaxed));
     const bool padding = oldest.kind == layout::RecordKind::padding;
-    const std::uint64_t step = padding ? ring_.to_end(tail_) : record_bytes(oldest.length);
-    // Every word from tail_ on was written by this end, even if the reader has moved on since.
-    if (oldest.kind == layout::RecordKind::none || step > ring_.to_end(tail_) || step > head_ - tail_)
-        return corrupt_ = true, false;
+    const std::uint64_t step = padding ? ring_.bytes_to_end(tail_) : record_size(oldest.length);
+    // Every word from tail_ on was written by this end, even if the reader has moved the tail since.
+    if (oldest.kind == layout::RecordKind::none || step > ring_.bytes_to_end(tail_) || step > head_ - tail_)
+        return fail();
     std::uint64_t tail = tail_;
     const bool dropped = ring_.shared->tail.compare_exchange_strong(
         tail, tail_ + step, std::memory_order_acq_rel, std::memory_order_acquire);
-    if (dropped) {
-        tail_ += step;
-        if (padding) return true;
-        ring_.shared->overwritten.store(++overwritten_, std::memory_order_relaxed);
-        if (oldest.kind == layout::RecordKind::loan)
-            for (auto& loan : loans_)
-                if ((loan & layout::sequence_mask) == oldest.sequence) loan = 0;
+    if (!dropped) {
+        if (!is_plausible(tail)) return fail();
+        tail_ = tail;
         return true;
     }
-    if (!plausible(tail)) return corrupt_ = true, false;
-    tail_ = tail;
+    tail_ += step;
+    if (padding) return true;
+    ring_.shared->overwritten.store(++overwritten_, std::memory_order_relaxed);
+    if (oldest.kind == layout::RecordKind::chunk) chunks_.take_back(oldest.sequence);
     return true;
 }
 
-// Every step frees at least a line, so as many as there are lines suffice; a reader taking records at the
-// same time only shortens the way. More steps than that: somebody moves the tail who must not.
+/// Every step frees at least a line, so as many steps as the ring has lines suffice; a reader that takes
+/// records at the same time makes them fewer. If they do not suffice, the peer moves the tail back.
 template <class A>
-bool RingProducer<A>::drop_until_fits(std::uint64_t need) {
+bool RingProducer<A>::drop_until_fits(std::uint64_t room) {
     for (std::uint64_t budget = ring_.capacity / layout::line + 1; budget > 0; --budget) {
-        if (fits(need)) return true;
+        if (fits(room)) return true;
         if (corrupt_ || !drop_oldest()) return false;
     }
-    return fits(need);
+    return fits(room);
 }
 
-template <class A>
-bool RingProducer<A>::chunk_is_free(std::uint32_t index) const {
-    return loans_[index] == 0 ||
-           ring_.chunk_words[index].returned.load(std::memory_order_seq_cst) >= loans_[index];
-}
-
-/// False: there is no memory for it. Then another chunk may have some.
-template <class A>
-bool RingProducer<A>::back_chunk(std::uint32_t index, std::uint64_t bytes) {
-    if (ring_.back == nullptr || bytes <= backed_[index]) return true;
-    constexpr std::uint64_t step = std::uint64_t{1} << 20; // so that growing messages do not ask each time
-    for (const std::uint64_t unit : {step, std::uint64_t{layout::page}}) {
-        const std::uint64_t wanted = std::min(round_up(bytes, unit), ring_.chunk_bytes);
-        if (no_memory_ || !ring_.back(ring_, index, wanted)) continue;
-        backed_[index] = wanted;
-        return true;
-    }
-    no_memory_ = true; // asked once for each message
-    return false;
-}
-
-/// Round robin from the one used last, so that a chunk comes back late and its lines are cold for the
-/// reader's core only when all others are in use.
-template <class A>
-bool RingProducer<A>::find_chunk(std::uint64_t bytes) {
-    for (std::uint32_t i = 1; i <= ring_.chunk_count; ++i) {
-        const std::uint32_t index = (chunk_ + i) % ring_.chunk_count;
-        if (!chunk_is_free(index) || !back_chunk(index, bytes)) continue;
-        loans_[index] = 0;
-        chunk_ = index;
-        return true;
-    }
-    return false;
-}
-
+/// Finds a free chunk, or drops the oldest records until one is free. False: the reader holds them all, or
+/// there is no memory.
 template <class A>
 bool RingProducer<A>::claim_chunk(std::uint64_t bytes) {
     if (corrupt_ || ring_.chunk_count == 0) return false;
-    no_memory_ = false;
-    if (find_chunk(bytes)) return true;
-    if (ring_.policy == RingPolicy::wait) return wait_until_ready([&] { return find_chunk(bytes); });
-    if (!ring_.lossy()) return false;
+    chunks_.begin_message();
+    if (chunks_.find_free(ring_, bytes)) return true;
     for (std::uint64_t budget = ring_.capacity / layout::line + 1; budget > 0 && tail_ < head_; --budget) {
         if (!drop_oldest()) return false;
-        if (find_chunk(bytes)) return true;
+        if (chunks_.find_free(ring_, bytes)) return true;
     }
-    return false; // the reader holds them all
+    return false;
 }
 
 template <class A>
@@ -243,75 +181,61 @@ bool RingProducer<A>::refuse() {
     return false;
 }
 
+/// No record is dropped here: commit() knows how many bytes are really used.
 template <class A>
-typename RingProducer<A>::Place RingProducer<A>::reserve(std::size_t bytes) {
-    place_ = Place::refused;
-    reserved_ = bytes;
-    if (bytes <= ring_.max_record) {
-        if (make_room(need(record_bytes(bytes))))
-            place_ = ring_.lossy() || bytes <= ring_.longest_burst ? Place::elsewhere : Place::ring;
-        if (place_ == Place::ring) ended_at_ = nowhere; // the user may write over it, and abandon
-    } else if (bytes <= ring_.chunk_bytes && make_room(need(record_bytes(sizeof(LoanRecord))))) {
-        if (claim_chunk(bytes)) place_ = Place::chunk;
-    }
-    if (place_ == Place::refused) refuse();
-    return place_;
+typename RingProducer<A>::Reservation RingProducer<A>::reserve(std::size_t bytes) {
+    reservation_ = Reservation::refused;
+    reserved_bytes_ = bytes;
+    if (!corrupt_ && bytes <= ring_.max_record)
+        reservation_ = Reservation::scratch;
+    else if (bytes > ring_.max_record && bytes <= ring_.chunk_bytes && claim_chunk(bytes))
+        reservation_ = Reservation::chunk;
+    if (reservation_ == Reservation::refused) refuse();
+    return reservation_;
 }
 
 template <class A>
-bool RingProducer<A>::commit(const void* elsewhere, std::size_t used, std::uint64_t stamp, std::uint8_t tag) {
-    const Place place = std::exchange(place_, Place::refused);
-    using layout::RecordKind;
-    if (place == Place::ring) {
-        // In place, the payload lies where reserve() had to put a record of the full length.
-        publish(RecordKind::record, nullptr, padding_before(record_bytes(reserved_)), used, stamp, tag);
-        return true;
-    }
-    const LoanRecord loan{chunk_, used};
-    const bool by_loan = place == Place::chunk;
-    const std::size_t bytes = by_loan ? sizeof loan : used;
-    if (ring_.lossy() && !drop_until_fits(need(record_bytes(bytes)))) return refuse();
-    if (by_loan) loans_[chunk_] = sequence_ + 1;
-    publish(by_loan ? RecordKind::loan : RecordKind::record, by_loan ? &loan : elsewhere,
-            padding_before(record_bytes(bytes)), bytes, stamp, tag);
-    if (by_loan) ring_.shared->bytes_sent.store(bytes_ += used - bytes, std::memory_order_relaxed);
+bool RingProducer<A>::commit(const void* scratch, std::size_t used, std::uint64_t stamp) {
+    const bool in_chunk = std::exchange(reservation_, Reservation::refused) == Reservation::chunk;
+    const ChunkReference reference{chunks_.current(), used};
+    const std::size_t bytes = in_chunk ? sizeof reference : used;
+    if (!drop_until_fits(room_for(record_size(bytes)))) return refuse();
+    if (in_chunk) chunks_.lend(sequence_ + 1);
+    publish(in_chunk ? layout::RecordKind::chunk : layout::RecordKind::data, in_chunk ? &reference : scratch,
+            padding_before(record_size(bytes)), bytes, stamp);
+    if (in_chunk) ring_.shared->bytes_sent.store(bytes_ += used - bytes, std::memory_order_relaxed);
     return true;
 }
 
-/// Marks where the next record will begin.
+/// Stores the 0 that says "no record yet" where the next record will begin.
 template <class A>
-inline void RingProducer<A>::end_at(std::uint64_t end) {
-    if (end != ended_at_) A::store(*ring_.cell(end), 0, std::memory_order_release);
-    ended_at_ = end;
+inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
+    if (position != cleared_at_) A::store(*ring_.cell(position), 0, std::memory_order_release);
+    cleared_at_ = position;
 }
 
-/// The same for the record after the one just published, as if that will be as long: it takes the store, and
-/// the transfer of its line, off the way of the next record.
+/// Clears the commit word behind the next record already now, as if that will be as long as the last one: so
+/// this store, and the transfer of its line, do not delay the next record.
 template <class A>
-inline void RingProducer<A>::expect_another(std::uint64_t record) {
-    if (record <= ring_.to_end(head_) && head_ + record + layout::line - tail_ <= ring_.capacity)
-        end_at(head_ + record);
+inline void RingProducer<A>::prepare_next(std::uint64_t record) {
+    if (record <= ring_.bytes_to_end(head_) && head_ + record + layout::line - tail_ <= ring_.capacity)
+        clear_commit_word(head_ + record);
 }
 
 template <class A>
 inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payload, std::uint64_t padding,
-                                     std::size_t used, std::uint64_t stamp, std::uint8_t tag) {
+                                     std::size_t used, std::uint64_t stamp) {
     const std::uint64_t start = head_ + padding;
-    const std::uint64_t end = start + record_bytes(used);
-    end_at(end);
-    if (payload != nullptr) {
-        if (ring_.lossy())
-            A::copy_in(ring_.cell(start + layout::record_header), payload, used);
-        else
-            A::put_in(ring_.cell(start + layout::record_header), payload, used);
-    }
+    const std::uint64_t end = start + record_size(used);
+    clear_commit_word(end);
+    A::copy_atomic_to_shared(ring_.cell(start + layout::record_header), payload, used);
     ++sequence_;
-    if (sequence_ % Sample::every == 0)
-        ring_.shared->sample.store(Sample::word(sequence_, A::now()), std::memory_order_relaxed);
+    if (sequence_ % AgeSample::interval == 0)
+        ring_.shared->sample.store(AgeSample::pack(sequence_, A::now()), std::memory_order_relaxed);
     A::store(*ring_.cell(start + word_bytes), stamp, std::memory_order_release);
-    A::store(*ring_.cell(start), Commit::word(kind, used, tag, sequence_), std::memory_order_release);
+    A::store(*ring_.cell(start), CommitWord::pack(kind, used, sequence_), std::memory_order_release);
     if (padding != 0)
-        A::store(*ring_.cell(head_), Commit::word(layout::RecordKind::padding, 0, 0, sequence_),
+        A::store(*ring_.cell(head_), CommitWord::pack(layout::RecordKind::padding, 0, sequence_),
                  std::memory_order_release);
     head_ = end;
     auto& shared = *ring_.shared;
@@ -320,40 +244,35 @@ inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payloa
     shared.published.store(sequence_, std::memory_order_relaxed);
     shared.sent.store(++sent_, std::memory_order_relaxed);
     shared.bytes_sent.store(bytes_ += used, std::memory_order_relaxed);
-    expect_another(record_bytes(used));
+    prepare_next(record_size(used));
 }
 
-/// The usual case, a record that fits where the last one ended, without the detours of reserve() and
-/// commit().
+/// The usual case without the detours of reserve() and commit(): the record fits behind the last one.
 template <class A>
-inline bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp,
-                                   std::uint8_t tag) {
-    const std::uint64_t record = record_bytes(count);
-    if (count <= ring_.max_record && record <= ring_.to_end(head_) &&
+inline bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp) {
+    const std::uint64_t record = record_size(count);
+    if (count <= ring_.max_record && record <= ring_.bytes_to_end(head_) &&
         head_ + record + layout::line - tail_ <= ring_.capacity && !corrupt_) {
-        place_ = Place::refused;
-        publish(layout::RecordKind::record, bytes, 0, count, stamp, tag);
+        reservation_ = Reservation::refused;
+        publish(layout::RecordKind::data, bytes, 0, count, stamp);
         return true;
     }
-    return write_slowly(bytes, count, stamp, tag);
+    return write_slowly(bytes, count, stamp);
 }
 
 template <class A>
 [[gnu::noinline]] bool RingProducer<A>::write_slowly(const void* bytes, std::size_t count,
-                                                     std::uint64_t stamp, std::uint8_t tag) {
+                                                     std::uint64_t stamp) {
     switch (reserve(count)) {
-    case Place::refused:
+    case Reservation::refused:
         return false;
-    case Place::ring:
-        A::put_in(cells(), bytes, count);
-        break;
-    case Place::chunk:
+    case Reservation::chunk:
         std::memcpy(chunk(), bytes, count);
         break;
-    case Place::elsewhere:
+    case Reservation::scratch: // `bytes` serves as the scratch memory
         break;
     }
-    return commit(bytes, count, stamp, tag);
+    return commit(bytes, count, stamp);
 }
 
 } // namespace tandem::shm

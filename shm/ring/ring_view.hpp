@@ -1,85 +1,78 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both ends of a ring go by. Inside of the ring: users include ring.hpp.
+// What the writing and the reading end of a ring share: its place, its sizes, and the words that records
+// begin with. Internal to the ring: users include ring_writer.hpp and ring_reader.hpp.
 #pragma once
 #include "shm/segment/layout.hpp"
 
 namespace tandem::shm {
 
-/// What happens when the reader is slower than the writer.
-/// latest_only: the reader gets the newest, everything older is dropped. drop_oldest: the oldest make room.
-/// reject: the new one is dropped. wait: the writer waits up to RingOptions::wait, then the new one is
-/// dropped.
-enum class RingPolicy : std::uint32_t { latest_only, drop_oldest, reject, wait };
-
-/// A ring's memory, and this process's own copy of its sizes.
+/// Where a ring lies, and this process's own copy of its sizes. The copy was checked once; the sizes in
+/// shared memory are not read again, because the peer may change them.
 template <class A>
 struct RingView {
     layout::BasicRingHeader<A>* shared = nullptr;
     typename A::Cell* cells = nullptr;
     std::uint64_t capacity = 0, max_record = 0;
-    RingPolicy policy = RingPolicy::drop_oldest;
     std::uint32_t chunk_count = 0;
-    std::uint64_t chunk_bytes = 0, wait_ns = 0; // from here on rarely needed
+    std::uint64_t chunk_bytes = 0;
     layout::BasicChunkWords<A>* chunk_words = nullptr;
     std::byte* chunks = nullptr;
-    // A payload up to this is made elsewhere and copied in at one go: written piece by piece to the line that
-    // the reader looks at, it would cost a transfer of that line for every look.
-    std::size_t longest_burst = 4096;
-    // In a sparse segment: gives memory to the first bytes of a chunk, or says that there is none left.
-    bool (*back)(const RingView&, std::uint32_t chunk, std::uint64_t bytes) = nullptr;
+    // In a sparse segment: allocates memory for the first `bytes` of a chunk. False: /dev/shm has none left.
+    bool (*allocate_chunk)(const RingView&, std::uint32_t chunk, std::uint64_t bytes) = nullptr;
     int file = -1;
-    std::uint64_t chunks_in_file = 0;
+    std::uint64_t chunks_in_file = 0; ///< offset of the first chunk in the segment's file
 
-    bool lossy() const { return policy == RingPolicy::latest_only || policy == RingPolicy::drop_oldest; }
     typename A::Cell* cell(std::uint64_t position) const {
         return cells + (position & (capacity - 1)) / word_bytes;
     }
-    std::uint64_t to_end(std::uint64_t position) const { return capacity - (position & (capacity - 1)); }
+    std::uint64_t bytes_to_end(std::uint64_t position) const {
+        return capacity - (position & (capacity - 1));
+    }
     std::byte* chunk(std::uint32_t index) const { return chunks + index * chunk_bytes; }
 };
 
-constexpr std::uint64_t record_bytes(std::uint64_t payload) {
-    return (layout::record_header + payload + layout::line - 1) & ~std::uint64_t{layout::line - 1};
+/// Bytes of the ring that a record with this payload takes: whole lines.
+constexpr std::uint64_t record_size(std::uint64_t payload_bytes) {
+    return (layout::record_header + payload_bytes + layout::line - 1) & ~std::uint64_t{layout::line - 1};
 }
 
-constexpr std::uint64_t longest_record = (std::uint64_t{1} << 29); ///< the length has 30 bits
+constexpr std::uint64_t max_payload_in_ring = std::uint64_t{1} << 29; ///< the length field has 30 bits
 
-/// A record's commit word, taken apart.
-struct Commit {
+/// The first word of a record, taken apart. layout.hpp has the format.
+struct CommitWord {
     layout::RecordKind kind;
     std::uint32_t length;
-    std::uint8_t tag;
-    std::uint32_t sequence; // low 24 bits
+    std::uint32_t sequence; ///< low 32 bits of the record's sequence number
 
-    static constexpr std::uint64_t kind_and_sequence = layout::sequence_mask << 40U | std::uint64_t{3} << 30U;
-    static constexpr std::uint64_t word(layout::RecordKind kind, std::uint64_t length, std::uint8_t tag,
+    static constexpr std::uint64_t kind_and_sequence = ~std::uint64_t{0x3fffffff};
+    static constexpr std::uint64_t pack(layout::RecordKind kind, std::uint64_t length,
                                         std::uint64_t sequence) {
-        return sequence << 40U | std::uint64_t{tag} << 32U | static_cast<std::uint64_t>(kind) << 30U | length;
+        return sequence << 32U | static_cast<std::uint64_t>(kind) << 30U | length;
     }
-    static constexpr Commit of(std::uint64_t word) {
+    static constexpr CommitWord unpack(std::uint64_t word) {
         return {static_cast<layout::RecordKind>(word >> 30U & 3U),
-                static_cast<std::uint32_t>(word & 0x3fffffffU), static_cast<std::uint8_t>(word >> 32U),
-                static_cast<std::uint32_t>(word >> 40U)};
+                static_cast<std::uint32_t>(word & 0x3fffffffU), static_cast<std::uint32_t>(word >> 32U)};
     }
 };
 
-/// The time of publication of every 64th record, packed with the number of that sixty-fourth.
-struct Sample {
-    static constexpr std::uint64_t every = 64;
-    static constexpr std::uint64_t word(std::uint64_t sequence, std::uint64_t ns) {
-        return ns >> 4U << 16U | (sequence / every & 0xffffU);
+/// The publication time of every 64th record, in one word together with the number of that record / 64. One
+/// word, so that the reader cannot take the time of one record for that of another.
+struct AgeSample {
+    static constexpr std::uint64_t interval = 64; ///< records from one sample to the next
+    static constexpr std::uint64_t pack(std::uint64_t sequence, std::uint64_t ns) {
+        return ns >> 4U << 16U | (sequence / interval & 0xffffU);
     }
-    /// Age in ns of record `sequence` now, if `word` is about it.
-    static constexpr bool is_of(std::uint64_t word, std::uint64_t sequence) {
-        return (word & 0xffffU) == (sequence / every & 0xffffU);
+    static constexpr bool belongs_to(std::uint64_t word, std::uint64_t sequence) {
+        return (word & 0xffffU) == (sequence / interval & 0xffffU);
     }
+    /// Nanoseconds from the publication to `ns`; the 48 bits of time wrap around after 52 days.
     static constexpr std::uint64_t age(std::uint64_t word, std::uint64_t ns) {
         return ((ns >> 4U) - (word >> 16U)) << 16U >> 12U;
     }
 };
 
-/// What the record of a loan holds.
-struct LoanRecord {
+/// The payload of a record whose message lies in a chunk.
+struct ChunkReference {
     std::uint64_t chunk, bytes;
 };
 

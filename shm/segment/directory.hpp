@@ -8,34 +8,36 @@
 
 namespace tandem::shm {
 
-/// One object of a half: kind, name and place, checked to lie inside that half's arena.
+/// One object of a side: kind, name and memory, checked to lie inside that side's arena.
 struct ObjectInfo {
     std::string name;
     layout::ObjectKind kind;
     std::span<std::byte> memory;
 };
 
-/// The tables of contents of both halves: adds to mine, reads both.
+/// [one thread] The directories of both sides: adds to the own one, reads both.
 class Directory {
   public:
     explicit Directory(std::shared_ptr<const Mapping> mapping);
 
-    /// Takes memory for a new object from my arena, 128-aligned, and lists it. In a sparse segment its first
-    /// `at_once` bytes are reserved. Throws Error if it does not fit.
+    /// Takes memory for a new object from the own arena, 128-aligned, and lists it. In a sparse segment its
+    /// first `reserved_bytes` bytes are reserved. Throws Error if it does not fit.
     std::span<std::byte> add(const std::string& name, layout::ObjectKind kind, std::uint64_t bytes,
-                             std::uint64_t at_once);
+                             std::uint64_t reserved_bytes);
+    /// Makes all objects added so far visible to the peer.
     void publish();
 
-    std::vector<ObjectInfo> list(Side half) const; ///< Throws Error if an entry is not sound.
-    std::optional<std::span<std::byte>> find(Side half, const std::string& name,
+    std::vector<ObjectInfo> list(Side owner) const; ///< Throws Error if an entry is damaged.
+    /// Empty if that side has published no such object. Throws Error if an entry is damaged.
+    std::optional<std::span<std::byte>> find(Side owner, const std::string& name,
                                              layout::ObjectKind kind) const;
 
   private:
-    std::uint32_t count(Side half) const;
-    ObjectInfo entry(Side half, std::uint32_t index) const;
+    std::uint32_t count(Side owner) const;
+    ObjectInfo entry(Side owner, std::uint32_t index) const;
 
     std::shared_ptr<const Mapping> mapping_;
-    std::uint32_t added_ = 0; // the shared words of my half are for the peer to read: I go by these
+    std::uint32_t added_ = 0; // private copies: the shared words are for the peer to read
     std::uint64_t used_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Durations in a segment, counted by one writer, read by anybody at any time.
+// Counts durations in shared memory. One writer at a time; any process may read at any time.
 #pragma once
 #include <atomic>
 #include <bit>
@@ -8,7 +8,7 @@
 
 namespace tandem::shm::layout {
 
-/// Four buckets per octave: bucket 0 counts what is below 64 ns, the last one everything from 160 s on.
+/// Four buckets per octave: bucket 0 counts durations below 64 ns, the last one all from 160 s on.
 struct Histogram {
     static constexpr std::size_t buckets = 128;
 
@@ -18,12 +18,12 @@ struct Histogram {
         const std::size_t bucket = 1 + 4 * octave + ((ns >> (octave + 4)) & 3U);
         return bucket < buckets ? bucket : buckets - 1;
     }
-    /// The smallest duration that falls into a bucket.
+    /// The shortest duration that falls into a bucket, ns.
     static constexpr std::uint64_t begin_of(std::size_t bucket) {
         return bucket == 0 ? 0 : (4 + (bucket - 1) % 4) << ((bucket - 1) / 4 + 4);
     }
 
-    /// [one thread at a time] A plain addition: two writers at once would lose counts.
+    /// [one thread at a time] Not a read-modify-write: two writers at once would lose counts.
     void add(std::uint64_t ns) {
         auto& count = counts[bucket_of(ns)];
         count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);

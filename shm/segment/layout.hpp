@@ -4,9 +4,9 @@
 // version is refused when it joins.
 //
 // A segment is one *generation* of a link: the file /dev/shm/tandem.<link>.<generation>, joined by two sides.
-// Each side owns one half: a SideHeader (who I am, my doorbell, the directory of what I offer) and an arena
-// that holds the objects themselves. A side takes a generation once; after its death the generation is never
-// reopened, the next one gets a new name. So nothing here is ever reset, and there is no state to repair.
+// Each side owns a SideHeader (its identity, its doorbell, the directory of its objects) and an arena that
+// holds the objects themselves. A side takes a generation once; after its death the generation is never
+// reopened, and the next one gets a new name. So nothing here is ever reset, and no state has to be repaired.
 //
 //      0 +---------------------------+
 //        | SegmentHeader             |  written before the file has a name; only superseded_by changes later
@@ -15,25 +15,24 @@
 //        +---------------------------+
 //        | SideHeader of second      |
 //        +---------------------------+  arena_offset[0], page aligned
-//        | arena of first            |  objects of first: RingHeader + bytes | CallQueueHeader + CallTimes +
-//        slots | blobs
+//        | arena of first            |  objects: rings, call queues, blobs, each 128-aligned
 //        +---------------------------+  arena_offset[1]
 //        | arena of second           |
-//        +---------------------------+  total_bytes = size of the file, reserved and touched at creation; or,
-//        if
-//                                       it was made sparse, object by object when they are added, and of the
-//                                       chunks of rings (below) what is used, when it is first used
+//        +---------------------------+  total_bytes = size of the file
 //
-// Not in the bytes, but on them: three byte-range locks (OFD) on the file. Byte 0 is held for life by first,
-// byte 1 by second, byte 2 while somebody creates, joins, leaves or removes. (liveness.hpp)
+// The memory of the file is reserved and touched at creation. In a sparse segment it is reserved object by
+// object when they are added, and for the chunks of rings (below) when they are first used.
 //
-// Written under the assumption that the other side changes every byte at any time: sizes and offsets are
-// copied once, checked, and then only the copy is used. (The *size* of the file: whoever may write the file
-// may also truncate it, which ends its users by SIGBUS, unless they have called install_truncation_guard(),
-// as proxy/link does. The same if it lends a chunk without memory from a sparse segment when /dev/shm is
-// full. Mode 0600 keeps that among processes of one user.)
+// Three bytes of the file serve as locks (OFD byte-range locks, liveness.hpp); their values mean nothing.
+// Byte 0 is locked for life by first, byte 1 by second, byte 2 while somebody creates, joins, leaves or
+// removes.
 //
-// Words that change while both sides look are std::atomic; they stand on cache-line pairs of their own,
+// All code that reads a segment assumes that the peer changes any byte at any time: sizes and offsets are
+// copied once, checked, and then only the copy is used. The size of the file is the exception: whoever may
+// write the file may also truncate it, which ends its users by SIGBUS, unless they have called
+// install_truncation_guard(), as proxy/link does. Mode 0600 keeps that among processes of one user.
+//
+// Words that change while both sides read them are std::atomic. They lie on cache-line pairs of their own,
 // because the hardware fetches lines in pairs.
 #pragma once
 #include "shm/os/atomics.hpp"
@@ -51,7 +50,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 2;
+constexpr std::uint32_t layout_version = 3;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -62,7 +61,7 @@ struct SegmentHeader {
     std::uint64_t magic;
     std::uint32_t layout_version;
     std::uint32_t header_bytes; // offset of the first SideHeader
-    std::uint64_t contract;     // version of what the users of the segment agree on, opaque here
+    std::uint64_t contract;     // version of the users' own agreement, opaque here
     std::uint64_t generation;
     std::uint64_t total_bytes;
     std::uint64_t arena_offset[2];
@@ -73,16 +72,16 @@ struct SegmentHeader {
     std::byte unused[4096 - 88];
 };
 
-/// What the owner of a doorbell does, and so what a ringer has to do. listens: set bits. sleeps: set bits and
-/// wake. looks: at its rings by itself; user bits need not be set.
-enum class DoorbellOwner : std::uint32_t { listens, sleeps, looks };
+/// What the owner of a doorbell does, and so what a ringer has to do. awake: set bits. asleep: set bits and
+/// wake it. polling: the owner polls its rings by itself, user bits need not be set.
+enum class DoorbellOwner : std::uint32_t { awake, asleep, polling };
 
 constexpr std::size_t doorbell_words = 7;
 
 template <class A>
 struct alignas(line_pair) BasicDoorbellWords {
-    typename A::template Atomic<std::uint64_t> ready[doorbell_words]; // bit i: something is ready at port i
-    typename A::template Atomic<std::uint32_t> owner; // futex word: DoorbellOwner; in the same line
+    typename A::template Atomic<std::uint64_t> ready[doorbell_words]; // bit i: port i has something to read
+    typename A::template Atomic<std::uint32_t> owner; // futex word: DoorbellOwner; in the line of `ready`
     std::byte unused[68];
 };
 using DoorbellWords = BasicDoorbellWords<RealAtomics>;
@@ -124,74 +123,70 @@ constexpr std::size_t arenas_begin = 139264; // behind both SideHeaders, next pa
 static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % page == 0);
 
 // Ring: RingHeader | data[capacity] | chunks, if it has any (below). A position is a 64-bit count of bytes
-// that never wraps; its place is position % capacity. A record is one or more whole lines, contiguous:
+// that never wraps around; its place is position % capacity. A record is one or more whole lines, contiguous:
 //
 //      0        8       16                                    64
 //      +--------+-------+-------------------------------------+--------------
 //      | commit | stamp | payload: up to 48 bytes share the commit word's line, longer ones go on
 //      +--------+-------+-------------------------------------+--------------
 //
-// The commit word is stored last and 0 stands where the next record will begin, so a reader looks at that one
-// line until there is news, and the news has then come with it. A record that would cross the end is preceded
-// by padding up to there (kind = padding).
+// The commit word is stored last, and 0 lies where the next record will begin. So a reader polls that one
+// line, and the record arrives with the line. A record that would cross the end of data is preceded by
+// padding up to there (kind = padding).
 //
-//      commit:  63 .. 40 sequence, low 24 bits | 39 .. 32 tag | 31 .. 30 kind | 29 .. 0 payload bytes
+//      commit:  63 .. 32 sequence, low 32 bits | 31 .. 30 kind | 29 .. 0 payload bytes
 //
-// A payload longer than max_record lies in a chunk: the record (kind = loan) then holds { chunk number, bytes
-// }.
-enum class RecordKind : std::uint32_t { none, record, padding, loan };
+// A payload longer than max_record lies in a chunk: the record (kind = chunk) then holds { chunk number,
+// bytes }.
+enum class RecordKind : std::uint32_t { none, data, padding, chunk };
 
 template <class A>
 struct BasicRingHeader {
-    using Word32 = typename A::template Atomic<std::uint32_t>;
     using Word64 = typename A::template Atomic<std::uint64_t>;
 
     std::uint64_t capacity;    // power of two
     std::uint64_t max_record;  // payload bytes in the ring itself; two of the longest records fit
     std::uint64_t chunk_bytes; // whole pages; 0 = no chunks
     std::uint32_t chunks;
-    std::uint32_t policy; // RingPolicy
     std::uint32_t writer; // Side
-    std::uint32_t unused0;
-    std::uint64_t wait_ns; // bound of RingPolicy::wait
-    std::byte unused1[80];
-    // The writer's line: few ports or many, a message touches no more of the header than this and the next.
+    std::byte unused1[96];
+    // The writer's line. Its counters share the line of its index, so a message touches no more of the header
+    // than this line and the reader's, however many rings there are.
     alignas(line_pair) Word64 head; // end of the newest record; moved by the writer only
-    Word64 newest;                  // begin of the newest record; both for those who come later or skip
+    Word64 newest;                  // start of the newest record; for readers that skip to it
     Word64 sent;                    // counters, see RingCounters
     Word64 refused;
     Word64 overwritten;
     Word64 bytes_sent;
     Word64 published; // records; the sequence number of the newest
-    Word64 sample;    // when a record was published: 63 .. 16 time / 16 ns | 15 .. 0 sequence / 64
+    Word64 sample;    // publication time of every 64th record: 63 .. 16 time / 16 ns | 15 .. 0 sequence / 64
     std::byte unused2[64];
     // The reader's line.
-    alignas(line_pair) Word64 tail; // begin of the oldest record; moved by the reader, in lossy rings also by
-                                    // the writer
-    Word64 received;                // counters
+    alignas(line_pair)
+        Word64 tail; // start of the oldest record; moved by the reader, or by the writer to drop it
+    Word64 received; // counters
     Word64 skipped;
     Word64 bytes_received;
-    Word32 writer_sleeps; // futex word of RingPolicy::wait
-    std::byte unused3[92];
-    alignas(line_pair) Histogram age; // from published to read, of every 64th record; by the reader
+    std::byte unused3[96];
+    alignas(line_pair) Histogram age; // from published to read, of every 64th record; counted by the reader
 };
 using RingHeader = BasicRingHeader<RealAtomics>;
 
-static_assert(offsetof(RingHeader, wait_ns) == 40);
+static_assert(offsetof(RingHeader, writer) == 28);
 static_assert(offsetof(RingHeader, head) == 128 && offsetof(RingHeader, tail) == 256);
 static_assert(offsetof(RingHeader, age) == 384 && sizeof(RingHeader) == 384 + sizeof(Histogram));
 
 constexpr std::size_t record_header = 16;
-constexpr std::uint64_t sequence_mask = 0xffffff; // of a commit word
 
-// Chunk: behind data, ChunkWords of all chunks, then the chunks, each at a page of the file. Who may touch a
-// chunk: the writer, until it has published a loan of it; then whoever takes that record off the ring (the
-// reader to read it, a lossy writer to drop it); the reader gives it back by storing the record's sequence,
-// or, having skipped that record, any later one up to the one before the record it took.
+// Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. Who may
+// touch a chunk: the writer, until it has published a record that refers to it; then whoever takes that
+// record off the ring (the reader to read it, the writer to drop it). The reader gives the chunk back by
+// storing the record's sequence, or, having skipped that record, any later one up to the one before the
+// record it took.
 template <class A>
 struct BasicChunkWords {
-    alignas(line_pair)
-        typename A::template Atomic<std::uint64_t> returned; // loans up to this sequence are given back
+    // The chunk is free again if it was lent to a record up to this sequence.
+    alignas(line_pair) typename A::template Atomic<std::uint64_t> returned;
     std::byte unused[120];
 };
 using ChunkWords = BasicChunkWords<RealAtomics>;
@@ -202,13 +197,17 @@ static_assert(sizeof(ChunkWords) == line_pair);
 // one poller. A call whose arguments and results are short moves no other line than these:
 //
 //          0             8                   16          24             32      40
-//   request  word (64)   operation | ticket  deadline    caller_sleeps  calls   arguments (88)
+//   request  word (64)   submitted_ns        deadline    caller_asleep  calls   arguments (88)
 //   reply    word (64)   answered            results (112)
 //
-// What is longer goes on in the slot's overflow buffer (arguments from their byte 88 on, results from 112
-// on). Request word: state (4 bits) | sequence (28) | length in bytes (32); reply word: status (4) | sequence
-// (28) | length (32). The sequence counts the calls of the slot; a reply belongs to the request that has the
-// same one, and that makes the slot idle again without a further write to a shared line:
+// Longer arguments and results continue in the slot's overflow buffer (arguments from their byte 88 on,
+// results from 112 on).
+//
+//      request word:  63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallState
+//      reply word:    63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallStatus
+//
+// The sequence counts the calls of the slot. A reply belongs to the request with the same sequence, and makes
+// the slot idle again without a further write to a shared line:
 //
 //           caller               worker               reply word has the same sequence
 //   (idle) ---------> submitted ---------> running -------------------------------------> (idle)
@@ -216,25 +215,32 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //                         v                   v                                             |
 //                     cancelled (idle)    abandoned ----------------------------------------+
 //
-// Which idle slots are whose is known to the callers' process alone: callers live in one process, its death
-// ends them all, and a dead process' generation has no other callers. Nothing has to be cleaned up for it.
+// Which slots are idle is known to the callers' process alone: all callers live in one process, its death
+// ends them all, and the generation of a dead process gets no other callers. So nothing has to be cleaned up
+// after it.
 enum class CallState : std::uint32_t { none, submitted, running, cancelled, abandoned };
 
 template <class A>
 struct alignas(line_pair) BasicCallRequest {
-    typename A::template Atomic<std::uint64_t> word; // the caller's, but submitted -> running by a worker
-    typename A::template Atomic<std::uint64_t> what; // operation (32 bits) | ticket: submission time in us
-    typename A::template Atomic<std::uint64_t> deadline_ns;   // CLOCK_MONOTONIC
-    typename A::template Atomic<std::uint32_t> caller_sleeps; // futex word
+    template <class T>
+    using Atomic = typename A::template Atomic<T>;
+
+    Atomic<std::uint64_t> word;          // stored by callers; submitted -> running by a worker
+    Atomic<std::uint64_t> submitted_ns;  // CLOCK_MONOTONIC; the oldest call is taken first
+    Atomic<std::uint64_t> deadline_ns;   // CLOCK_MONOTONIC
+    Atomic<std::uint32_t> caller_asleep; // futex word: 1 = asleep, or about to
     std::uint32_t unused;
-    typename A::template Atomic<std::uint64_t> calls; // counter: submitted in this slot
+    Atomic<std::uint64_t> calls; // counter: submitted in this slot
     typename A::Cell arguments[11];
 };
 
 template <class A>
 struct alignas(line_pair) BasicCallReply {
-    typename A::template Atomic<std::uint64_t> word;
-    typename A::template Atomic<std::uint64_t> answered; // counter: replies given in this slot
+    template <class T>
+    using Atomic = typename A::template Atomic<T>;
+
+    Atomic<std::uint64_t> word;
+    Atomic<std::uint64_t> answered; // counter: replies given in this slot
     typename A::Cell results[14];
 };
 
@@ -246,35 +252,37 @@ struct BasicCallSlot {
 
 template <class A>
 struct BasicCallQueueHeader {
+    template <class T>
+    using Atomic = typename A::template Atomic<T>;
+
     std::uint32_t slot_count;
     std::uint32_t callers;        // Side
     std::uint64_t max_bytes;      // of arguments, and of results
     std::uint64_t overflow_bytes; // of each overflow buffer
     // Read by callers with every call, written by the server when its workers fall asleep or wake.
-    alignas(line_pair) typename A::template Atomic<std::uint32_t> sleepers; // workers asleep or about to
-    typename A::template Atomic<std::uint32_t> watching;                    // CallWatch
-    typename A::template Atomic<std::uint32_t> closed; // 1 = no further call will be served
-    typename A::template Atomic<std::uint32_t> rung;   // futex word of sleeping workers
-    // Events that are rare; several threads of the callers' side count them.
-    alignas(line_pair) typename A::template Atomic<std::uint32_t> calling; // 1 = a CallClient has this end
-    typename A::template Atomic<std::uint64_t> overloads;                  // refused: no idle slot
-    typename A::template Atomic<std::uint64_t> timeouts;                   // given up at the deadline
-    typename A::template Atomic<std::uint64_t> cancels;                    // given up for cancel or shut-down
-    typename A::template Atomic<std::uint64_t> worker_wakes;               // system calls to wake a worker
-    // The same of the server's side.
-    alignas(line_pair)
-        typename A::template Atomic<std::uint64_t> expired;  // taken after the deadline, not run
-    typename A::template Atomic<std::uint64_t> caller_wakes; // system calls to wake a caller
+    alignas(line_pair) Atomic<std::uint32_t> workers_asleep; // or about to sleep
+    Atomic<std::uint32_t> polling;                           // WorkerPolling
+    Atomic<std::uint32_t> closed;                            // 1 = no further call will be served
+    Atomic<std::uint32_t> wake_count;                        // futex word of sleeping workers
+    // Rare events; several threads of the callers' side count them.
+    alignas(line_pair) Atomic<std::uint32_t> has_client; // 1 = a CallClient has the calling end
+    Atomic<std::uint64_t> overloads;                     // refused: no idle slot
+    Atomic<std::uint64_t> timeouts;                      // given up at the deadline
+    Atomic<std::uint64_t> cancels;                       // given up for shut-down
+    Atomic<std::uint64_t> worker_wakes;                  // system calls to wake a worker
+    // The same, counted by the server's side.
+    alignas(line_pair) Atomic<std::uint64_t> expired; // taken after the deadline, not run
+    Atomic<std::uint64_t> caller_wakes;               // system calls to wake a caller
 };
 
-// Does a worker look at the slots at this moment? no: wake one. yes: it polls. soon: it has just answered and
-// is expected back; a caller that waits itself may rely on that, because it looks again before it sleeps.
-enum class CallWatch : std::uint32_t { no, yes, soon };
+// Does a worker poll the slots at this moment? no: wake one. yes: one does. soon: it has just answered and is
+// expected back; a caller that waits itself may rely on that, because it looks again before it sleeps.
+enum class WorkerPolling : std::uint32_t { no, yes, soon };
 
-// Every 16th call of a slot is timed (the first 1024 all), by the side that waits or works.
+// Of each slot the first 1024 calls and then every 16th are timed.
 struct alignas(line_pair) CallTimes {
-    Histogram round_trip; // begin of the call to its reply, as the caller sees it
-    Histogram service;    // taken to answered, as the server sees it
+    Histogram round_trip; // from the begin of the call to its reply; measured by the caller
+    Histogram service;    // from taken to answered; measured by the worker
 };
 
 using CallRequest = BasicCallRequest<RealAtomics>;
@@ -286,7 +294,8 @@ static_assert(sizeof(CallSlot) == 2 * line_pair && offsetof(CallSlot, reply) == 
 static_assert(offsetof(CallRequest, calls) == 32);
 static_assert(offsetof(CallRequest, arguments) == 40);
 static_assert(offsetof(CallReply, results) == 16);
-static_assert(offsetof(CallQueueHeader, sleepers) == 128 && offsetof(CallQueueHeader, calling) == 256);
+static_assert(offsetof(CallQueueHeader, workers_asleep) == 128 &&
+              offsetof(CallQueueHeader, has_client) == 256);
 static_assert(offsetof(CallQueueHeader, expired) == 384 && sizeof(CallQueueHeader) == 512);
 static_assert(sizeof(CallTimes) == 2048);
 

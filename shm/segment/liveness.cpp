@@ -35,7 +35,7 @@ bool held_by_other(int fd, LockByte byte) {
     return lock_call(fd, F_OFD_GETLK, F_WRLCK, byte, lock) == 0 && lock.l_type != F_UNLCK;
 }
 
-HandOver::HandOver(int fd, std::chrono::milliseconds bound)
+HandOverLock::HandOverLock(int fd, std::chrono::milliseconds bound)
     : fd_(fd), held_(try_lock(fd, LockByte::hand_over)) {
     const auto deadline = deadline_after(bound);
     while (!held_ && now_ns() < deadline) {
@@ -44,7 +44,7 @@ HandOver::HandOver(int fd, std::chrono::milliseconds bound)
     }
 }
 
-HandOver::~HandOver() {
+HandOverLock::~HandOverLock() {
     if (held_) unlock(fd_, LockByte::hand_over);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace ipc = boost::interprocess;
 
-// What mapped_region wants to know about a file.
+// The interface by which boost::interprocess::mapped_region maps a file that is open already.
 struct Mappable {
     int fd;
     ipc::mapping_handle_t get_mapping_handle() const { return {fd, false}; }
@@ -25,8 +25,8 @@ bool has_holes(int fd, std::uint64_t bytes) {
     return fstat(fd, &file) == 0 && static_cast<std::uint64_t>(file.st_blocks) * block < bytes;
 }
 
-// MAP_POPULATE: all page tables are filled now, the data path takes no page fault. It would give memory to
-// what has none yet.
+// MAP_POPULATE fills all page tables now, so that the data path takes no page fault. Not in a sparse segment,
+// because it would allocate the memory that the segment is not to take yet.
 ipc::mapped_region map_all(int fd, const std::string& path, std::uint64_t bytes, bool sparse) try {
     return {Mappable{fd},
             ipc::read_write,
@@ -47,8 +47,8 @@ Mapping::Mapping(FileDescriptor file, const std::string& path, const layout::Seg
       region_(map_all(file_.get(), path, checked.total_bytes, sparse_)),
       guarded_(region_.get_address(), region_.get_size()), side_(side), generation_(checked.generation),
       late_after_ns_(static_cast<std::uint64_t>(late_after.count())) {
-    for (std::size_t half = 0; half < 2; ++half)
-        arena_[half] = {at<std::byte>(checked.arena_offset[half]), checked.arena_bytes[half]};
+    for (std::size_t i = 0; i < 2; ++i)
+        arena_[i] = {at<std::byte>(checked.arena_offset[i]), checked.arena_bytes[i]};
     touch({at<const std::byte>(0), layout::arenas_begin});
 }
 
@@ -63,15 +63,16 @@ bool Mapping::truncated() const {
     return fstat(file_.get(), &file) == 0 && static_cast<std::uint64_t>(file.st_size) < region_.get_size();
 }
 
-PeerState Mapping::peer() const {
-    const auto& theirs = half(other(side_));
+PeerState Mapping::peer_state() const {
+    const auto& peer = side_header(other(side_));
     // `taken` is set after the lock is held, so it must be read before the lock is looked at: the other way
     // round, a peer that joins between the two reads would look dead.
-    if (theirs.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
-    if (!held_by_other(file_.get(), life_of(other(side_)))) return PeerState::dead;
-    const std::uint64_t beat = theirs.heartbeat_ns.load(std::memory_order_relaxed);
+    if (peer.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
+    if (!held_by_other(file_.get(), life_byte(other(side_)))) return PeerState::dead;
+    const std::uint64_t beat = peer.heartbeat_ns.load(std::memory_order_relaxed);
     const std::uint64_t now = now_ns();
-    // A beat from the future is as late as an old one; one nanosecond ahead is another core's clock read.
+    // A beat far in the future is as late as an old one; one that is a little ahead was stored after `now`
+    // was read.
     return now - beat > late_after_ns_ && beat - now > late_after_ns_ ? PeerState::late : PeerState::alive;
 }
 

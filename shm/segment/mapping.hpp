@@ -13,9 +13,11 @@
 namespace tandem::shm {
 
 /// A segment's memory as one side sees it, with its own copy of all sizes. Segment and every ring, call queue
-/// and doorbell object share one, so the memory stays mapped as long as anybody may touch it.
+/// and doorbell object share one, so the memory stays mapped as long as one of them may touch it.
 class Mapping {
   public:
+    /// `checked`: the header as read_header() has copied and checked it. Throws Error if the file cannot be
+    /// mapped.
     Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked, Side side,
             std::chrono::nanoseconds late_after);
 
@@ -25,22 +27,24 @@ class Mapping {
     std::uint64_t generation() const { return generation_; }
 
     layout::SegmentHeader& header() const { return *at<layout::SegmentHeader>(0); }
-    layout::SideHeader& half(Side side) const {
+    layout::SideHeader& side_header(Side side) const {
         return *at<layout::SideHeader>(sizeof(layout::SegmentHeader) +
                                        index_of(side) * sizeof(layout::SideHeader));
     }
     std::span<std::byte> arena(Side side) const { return arena_[index_of(side)]; }
 
-    /// [any-thread] One system call.
-    PeerState peer() const;
+    /// [any-thread] Makes one system call.
+    PeerState peer_state() const;
 
-    bool truncated() const; ///< The file is shorter than what was mapped. One system call.
+    /// [any-thread] The file is shorter than what was mapped. Makes one system call.
+    bool truncated() const;
 
-    /// Parts of the file have no memory yet (JoinOptions::sparse). Whoever adds an object reserves it first,
-    /// and each side touches it, so that the data path takes no page fault; both do nothing otherwise.
+    /// Parts of the file have no memory yet (JoinOptions::sparse). The side that adds an object reserves its
+    /// memory, and each side touches it, so that the data path takes no page fault.
     bool sparse() const { return sparse_; }
+    /// Reads one byte of each page, in a sparse segment.
     void touch(std::span<const std::byte> memory) const;
-    std::uint64_t place_in_file(const std::byte* memory) const {
+    std::uint64_t offset_in_file(const std::byte* memory) const {
         return static_cast<std::uint64_t>(memory - static_cast<const std::byte*>(region_.get_address()));
     }
 
@@ -54,7 +58,7 @@ class Mapping {
     std::string path_;
     bool sparse_;
     boost::interprocess::mapped_region region_;
-    GuardedRange guarded_;
+    TruncationGuardedRange guarded_;
     std::span<std::byte> arena_[2];
     Side side_;
     std::uint64_t generation_;

@@ -12,10 +12,10 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
-// Plain open() and linkat() instead of boost::interprocess::shared_memory_object: a segment is made as an
-// unnamed file (O_TMPFILE) and gets its name when it is complete, so nobody ever sees half of one, and a
-// creator that is killed half-way leaves nothing behind. shared_memory_object has no way to say O_TMPFILE,
-// O_NOFOLLOW or O_CLOEXEC.
+// Plain open() and linkat() instead of boost::interprocess::shared_memory_object: a segment is created as an
+// unnamed file (O_TMPFILE) and gets its name when it is complete. So no process ever sees half of one, and a
+// creator that is killed half-way leaves nothing behind. shared_memory_object offers none of O_TMPFILE,
+// O_NOFOLLOW and O_CLOEXEC.
 
 namespace tandem::shm {
 namespace {
@@ -37,25 +37,25 @@ std::string describe(const Access& access) {
 void check_access(int fd, const std::string& path, const Access& access) {
     struct stat file {};
     if (fstat(fd, &file) != 0) throw Error(path + ": cannot be examined (" + errno_text() + ")");
-    const bool ours = file.st_uid == access.owner || (access.group && file.st_gid == *access.group);
-    if (S_ISREG(file.st_mode) && ours && (file.st_mode & 07777) == access.mode()) return;
+    const bool allowed = file.st_uid == access.owner || (access.group && file.st_gid == *access.group);
+    if (S_ISREG(file.st_mode) && allowed && (file.st_mode & 07777) == access.mode()) return;
     throw Error(path + ": has owner " + std::to_string(file.st_uid) + ", mode " +
                 octal(file.st_mode & 07777) + ", expected " + describe(access) +
                 "; remove it or choose another link name");
 }
 
-[[noreturn]] void no_space(const std::string& path, std::uint64_t bytes, int code) {
+[[noreturn]] void throw_no_space(const std::string& path, std::uint64_t bytes, int code) {
     const auto available = available_bytes();
     throw Error(path + ": " + std::to_string(bytes) + " bytes needed, " +
                 (available ? std::to_string(*available) : "unknown") + " available in " + shm_directory +
                 " (" + errno_text(code) + "); free some, enlarge it, or ask for a smaller arena");
 }
 
-/// posix_fallocate() that goes on when a signal interrupts it. Returns an errno value.
+/// posix_fallocate() that is repeated when a signal interrupts it. Returns an errno value.
 int allocate(int fd, std::uint64_t offset, std::uint64_t bytes) {
     int code = EINTR;
-    constexpr int interruptions = 1000;
-    for (int i = 0; i < interruptions && code == EINTR; ++i)
+    constexpr int max_interruptions = 1000;
+    for (int i = 0; i < max_interruptions && code == EINTR; ++i)
         code = posix_fallocate(fd, static_cast<off_t>(offset), static_cast<off_t>(bytes));
     return code;
 }
@@ -124,7 +124,10 @@ FileDescriptor open_segment(const std::string& path, const Access& access) {
 Probe probe_segment(const std::string& path) {
     const FileDescriptor file(::open(path.c_str(), O_RDONLY | safe_open));
     if (!file)
-        return Probe{errno != ENOENT, {}, errno != ENOENT}; // not ours to look into: cannot be called dead
+        return Probe{errno != ENOENT,
+                     {},
+                     errno !=
+                         ENOENT}; // may not be opened by this user: busy, so that it is not taken for dead
     return Probe{true,
                  {held_by_other(file.get(), LockByte::first), held_by_other(file.get(), LockByte::second)},
                  held_by_other(file.get(), LockByte::hand_over)};
@@ -141,7 +144,7 @@ bool try_reserve(int fd, std::uint64_t offset, std::uint64_t bytes) {
 }
 
 void reserve(int fd, const std::string& path, std::uint64_t offset, std::uint64_t bytes) {
-    if (const int code = allocate(fd, offset, bytes); code != 0) no_space(path, bytes, code);
+    if (const int code = allocate(fd, offset, bytes); code != 0) throw_no_space(path, bytes, code);
 }
 
 namespace {
@@ -166,15 +169,16 @@ FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, cons
     return unnamed_file(path, bytes, access);
 }
 
-FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t at_once,
+FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t required_bytes,
                              const Access& access) {
-    if (available_bytes().value_or(at_once) < at_once) no_space(path, at_once, ENOSPC);
+    if (available_bytes().value_or(required_bytes) < required_bytes)
+        throw_no_space(path, required_bytes, ENOSPC);
     FileDescriptor file = unnamed_file(path, layout::arenas_begin, access);
-    if (ftruncate(file.get(), static_cast<off_t>(bytes)) != 0) no_space(path, bytes, errno);
+    if (ftruncate(file.get(), static_cast<off_t>(bytes)) != 0) throw_no_space(path, bytes, errno);
     return file;
 }
 
-bool give_name(int fd, const std::string& path) {
+bool link_unnamed(int fd, const std::string& path) {
     const std::string self = "/proc/self/fd/" + std::to_string(fd);
     if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0) return true;
     if (errno == EEXIST) return false;
@@ -204,11 +208,11 @@ layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t
     const auto& offset = header.arena_offset;
     const auto& bytes = header.arena_bytes;
     const std::uint64_t total = header.total_bytes;
-    const bool sound =
+    const bool valid =
         header.header_bytes == sizeof header && total == static_cast<std::uint64_t>(file.st_size) &&
         total >= layout::arenas_begin && offset[0] == layout::arenas_begin && bytes[0] <= total - offset[0] &&
         bytes[0] % layout::page == 0 && offset[1] == offset[0] + bytes[0] && bytes[1] == total - offset[1];
-    if (!sound) throw Error(path + ": has a damaged header; remove it or choose another link name");
+    if (!valid) throw Error(path + ": has a damaged header; remove it or choose another link name");
     return header;
 }
 
@@ -218,10 +222,10 @@ bool remove_if_dead(const std::string& path) {
     struct stat status {};
     if (fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
         return false;
-    // Only the holder of this file's hand-over byte unlinks it, and its name cannot pass to another file
-    // before that: so while the file has a name, that name is `path`, and unlink() cannot hit a younger file
-    // of the same name.
-    const HandOver hand_over(file.get(), std::chrono::milliseconds(0));
+    // A file is unlinked only under its hand-over byte, and its name cannot pass to another file before that.
+    // So while the file has a name, that name is `path`, and unlink() cannot remove a younger file of the
+    // same name.
+    const HandOverLock hand_over(file.get(), std::chrono::milliseconds(0));
     if (!hand_over.held()) return false;
     if (held_by_other(file.get(), LockByte::first) || held_by_other(file.get(), LockByte::second))
         return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files behind segments: their names, who may open them, how they come and go.
+// The files of segments: their names, who may open them, how they are created and removed.
 #pragma once
 #include "shm/os/file_descriptor.hpp"
 #include "shm/segment/layout.hpp"
@@ -15,14 +15,15 @@ namespace tandem::shm {
 
 constexpr const char* shm_directory = "/dev/shm";
 
-/// Throws Error unless the name is 1-64 characters of A-Z a-z 0-9 _ -
+/// Throws Error unless the name is 1 to 64 characters of A-Z a-z 0-9 _ -
 void check_link_name(const std::string& link);
 
 std::string file_prefix(const std::string& link);                            ///< "tandem.<link>."
 std::string segment_path(const std::string& link, std::uint64_t generation); ///< "/dev/shm/tandem.<link>.<n>"
-std::vector<std::uint64_t> list_generations(const std::string& link);        ///< that exist now, newest first
+/// The generations that exist now, newest first. Throws Error if /dev/shm cannot be listed.
+std::vector<std::uint64_t> list_generations(const std::string& link);
 
-/// Who may share a segment: its owner only (mode 0600), or also a named group (mode 0660).
+/// Who may use a segment: its owner only (mode 0600), or also a named group (mode 0660).
 struct Access {
     uid_t owner;
     std::optional<gid_t> group;
@@ -30,43 +31,47 @@ struct Access {
 };
 Access access_of_this_process(const std::string& group); ///< Throws Error for an unknown group.
 
-/// Opens a segment's file and checks type, owner and mode on what was opened. An empty result: it is gone.
-/// Throws Error when it may not be used.
+/// Opens a segment's file and checks type, owner and mode of what was opened. Empty: there is no such file.
+/// Throws Error if this process may not use it.
 FileDescriptor open_segment(const std::string& path, const Access& access);
 
-/// Who holds a segment's locks. Looks through a read-only descriptor, so that looking does not wake watchers.
+/// Which locks of a segment's file are held. probe_segment() opens the file for reading only, because closing
+/// a file that was open for writing wakes the watchers.
 struct Probe {
     bool exists = false, held[2] = {}, busy = false;
     bool dead() const { return exists && !held[0] && !held[1] && !busy; }
 };
 Probe probe_segment(const std::string& path);
 
-/// An unnamed file of that many bytes, reserved in full; or sparse: only its headers are reserved, after a
-/// look whether there is room for `at_once` bytes. Throws Error naming needed and available bytes.
+/// Creates an unnamed file of that many bytes. create_unnamed() reserves all of it; create_sparse() reserves
+/// the headers only, and throws if there is no room for `required_bytes`. Both throw Error naming needed and
+/// available bytes.
 FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, const Access& access);
-FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t at_once,
+FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t required_bytes,
                              const Access& access);
 
-/// Gives memory to a part of the file that may have none yet: like create_unnamed(), or false if there is
-/// none.
+/// Reserves memory for a part of a sparse file. reserve() throws Error naming needed and available bytes if
+/// there is none, try_reserve() returns false.
 void reserve(int fd, const std::string& path, std::uint64_t offset, std::uint64_t bytes);
 bool try_reserve(int fd, std::uint64_t offset, std::uint64_t bytes);
 
-std::optional<std::uint64_t> available_bytes(); ///< in /dev/shm
+/// Free bytes in /dev/shm; empty if unknown.
+std::optional<std::uint64_t> available_bytes();
 
-/// Gives an unnamed file its name. False: the name is taken.
-bool give_name(int fd, const std::string& path);
+/// Gives an unnamed file its name. False: another file has that name. Throws Error otherwise.
+bool link_unnamed(int fd, const std::string& path);
 
-bool still_named(int fd); ///< Has the file not been unlinked?
+/// Whether the file has not been unlinked.
+bool still_named(int fd);
 
-/// Reads the header and checks it against the file and the caller's contract. Throws Error naming both
-/// versions.
+/// Reads the header and checks it against the file's size, this build's layout version and the caller's
+/// contract. Throws Error if one does not fit.
 layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t contract);
 
-/// Unlinks the file if it is this user's and nobody lives in it. False: it is still there.
+/// Unlinks the file if it is this user's and no side lives in it. False: it is still there.
 bool remove_if_dead(const std::string& path);
 
-/// [any-process] Removes all generations of the link whose holders are all dead.
+/// [any-process] Removes all generations of the link in which no side lives.
 void remove_dead(const std::string& link);
 
 } // namespace tandem::shm

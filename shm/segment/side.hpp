@@ -5,15 +5,15 @@
 
 namespace tandem::shm {
 
-/// The two ends of a link. A process takes one of them; shm attaches no meaning to which.
+/// The two sides of a link. A process takes one of them; shm attaches no meaning to which.
 enum class Side : std::uint32_t { first, second };
 
 constexpr Side other(Side side) { return side == Side::first ? Side::second : Side::first; }
 constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side) & 1U; }
 constexpr const char* name_of(Side side) { return side == Side::first ? "first" : "second"; }
 
-/// absent: never joined this generation. late: lives, but its heartbeat is old (stopped, or starved).
-/// dead: had joined, and its lock is free. Only the lock decides over life and death.
+/// absent: never joined this generation. late: alive, but its heartbeat is old (the process is stopped, or
+/// gets no CPU time). dead: had joined, and its lock is free. Only the lock decides between alive and dead.
 enum class PeerState { absent, alive, late, dead };
 
 } // namespace tandem::shm

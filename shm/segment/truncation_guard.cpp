@@ -12,18 +12,19 @@
 namespace tandem::shm {
 namespace {
 
-/// Read by a signal handler: no locks. More segments than that at once go unguarded.
+/// Read by a signal handler, so without locks. Segments beyond this number at once are not guarded.
 struct Range {
     std::atomic<bool> taken{false};
     std::atomic<std::uintptr_t> begin{0}, end{0};
 };
 std::array<Range, 256> ranges;
-struct sigaction before {};
+struct sigaction previous_action {};
 
-/// Everything from the lost page to the end of the mapping is behind the end of the file, too.
-bool replace_lost(std::uintptr_t address) {
+/// Maps zeros from the lost page to the end of the mapping, all of which is behind the end of the file, too.
+/// False: the address is in no segment.
+bool replace_lost_pages(std::uintptr_t address) {
     for (const auto& range : ranges) {
-        // The end first: it is stored last, so the begin belongs to it.
+        // The end first: it is stored last, so the begin read after it belongs to it.
         const std::uintptr_t end = range.end.load(std::memory_order_acquire);
         const std::uintptr_t begin = range.begin.load(std::memory_order_acquire);
         if (address < begin || address >= end) continue;
@@ -37,36 +38,38 @@ bool replace_lost(std::uintptr_t address) {
 
 void on_bus_error(int signal, siginfo_t* info, void* context) {
     const int saved = errno;
-    if (info->si_code == BUS_ADRERR && replace_lost(reinterpret_cast<std::uintptr_t>(info->si_addr))) {
+    if (info->si_code == BUS_ADRERR && replace_lost_pages(reinterpret_cast<std::uintptr_t>(info->si_addr))) {
         errno = saved;
-        return; // the access is tried again
+        return; // and the access is repeated
     }
-    if ((before.sa_flags & SA_SIGINFO) != 0) {
-        before.sa_sigaction(signal, info, context);
-    } else if (before.sa_handler != SIG_DFL && before.sa_handler != SIG_IGN) {
-        before.sa_handler(signal);
+    if ((previous_action.sa_flags & SA_SIGINFO) != 0) {
+        previous_action.sa_sigaction(signal, info, context);
+    } else if (previous_action.sa_handler != SIG_DFL && previous_action.sa_handler != SIG_IGN) {
+        previous_action.sa_handler(signal);
     } else {
-        ::signal(signal, SIG_DFL); // the access is tried again, and ends the process
+        ::signal(signal, SIG_DFL); // the access is repeated, and ends the process
     }
 }
 
 } // namespace
 
 void install_truncation_guard() {
-    // Not again when another handler stands before ours meanwhile: each would go on to the other for ever.
+    // Only once, even if another handler was installed after ours meanwhile: each would pass the signal on to
+    // the other for ever.
     static const bool once = [] {
         struct sigaction guard {};
         guard.sa_sigaction = on_bus_error;
         guard.sa_flags = SA_SIGINFO | SA_ONSTACK;
-        if (sigaction(SIGBUS, nullptr, &before) == 0 && sigaction(SIGBUS, &guard, nullptr) == 0) return true;
+        if (sigaction(SIGBUS, nullptr, &previous_action) == 0 && sigaction(SIGBUS, &guard, nullptr) == 0)
+            return true;
         throw Error("SIGBUS: no handler can be installed (" + errno_text() + ")");
     }();
     static_cast<void>(once);
 }
 
-GuardedRange::GuardedRange(void* begin, std::size_t bytes) : place_(0) {
-    for (; place_ < ranges.size(); ++place_) {
-        auto& range = ranges[place_];
+TruncationGuardedRange::TruncationGuardedRange(void* begin, std::size_t bytes) : index_(0) {
+    for (; index_ < ranges.size(); ++index_) {
+        auto& range = ranges[index_];
         if (range.taken.exchange(true, std::memory_order_acq_rel)) continue;
         const auto address = reinterpret_cast<std::uintptr_t>(begin);
         range.begin.store(address, std::memory_order_release);
@@ -75,10 +78,10 @@ GuardedRange::GuardedRange(void* begin, std::size_t bytes) : place_(0) {
     }
 }
 
-GuardedRange::~GuardedRange() {
-    if (place_ == ranges.size()) return;
-    ranges[place_].end.store(0, std::memory_order_release);
-    ranges[place_].taken.store(false, std::memory_order_release);
+TruncationGuardedRange::~TruncationGuardedRange() {
+    if (index_ == ranges.size()) return;
+    ranges[index_].end.store(0, std::memory_order_release);
+    ranges[index_].taken.store(false, std::memory_order_release);
 }
 
 } // namespace tandem::shm

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whoever may write a segment's file may also truncate it, and then its users' next look at the lost part is
-// a SIGBUS. (Files on tmpfs cannot be sealed against that: only memfd_create() makes such that can.)
+// A process that may write a segment's file may also truncate it, and then its users' next access to the lost
+// part is a SIGBUS. (Files on tmpfs cannot be sealed against that: only those of memfd_create() can.)
 #pragma once
 #include <cstddef>
 
 namespace tandem::shm {
 
-/// [any-thread] From now on a lost part of a segment is replaced by zeros in this process, which every reader
-/// of shared words takes for damage or for nothing, and Segment::superseded() says that it is time to leave.
-/// A SIGBUS for another reason goes on to the handler that was there before. Off unless called: how a process
-/// handles signals is its own business.
+/// [any-thread] Installs a handler of SIGBUS that replaces a lost part of a segment by zeros in this process.
+/// Readers of shared words take zeros for damage or for nothing new, and Segment::superseded() says to leave.
+/// A SIGBUS for another reason is passed on to the handler that was there before. Off unless called, because
+/// signals are the program's choice.
 void install_truncation_guard();
 
-/// Used by Mapping: memory that the guard looks after.
-class GuardedRange {
+/// Used by Mapping: registers memory for the handler.
+class TruncationGuardedRange {
   public:
-    GuardedRange(void* begin, std::size_t bytes);
-    ~GuardedRange();
-    GuardedRange(const GuardedRange&) = delete;
-    GuardedRange& operator=(const GuardedRange&) = delete;
+    TruncationGuardedRange(void* begin, std::size_t bytes);
+    ~TruncationGuardedRange();
+    TruncationGuardedRange(const TruncationGuardedRange&) = delete;
+    TruncationGuardedRange& operator=(const TruncationGuardedRange&) = delete;
 
   private:
-    std::size_t place_;
+    std::size_t index_;
 };
 
 } // namespace tandem::shm

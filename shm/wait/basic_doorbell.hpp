@@ -1,98 +1,108 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside of Doorbell: what both sides do with its words; a template over the atomics policy, so that what
-// ships is what tests/shm/model runs.
+// Internal to Doorbell: what both sides do with its words. A template over the atomics policy, so that the
+// code that ships is the code that tests/shm/model runs.
 #pragma once
-#include "shm/os/futex.hpp"
+#include "shm/os/bounded_sleep.hpp"
 #include "shm/wait/adaptive_spin.hpp"
 #include "shm/wait/ready_bits.hpp"
+#include "shm/wait/spin_until.hpp"
+#include "shm/wait/wait_options.hpp"
 
 namespace tandem::shm {
 
+/// The doorbell of one side, the owner. The owner waits; the peer, and threads of the owner's own process,
+/// ring.
 template <class A>
 class BasicDoorbell {
   public:
-    static constexpr unsigned user_bits = ReadyBits::size - 2; ///< the user's: 0 .. user_bits - 1
+    static constexpr unsigned user_bits = ReadyBits::size - 2; ///< bits 0 .. user_bits - 1 are the user's
     static constexpr unsigned attention_bit = user_bits; ///< peer joined, published or left: look at Segment
     static constexpr unsigned interrupt_bit = attention_bit + 1; ///< interrupt() was called
 
     explicit BasicDoorbell(layout::BasicDoorbellWords<A>& words) : words_(words) {}
 
-    /// [any-thread] Sets one bit, or several, and wakes the owner once if it sleeps.
+    /// [any-thread] Sets one bit, or several, and wakes the owner once if it is asleep. Call it after the
+    /// data are published.
     void ring(unsigned bit);
     void ring_all(const ReadyBits& bits);
 
-    /// [one thread] For many ports: takes the bits rung so far; waits for the first at most `bound`. Empty:
-    /// none came. A set bit says "look there"; after wait_for() all of the user's are set once.
+    /// [one thread] For many ports: takes the bits rung so far, or waits for the first at most `bound`.
+    /// Empty: none came. A set bit says that its port may have data; the first call after wait_for() sets all
+    /// of the user's.
     ReadyBits wait(std::chrono::nanoseconds bound, const WaitOptions& how = {});
-    ReadyBits poll();
+    ReadyBits poll(); ///< Takes the bits rung so far.
 
-    /// [one thread] For few ports: waits until ready() holds, at most `bound`, or attention or interrupt was
-    /// rung: these two bits come back. ready() looks at the rings (RingReader::empty()) and is called often;
-    /// from here until the next wait() or poll() the other side rings no user bit but to wake.
+    /// [one thread] For few ports: waits until ready() holds, at most `bound`, or until attention_bit or
+    /// interrupt_bit is rung: only these two bits are returned. ready() looks at the rings
+    /// (RingReader::empty()) and is called often. From here until the next wait() or poll() the peer rings
+    /// user bits only to wake.
     template <class Ready>
     ReadyBits wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how = {});
 
     /// [any-thread] Ends the owner's wait, now or the next, with interrupt_bit.
     void interrupt();
 
-    /// System calls this object has made to wake a sleeper.
+    /// System calls that this object has made to wake a sleeper.
     std::uint64_t wakes() const { return wakes_.load(std::memory_order_relaxed); }
 
   private:
     using Owner = layout::DoorbellOwner;
     using Word32 = typename A::template Atomic<std::uint32_t>;
 
-    void become(Owner state);
+    void announce(Owner state);
     void set(unsigned bit);
     bool wake_owner();
-    ReadyBits take();
-    ReadyBits take_own();
-    bool rung() const {
+    ReadyBits take_all();
+    ReadyBits take_reserved();
+    bool any_rung() const {
         std::uint64_t all = 0;
         for (const auto& word : words_.ready) all |= word.load(std::memory_order_relaxed);
         return all != 0;
     }
     template <class Done>
-    bool wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how, Owner awake);
+    bool wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how,
+                         Owner afterwards);
+    template <class Done>
+    bool sleep_until_done(Done&& done, std::chrono::nanoseconds bound, Owner afterwards);
 
     layout::BasicDoorbellWords<A>& words_;
     AdaptiveSpin spin_;
-    Owner owner_ = Owner::listens; // my own copy, if this side is the owner
-    Word32 seen_{0};               // the owner's word as a ringer saw it last
+    Owner own_state_ = Owner::awake; // private copy, valid in the owner only
+    Word32 last_seen_owner_{0};      // the owner's word as a ringer of this object saw it last
     std::atomic<std::uint64_t> wakes_{0};
 };
 
 template <class A>
-void BasicDoorbell<A>::become(Owner state) {
-    owner_ = state;
+void BasicDoorbell<A>::announce(Owner state) {
+    own_state_ = state;
     words_.owner.store(static_cast<std::uint32_t>(state), std::memory_order_relaxed);
-    A::fence(); // before the look at the bits and the rings, whose loads are weaker
+    A::fence(); // before the looks at the bits and the rings, whose loads are weaker than seq_cst
 }
 
 template <class A>
 void BasicDoorbell<A>::ring(unsigned bit) {
-    // An owner that looked last time most likely still does, and then its line is only read. Otherwise the
-    // line has to be written, and comes with the write.
-    constexpr auto looks = static_cast<std::uint32_t>(Owner::looks);
-    if (bit < user_bits && seen_.load(std::memory_order_relaxed) == looks) {
+    // An owner that was polling last time most likely still is, and then its line is only read. Otherwise the
+    // line has to be written, and the write brings it here.
+    constexpr auto polling = static_cast<std::uint32_t>(Owner::polling);
+    if (bit < user_bits && last_seen_owner_.load(std::memory_order_relaxed) == polling) {
         A::fence(); // after the data, whose stores are only release
-        if (words_.owner.load(std::memory_order_relaxed) == looks) return;
+        if (words_.owner.load(std::memory_order_relaxed) == polling) return;
     }
-    __builtin_prefetch(&words_, 1); // while the data's stores still leave the core
+    __builtin_prefetch(&words_, 1); // while the data's stores are still on their way to the cache
     set(bit);
     wake_owner();
 }
 
-/// Always a read-modify-write, even if the bit is set already: it stands between the data and the look at the
-/// owner's word. Skipping it would let the owner take the old bit, miss the data, and sleep.
+/// Always a read-modify-write, even if the bit is set already, because it orders the data before the look at
+/// the owner's word. Without it the owner could take the old bit, miss the data, and sleep.
 template <class A>
 void BasicDoorbell<A>::set(unsigned bit) {
     words_.ready[bit / 64 % layout::doorbell_words].fetch_or(std::uint64_t{1} << (bit % 64),
                                                              std::memory_order_seq_cst);
 }
 
-/// The call is made in any case: whoever has found the owner asleep before may have been killed before its
-/// own.
+/// Makes the system call even if the owner does not seem asleep: a ringer that found it asleep may have been
+/// killed before its own system call.
 template <class A>
 void BasicDoorbell<A>::interrupt() {
     set(interrupt_bit);
@@ -109,12 +119,13 @@ void BasicDoorbell<A>::ring_all(const ReadyBits& bits) {
 /// True: that took a system call.
 template <class A>
 bool BasicDoorbell<A>::wake_owner() {
-    constexpr auto sleeps = static_cast<std::uint32_t>(Owner::sleeps);
-    constexpr auto listens = static_cast<std::uint32_t>(Owner::listens);
+    constexpr auto asleep = static_cast<std::uint32_t>(Owner::asleep);
+    constexpr auto awake = static_cast<std::uint32_t>(Owner::awake);
     std::uint32_t owner = words_.owner.load(std::memory_order_seq_cst);
-    if (seen_.load(std::memory_order_relaxed) != owner) seen_.store(owner, std::memory_order_relaxed);
-    // One of several ringers makes the call.
-    if (owner != sleeps || !words_.owner.compare_exchange_strong(owner, listens, std::memory_order_seq_cst))
+    if (last_seen_owner_.load(std::memory_order_relaxed) != owner)
+        last_seen_owner_.store(owner, std::memory_order_relaxed);
+    // Of several ringers only the one that changes the word makes the call.
+    if (owner != asleep || !words_.owner.compare_exchange_strong(owner, awake, std::memory_order_seq_cst))
         return false;
     A::futex_wake(words_.owner, 1);
     wakes_.fetch_add(1, std::memory_order_relaxed);
@@ -122,7 +133,7 @@ bool BasicDoorbell<A>::wake_owner() {
 }
 
 template <class A>
-ReadyBits BasicDoorbell<A>::take() {
+ReadyBits BasicDoorbell<A>::take_all() {
     ReadyBits bits;
     for (std::size_t i = 0; i < bits.words.size(); ++i)
         if (words_.ready[i].load(std::memory_order_relaxed) != 0)
@@ -130,21 +141,22 @@ ReadyBits BasicDoorbell<A>::take() {
     return bits;
 }
 
-/// The user's bits are dropped: what they stand for is looked at anyhow.
+/// Takes all bits and returns attention and interrupt only: the owner looks at the user's ports anyway.
 template <class A>
-ReadyBits BasicDoorbell<A>::take_own() {
-    const ReadyBits bits = take();
-    ReadyBits own;
+ReadyBits BasicDoorbell<A>::take_reserved() {
+    const ReadyBits bits = take_all();
+    ReadyBits reserved;
     for (const unsigned bit : {attention_bit, interrupt_bit})
-        if (bits.test(bit)) own.set(bit);
-    return own;
+        if (bits.test(bit)) reserved.set(bit);
+    return reserved;
 }
 
 template <class A>
 ReadyBits BasicDoorbell<A>::poll() {
-    if (owner_ == Owner::listens) return rung() ? take() : ReadyBits{};
-    become(Owner::listens);
-    ReadyBits bits = take();
+    if (own_state_ == Owner::awake) return any_rung() ? take_all() : ReadyBits{};
+    // While the owner polled its rings no bits were rung for them: each port may have data.
+    announce(Owner::awake);
+    ReadyBits bits = take_all();
     for (unsigned bit = 0; bit < user_bits; ++bit) bits.set(bit);
     return bits;
 }
@@ -153,60 +165,66 @@ template <class A>
 ReadyBits BasicDoorbell<A>::wait(std::chrono::nanoseconds bound, const WaitOptions& how) {
     const ReadyBits bits = poll();
     if (bits.any()) return bits;
-    return wait_until_done([&] { return rung(); }, bound, how, Owner::listens) ? take() : ReadyBits{};
+    return wait_until_done([&] { return any_rung(); }, bound, how, Owner::awake) ? take_all() : ReadyBits{};
 }
 
-// The owner's word and the data are two sides' words crossing (as in futex.hpp):
-//
-//     owner: word = sleeps or listens | fence | done()?        ringer: data | fence | word == looks?
-//
-// At least one of the two sees the other: either done() holds at once, or the ringer sets the bit and, if the
-// owner sleeps, wakes it.
+/// Polls for a while, unless the mode says otherwise, and then sleeps. `afterwards` is the owner's state when
+/// it returns.
 template <class A>
 template <class Done>
 bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how,
-                                       Owner awake) {
-    const auto longest = static_cast<std::uint64_t>(how.spin.count());
-    if (how.mode != WaitMode::futex) {
-        const std::uint64_t start = A::now();
-        const std::uint64_t deadline = start + bounded_ns(bound);
-        if (how.mode == WaitMode::spin) return spin_until<A>(deadline, done);
-        const std::uint64_t enough = std::min(deadline, start + spin_.limit_ns(longest));
-        if (how.mode == WaitMode::same_core ? yield_until<A>(enough, done) : spin_until<A>(enough, done)) {
-            spin_.learn(longest, A::now() - start);
-            return true;
-        }
-        bound = std::chrono::nanoseconds(deadline - std::min(deadline, A::now()));
-        const bool found = wait_until_done(done, bound, {WaitMode::futex}, awake);
-        spin_.learn(longest, A::now() - start);
-        return found;
+                                       Owner afterwards) {
+    if (how.mode == WaitMode::futex) return sleep_until_done(done, bound, afterwards);
+    const std::uint64_t start = A::now();
+    const std::uint64_t deadline = start + bounded_ns(bound);
+    if (how.mode == WaitMode::spin) return spin_until<A>(deadline, done);
+    const auto max_spin_ns = static_cast<std::uint64_t>(how.spin.count());
+    const std::uint64_t spin_end = std::min(deadline, start + spin_.limit_ns(max_spin_ns));
+    bool found =
+        how.mode == WaitMode::same_core ? yield_until<A>(spin_end, done) : spin_until<A>(spin_end, done);
+    if (!found) {
+        const auto left = std::chrono::nanoseconds(deadline - std::min(deadline, A::now()));
+        found = sleep_until_done(done, left, afterwards);
     }
+    spin_.learn(max_spin_ns, A::now() - start);
+    return found;
+}
+
+// Owner and ringer each store one word and then load the other's (as in sleep_until.hpp):
+//
+//     owner: word = asleep or awake | fence | done()?        ringer: data | fence | word == polling?
+//
+// At least one of the two sees the other: either done() holds at once, or the ringer sets the bit and, if the
+// owner is asleep, wakes it.
+template <class A>
+template <class Done>
+bool BasicDoorbell<A>::sleep_until_done(Done&& done, std::chrono::nanoseconds bound, Owner afterwards) {
     typename A::BoundedSleep sleep(bound);
     bool found = false;
     do {
-        become(Owner::sleeps);
+        announce(Owner::asleep);
         found = done();
-        if (found || !sleep.on(words_.owner, static_cast<std::uint32_t>(Owner::sleeps))) break;
+        if (found || !sleep.sleep_while(words_.owner, static_cast<std::uint32_t>(Owner::asleep))) break;
         found = done();
     } while (!found);
-    owner_ = awake;
-    words_.owner.store(static_cast<std::uint32_t>(awake), std::memory_order_relaxed);
+    own_state_ = afterwards;
+    words_.owner.store(static_cast<std::uint32_t>(afterwards), std::memory_order_relaxed);
     return found || done();
 }
 
-/// News is looked for before bits: whoever was woken by a message reads that first, and takes the bit that
-/// came with it in the next wait, when nobody is kept waiting by another transfer of the doorbell's line.
+/// ready() is asked before the bits: an owner that was woken by a message reads that first, and takes the bit
+/// that came with it in the next wait, when nobody is delayed by another transfer of the doorbell's line.
 template <class A>
 template <class Ready>
 ReadyBits BasicDoorbell<A>::wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how) {
-    if (rung()) {
-        const ReadyBits own = take_own();
-        if (own.any()) return own;
+    if (any_rung()) {
+        const ReadyBits reserved = take_reserved();
+        if (reserved.any()) return reserved;
     }
     if (ready()) return {};
-    if (owner_ != Owner::looks) become(Owner::looks);
-    wait_until_done([&] { return ready() || rung(); }, bound, how, Owner::looks);
-    return ready() || !rung() ? ReadyBits{} : take_own();
+    if (own_state_ != Owner::polling) announce(Owner::polling);
+    wait_until_done([&] { return ready() || any_rung(); }, bound, how, Owner::polling);
+    return ready() || !any_rung() ? ReadyBits{} : take_reserved();
 }
 
 } // namespace tandem::shm

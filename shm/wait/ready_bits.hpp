@@ -8,7 +8,8 @@
 
 namespace tandem::shm {
 
-/// A set of the bits of a doorbell.
+/// A set of doorbell bits. A bit beyond the size is taken modulo the size, so that no bit number reaches
+/// other memory.
 class ReadyBits {
   public:
     static constexpr unsigned size = 64 * layout::doorbell_words;

@@ -13,8 +13,8 @@ using namespace tandem::shm::test;
 
 namespace {
 
-using Caller = CallCaller<PointedAtomics>;
-using Worker = CallWorker<PointedAtomics>;
+using Caller = CallCaller<CrashPointAtomics>;
+using Worker = CallWorker<CrashPointAtomics>;
 
 constexpr CallQueueOptions two_slots{.callers = Side::first, .slots = 2, .max_bytes = 512};
 constexpr std::uint64_t second_ns = 1'000'000'000;
@@ -36,18 +36,18 @@ const std::vector<WorkerScenario> workers = {
 };
 
 /// What IncomingCall::State does, with points.
-void serve(const BasicCallView<PointedAtomics>& view, const WorkerScenario& scenario) {
+void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& scenario) {
     Worker worker(view);
     worker.open();
     std::optional<TakenCall> call;
     const std::uint64_t until = now_ns() + 20 * second_ns;
-    for (bool watches = false; !call && now_ns() < until;) {
-        call = worker.take(watches);
+    for (bool polling = false; !call && now_ns() < until;) {
+        call = worker.take(polling);
         if (call) break;
         if (scenario.sleeps) {
             worker.sleep(until);
         } else {
-            watches = watches || worker.watch();
+            polling = polling || worker.try_become_poller();
             worker.spin(until);
         }
     }
@@ -55,10 +55,9 @@ void serve(const BasicCallView<PointedAtomics>& view, const WorkerScenario& scen
         worker.close();
         worker.interrupt();
         worker.drop_submitted();
-        worker.stop_watching();
+        worker.stop_polling();
     }
     if (!call) return;
-    worker.cancelled(*call);
     const auto results = payload(scenario.bytes);
     worker.answer(*call, static_cast<std::uint32_t>(CallStatus::ok), results.data(), results.size());
 }
@@ -75,11 +74,11 @@ TEST_CASE("a worker killed behind any of its stores costs the caller an error at
             survivor->publish();
             CallClient client(queue, {.mode = scenario.sleeps ? WaitMode::futex : WaitMode::spin_then_futex});
             Doomed doomed(link, Side::second, k, [&](Segment& segment) {
-                serve(view_as<PointedAtomics>(segment.find_call_queue(Side::first, "c")->view), scenario);
+                serve(view_as<CrashPointAtomics>(segment.find_call_queue(Side::first, "c")->view), scenario);
             });
             const auto arguments = payload(scenario.bytes);
             const auto began = now_ns();
-            const Reply reply = client.call(1, arguments, 300s);
+            const Reply reply = client.call(arguments, 300s);
             CHECK(now_ns() - began < 60 * second_ns);
             died = doomed.died() ? 1 : 0;
             CAPTURE(scenario.name, k, doomed.point(), name_of(reply.status));
@@ -89,10 +88,9 @@ TEST_CASE("a worker killed behind any of its stores costs the caller an error at
                 CHECK(reply.bytes == arguments);
             else
                 CHECK((reply.status == CallStatus::peer_died ||
-                       (scenario.closes &&
-                        (reply.status == CallStatus::shut_down || reply.status == CallStatus::cancelled))));
+                       (scenario.closes && (reply.status == CallStatus::shut_down))));
             if (died == 0 && !scenario.closes) CHECK(reply.status == CallStatus::ok);
-            const CallStatus next = client.call(2, arguments, 300s).status;
+            const CallStatus next = client.call(arguments, 300s).status;
             CHECK((next == CallStatus::peer_died || (scenario.closes && next == CallStatus::shut_down)));
             CHECK(client.counters().in_use == 0);
             check_that_the_link_goes_on(link, survivor);
@@ -111,7 +109,7 @@ struct CallerScenario {
 CallTicket submit(Caller& caller, std::size_t bytes, bool waits) {
     CallTicket ticket;
     const auto arguments = payload(bytes);
-    caller.begin(1, arguments.data(), bytes, 20 * second_ns, 0, waits, ticket);
+    caller.begin(arguments.data(), bytes, 20 * second_ns, 0, waits, ticket);
     return ticket;
 }
 
@@ -119,7 +117,7 @@ void collect(Caller& caller, const CallTicket& ticket) {
     if (caller.reply(ticket) == 0) return;
     std::vector<std::byte> results(512);
     caller.copy_results(ticket, results.data(), length_of(caller.reply(ticket)));
-    caller.done(ticket);
+    caller.finish(ticket);
 }
 
 const std::vector<CallerScenario> callers = {
@@ -141,11 +139,10 @@ const std::vector<CallerScenario> callers = {
          const auto ticket = submit(caller, 8, false);
          if (!caller.withdraw(ticket)) collect(caller, ticket);
      }},
-    {"a cancelled call and its successor",
+    {"a call given up and its successor",
      [](Caller& caller) {
          const auto first = submit(caller, 8, false);
-         caller.cancel(first);
-         if (!caller.withdraw(first)) caller.done(first);
+         if (!caller.withdraw(first)) caller.finish(first);
          const auto second = submit(caller, 100, false);
          caller.spin(second, now_ns() + 20 * second_ns);
          collect(caller, second);
@@ -171,7 +168,7 @@ TEST_CASE("a caller killed behind any of its stores costs the server nothing") {
             survivor->publish();
             CallServer server(queue, {.mode = mode});
             Doomed doomed(link, Side::first, k, [&](Segment& segment) {
-                Caller caller(view_as<PointedAtomics>(segment.find_call_queue(Side::second, "c")->view));
+                Caller caller(view_as<CrashPointAtomics>(segment.find_call_queue(Side::second, "c")->view));
                 scenario.work(caller);
             });
             bool sound = true;

@@ -2,7 +2,7 @@
 // A process that dies at the k-th point of what it does, and what must hold for the one that survives it.
 #pragma once
 #include "../shm/fixture.hpp"
-#include "pointed_atomics.hpp"
+#include "crash_point_atomics.hpp"
 
 #include <set>
 
@@ -46,7 +46,7 @@ class Doomed {
 /// The peer is dead; the link goes on in the next generation, and nothing is left when all have gone.
 inline void check_that_the_link_goes_on(const Link& link, std::unique_ptr<Segment>& survivor) {
     const Side side = survivor->side();
-    CHECK(survivor->peer() == PeerState::dead);
+    CHECK(survivor->peer_state() == PeerState::dead);
     const std::uint64_t before = survivor->generation();
     auto restarted = join(link, other(side));
     CHECK(restarted->generation() > before);
@@ -54,7 +54,7 @@ inline void check_that_the_link_goes_on(const Link& link, std::unique_ptr<Segmen
     survivor.reset();
     survivor = join(link, side);
     CHECK(survivor->generation() == restarted->generation());
-    CHECK(survivor->peer() == PeerState::alive);
+    CHECK(survivor->peer_state() == PeerState::alive);
     restarted.reset();
     survivor.reset();
     CHECK(link.files().empty());

@@ -19,27 +19,21 @@ namespace {
 constexpr std::size_t arena = 64 * 1024;
 constexpr off_t whole = layout::arenas_begin + 2 * arena;
 
-RingOptions in_place(Side writer) {
-    return {.writer = writer,
-            .policy = RingPolicy::reject,
-            .max_record = 200,
-            .capacity = 8192,
-            .chunk_bytes = 8192,
-            .chunks = 2};
+RingOptions with_chunks(Side writer) {
+    return {.writer = writer, .max_record = 200, .capacity = 8192, .chunk_bytes = 8192, .chunks = 2};
 }
 
 /// Everything that a side can do with what it had found; none of it may end the process.
 void use_all(Segment& mine, RingWriter& writer, RingReader& reader, CallClient& client, CallServer& server) {
     for (int i = 0; i < 100; ++i) {
         mine.heartbeat();
-        mine.peer();
+        mine.peer_state();
         mine.doorbell().poll();
         mine.ring_peer(1);
-        writer.write(bytes_of(std::string(static_cast<std::size_t>(i * 90), 'x')), 1, 1);
-        reader.peek();
+        writer.write(bytes_of(std::string(static_cast<std::size_t>(i * 90), 'x')), 1);
         reader.read();
-        reader.consume([](const Record&) {}, 3);
-        client.call(1, bytes_of("x"), 10us);
+        reader.read_newest();
+        client.call(bytes_of("x"), 10us);
         if (auto call = server.take(0ns)) call->reply(CallStatus::ok);
     }
     try {
@@ -92,8 +86,8 @@ TEST_CASE("with the guard a file that is cut while in use ends no process and su
             install_truncation_guard(); // once is enough
             auto first = join(link, Side::first, small(arena));
             auto second = join(link, Side::second, small(arena));
-            RingReader reader(first->add_ring("to-first", in_place(Side::second)));
-            RingWriter writer(first->add_ring("to-second", in_place(Side::first)));
+            RingReader reader(first->add_ring("to-first", with_chunks(Side::second)));
+            RingWriter writer(first->add_ring("to-second", with_chunks(Side::first)));
             CallClient client(first->add_call_queue("c", {.slots = 2, .max_bytes = 64}));
             first->publish();
             CallServer server(*second->find_call_queue(Side::first, "c"));
@@ -108,7 +102,7 @@ TEST_CASE("with the guard a file that is cut while in use ends no process and su
             // The next generation is as good as new.
             first = join(link, Side::first, small(arena));
             second = join(link, Side::second, small(arena));
-            return first->peer() == PeerState::alive ? 0 : 5;
+            return first->peer_state() == PeerState::alive ? 0 : 5;
         });
         CAPTURE(bytes);
         CHECK(cut.wait() == 0);

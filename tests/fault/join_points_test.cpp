@@ -63,7 +63,8 @@ TEST_CASE("killed between any two system calls of join or leave a side is only d
             CAPTURE(scenario.name, points, stepped.point());
             REQUIRE(stepped.result() == 0);
             if (survivor)
-                CHECK((survivor->peer() == PeerState::dead || survivor->peer() == PeerState::absent));
+                CHECK((survivor->peer_state() == PeerState::dead ||
+                       survivor->peer_state() == PeerState::absent));
 
             // The side that died comes back, and both meet.
             auto back = join(link, Side::second, small(4096));
@@ -72,8 +73,8 @@ TEST_CASE("killed between any two system calls of join or leave a side is only d
                 survivor = join(link, Side::first, small(4096));
             }
             CHECK(survivor->generation() == back->generation());
-            CHECK(survivor->peer() == PeerState::alive);
-            CHECK(back->peer() == PeerState::alive);
+            CHECK(survivor->peer_state() == PeerState::alive);
+            CHECK(back->peer_state() == PeerState::alive);
             CHECK(link.files().size() == 1);
             back.reset();
             survivor.reset();

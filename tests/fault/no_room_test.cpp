@@ -53,16 +53,16 @@ TEST_CASE(
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
         Link link;
-        options.loan_bytes = std::size_t{64} << 20;
+        options.chunk_pool_bytes = std::size_t{64} << 20;
         const auto first = join(link, Side::first, options);
-        options.loan_bytes = 0;
+        options.chunk_pool_bytes = 0;
         const auto second = join(link, Side::second, options);
         RingWriter writer(first->add_ring(
             "r", {.max_record = 1000, .capacity = 4096, .chunk_bytes = std::size_t{4} << 20, .chunks = 4}));
         first->publish();
         RingReader reader(*second->find_ring(Side::first, "r"));
         const std::string fits(100'000, 'f'), not_at_all(3'000'000, 'n');
-        const auto sent = [&](const std::string& text) { return writer.write(bytes_of(text), 0, 0); };
+        const auto sent = [&](const std::string& text) { return writer.write(bytes_of(text), 0); };
         if (sent(not_at_all) || sent(not_at_all)) return 1;
         if (!sent("small") || text_of(reader.read()->bytes) != "small") return 2;
         const auto counters = writer.counters();
@@ -82,9 +82,9 @@ TEST_CASE("a ring whose chunks do not all find memory goes on with those that do
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
         Link link;
-        options.loan_bytes = std::size_t{2} << 20;
+        options.chunk_pool_bytes = std::size_t{2} << 20;
         const auto first = join(link, Side::first, options);
-        options.loan_bytes = 0;
+        options.chunk_pool_bytes = 0;
         const auto second = join(link, Side::second, options);
         constexpr std::size_t large = 300'000; // two of them fit, of four
         RingWriter writer(
@@ -96,11 +96,11 @@ TEST_CASE("a ring whose chunks do not all find memory goes on with those that do
         };
         std::uint64_t sent = 0;
         while (sent < 20) // the oldest make room, as if there were two chunks
-            if (++sent; !writer.write(bytes_of(image(sent)), 0, 0)) return 1;
+            if (++sent; !writer.write(bytes_of(image(sent)), 0)) return 1;
         for (std::uint64_t i = 19; i <= 20; ++i)
             if (const auto record = reader.read(); !record || text_of(record->bytes) != image(i)) return 2;
         while (sent < 40) {
-            if (++sent; !writer.write(bytes_of(image(sent)), 0, 0)) return 3;
+            if (++sent; !writer.write(bytes_of(image(sent)), 0)) return 3;
             if (const auto record = reader.read(); !record || text_of(record->bytes) != image(sent)) return 4;
         }
         const auto c = writer.counters();
@@ -177,7 +177,7 @@ TEST_CASE("another user is refused whichever side is free and cannot remove the 
         WARN("skipped: this process may not become another user");
     else
         CHECK(result == 0);
-    CHECK(first->peer() == PeerState::absent);
+    CHECK(first->peer_state() == PeerState::absent);
     auto second = join(link, Side::second);
     CHECK(second->generation() == first->generation());
 }

@@ -8,6 +8,8 @@
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 
+#include <future>
+
 namespace tandem::shm::test {
 
 /// What one side has noted. flowing_ns: when it had received a record and a reply for the first time since it
@@ -34,13 +36,17 @@ class Visit {
         segment_->publish();
     }
 
-    bool over() const { return segment_->peer() == PeerState::dead || segment_->superseded(); }
+    ~Visit() { client_.shut_down(); } // so that the pending call ends soon; the future waits for it
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+
+    bool over() const { return segment_->peer_state() == PeerState::dead || segment_->superseded(); }
 
     void turn() {
         segment_->heartbeat();
         ++number_;
         const std::vector<std::uint64_t> payload(1 + number_ % 20, number_);
-        writer_.write(std::as_bytes(std::span(payload)), number_, 0);
+        writer_.write(std::as_bytes(std::span(payload)), number_);
         if (!reader_ && segment_->peer_published()) meet();
         if (!reader_) return;
         receive();
@@ -68,22 +74,26 @@ class Visit {
             if (record->sequence <= sequence_ || record->bytes.size() != 8 * (1 + record->stamp_ns % 20))
                 ++noted_.wrong;
             sequence_ = record->sequence;
-            ++records_, ++noted_.records;
+            ++records_;
+            ++noted_.records;
         }
         if (reader_->corrupt() || writer_.corrupt()) ++noted_.wrong;
     }
 
+    /// Begins a call in a thread of its own, or takes its reply if it has come.
     void exchange_call() {
         const std::string text = std::to_string(asked_);
-        if (!pending_) {
-            pending_.emplace(client_.begin(1, bytes_of(text), 10s));
-        } else if (pending_->ready()) {
-            const Reply reply = pending_->wait();
-            pending_.reset();
-            if (reply.status == CallStatus::ok && reply.text() == text)
-                ++calls_, ++noted_.calls;
-            else if (reply.status != CallStatus::shut_down && reply.status != CallStatus::cancelled)
+        if (!pending_.valid()) {
+            pending_ =
+                std::async(std::launch::async, [this, text] { return client_.call(bytes_of(text), 10s); });
+        } else if (pending_.wait_for(0s) == std::future_status::ready) {
+            const Reply reply = pending_.get();
+            if (reply.status == CallStatus::ok && reply.text() == text) {
+                ++calls_;
+                ++noted_.calls;
+            } else if (reply.status != CallStatus::shut_down && reply.status != CallStatus::peer_died) {
                 ++noted_.wrong;
+            }
             ++asked_;
         }
     }
@@ -94,7 +104,7 @@ class Visit {
     CallClient client_;
     std::optional<RingReader> reader_;
     std::optional<CallServer> server_;
-    std::optional<PendingCall> pending_;
+    std::future<Reply> pending_;
     bool flowing_ = false;
     std::uint64_t number_ = 0, sequence_ = 0, records_ = 0, calls_ = 0, asked_ = 0;
 };

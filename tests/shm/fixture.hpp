@@ -2,7 +2,6 @@
 // What the tests of this room share: links of their own, child processes, a look into /dev/shm, stress sizes.
 #pragma once
 #include "shm/segment.hpp"
-#include "tests/shm/ring/all_policies.hpp"
 
 #include <catch2/catch.hpp>
 #include <chrono>

@@ -13,8 +13,6 @@ RingView<A> view_as(const RingView<RealAtomics>& real) {
     view.cells = real.cells;
     view.capacity = real.capacity;
     view.max_record = real.max_record;
-    view.wait_ns = real.wait_ns;
-    view.policy = real.policy;
     view.chunk_bytes = real.chunk_bytes;
     view.chunk_count = real.chunk_count;
     view.chunk_words = reinterpret_cast<layout::BasicChunkWords<A>*>(real.chunk_words);

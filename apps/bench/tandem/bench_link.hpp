@@ -90,7 +90,7 @@ inline void write_message(shm::RingWriter& ring, std::size_t bytes, std::uint64_
     const std::span<std::byte> room = ring.reserve(bytes);
     if (room.data() == nullptr) throw std::runtime_error("the ring has no room for a message");
     fill_message(room.data(), bytes, sequence);
-    ring.commit(bytes, sequence, 0);
+    ring.commit(bytes, sequence);
 }
 
 } // namespace tandem::bench

@@ -16,7 +16,6 @@ namespace {
 constexpr std::size_t bytes = 64, max_bytes = 4096, arena_bytes = std::size_t{1} << 20U;
 constexpr const char* queue_name = "calls";
 constexpr std::chrono::seconds call_timeout{10};
-constexpr std::uint32_t operation = 1; // the queue carries the number and gives it no meaning
 
 /// The client's side owns the queue; the server finds it.
 shm::CallQueueHandle open_queue(BenchLink& link, bool is_client) {
@@ -43,8 +42,7 @@ class BenchCallClient {
     // The reply must hold the number of the request: a late reply to another call would be noticed.
     std::uint64_t call(std::uint64_t sequence) {
         fill_message(message_, bytes, sequence);
-        const auto status =
-            client_.call_into(operation, std::as_bytes(std::span(message_)), call_timeout, reply_);
+        const auto status = client_.call_into(std::as_bytes(std::span(message_)), call_timeout, reply_);
         if (status != shm::CallStatus::ok || reply_.size() != bytes)
             throw std::runtime_error(fmt::format("call {}: {}", sequence, shm::name_of(status)));
         return checked_sequence(reply_.data(), bytes);

@@ -38,11 +38,9 @@ std::string sides_text(const shm::ObservedSegment& segment) {
 
 std::string description(const shm::ObservedRing& ring) {
     if (!ring.damage.empty()) return "damaged: " + ring.damage;
-    std::string policy = word_of(ring.policy);
-    if (ring.policy == shm::RingPolicy::wait) policy += " " + duration_text(ring.wait_ns);
-    std::string text = fmt::format("{} writes, {}, {} in records of up to {}", name_of(ring.writer), policy,
+    std::string text = fmt::format("{} writes, {} in records of up to {}", name_of(ring.writer),
                                    bytes_text(ring.capacity), bytes_text(ring.max_record));
-    if (ring.chunks != 0) text += fmt::format(", {} loans of {}", ring.chunks, bytes_text(ring.chunk_bytes));
+    if (ring.chunks != 0) text += fmt::format(", {} chunks of {}", ring.chunks, bytes_text(ring.chunk_bytes));
     return text;
 }
 
@@ -55,11 +53,11 @@ std::string description(const shm::ObservedCallQueue& queue) {
 std::string objects_text(const shm::Observation& seen) {
     Table table({"object", "kind", "in", "of"});
     for (const auto& ring : seen.rings)
-        table.add({printable(ring.name), "ring", name_of(ring.half), description(ring)});
+        table.add({printable(ring.name), "ring", name_of(ring.owner), description(ring)});
     for (const auto& queue : seen.call_queues)
-        table.add({printable(queue.name), "call queue", name_of(queue.half), description(queue)});
+        table.add({printable(queue.name), "call queue", name_of(queue.owner), description(queue)});
     for (const auto& blob : seen.blobs)
-        table.add({printable(blob.name), "blob", name_of(blob.half), bytes_text(blob.bytes)});
+        table.add({printable(blob.name), "blob", name_of(blob.owner), bytes_text(blob.bytes)});
     std::string text = table.empty() ? "no objects\n" : table.text();
     for (const auto& damage : seen.damage) text += "damaged: " + damage + "\n";
     return text;
@@ -67,7 +65,7 @@ std::string objects_text(const shm::Observation& seen) {
 
 nlohmann::json common_json(const shm::ObservedObject& object, const char* kind) {
     nlohmann::json json{
-        {"name", object.name}, {"kind", kind}, {"half", name_of(object.half)}, {"bytes", object.bytes}};
+        {"name", object.name}, {"kind", kind}, {"owner", name_of(object.owner)}, {"bytes", object.bytes}};
     if (!object.damage.empty()) json["damage"] = object.damage;
     return json;
 }
@@ -78,12 +76,10 @@ nlohmann::json objects_json(const shm::Observation& seen) {
         auto json = common_json(ring, "ring");
         if (ring.damage.empty())
             json.update({{"writer", name_of(ring.writer)},
-                         {"policy", word_of(ring.policy)},
                          {"capacity", ring.capacity},
                          {"max_record", ring.max_record},
                          {"chunks", ring.chunks},
-                         {"chunk_bytes", ring.chunk_bytes},
-                         {"wait_ns", ring.wait_ns}});
+                         {"chunk_bytes", ring.chunk_bytes}});
         list.push_back(json);
     }
     for (const auto& queue : seen.call_queues) {

@@ -10,11 +10,11 @@
 namespace tandem::command {
 namespace {
 
-/// The object of that name and half at the earlier look; nullptr if it was not there, or not sound.
+/// The object of that name and owner in the earlier observation; nullptr if it was not there, or damaged.
 template <class View>
 const View* earlier(const std::vector<View>& before, const View& now) {
     const auto found = std::find_if(before.begin(), before.end(), [&](const View& view) {
-        return view.name == now.name && view.half == now.half && view.damage.empty();
+        return view.name == now.name && view.owner == now.owner && view.damage.empty();
     });
     return found != before.end() && now.damage.empty() ? &*found : nullptr;
 }

@@ -37,20 +37,6 @@ const char* word_of(shm::PeerState state) {
     return "dead";
 }
 
-const char* word_of(shm::RingPolicy policy) {
-    switch (policy) {
-    case shm::RingPolicy::latest_only:
-        return "latest only";
-    case shm::RingPolicy::drop_oldest:
-        return "drop oldest";
-    case shm::RingPolicy::reject:
-        return "reject";
-    case shm::RingPolicy::wait:
-        return "wait";
-    }
-    return "unknown";
-}
-
 std::string side_text(const shm::ObservedSegment& segment, shm::Side which) {
     const shm::ObservedSide& side = segment.side(which);
     if (segment.readability == shm::Readability::foreign) return "-";

@@ -11,7 +11,6 @@ namespace tandem::command {
 
 const char* word_of(shm::Readability readability);
 const char* word_of(shm::PeerState state);
-const char* word_of(shm::RingPolicy policy);
 
 std::string side_text(const shm::ObservedSegment& segment, shm::Side side); ///< "alive, pid 123"
 nlohmann::json to_json(const shm::ObservedSegment& segment);

@@ -15,14 +15,13 @@ namespace {
 Child writing_host(const std::string& link, Side side) {
     Child child([=] {
         const auto segment = Segment::join(link, side, small());
-        RingWriter writer(segment->add_ring(
-            "odometry",
-            {.writer = side, .policy = RingPolicy::drop_oldest, .max_record = 100, .capacity = 4096}));
+        RingWriter writer(
+            segment->add_ring("odometry", {.writer = side, .max_record = 100, .capacity = 4096}));
         segment->add_call_queue("services", {.callers = side, .slots = 4, .max_bytes = 100});
         segment->publish();
         for (;;) {
             segment->heartbeat();
-            writer.write(bytes_of("eight doubles"), now_ns(), 0);
+            writer.write(bytes_of("eight doubles"), now_ns());
             std::this_thread::sleep_for(1ms);
         }
         return 0;
@@ -97,9 +96,8 @@ TEST_CASE("a segment of another user is listed and neither read nor removed") {
 
 TEST_CASE("info shows every object of both halves") {
     const Pair pair;
-    pair.first->add_ring("scan", {.policy = RingPolicy::latest_only, .max_record = 1000, .capacity = 4096});
-    pair.second->add_ring(
-        "stick", {.writer = Side::second, .policy = RingPolicy::wait, .max_record = 100, .capacity = 4096});
+    pair.first->add_ring("scan", {.max_record = 1000, .capacity = 4096});
+    pair.second->add_ring("stick", {.writer = Side::second, .max_record = 100, .capacity = 4096});
     pair.second->add_call_queue("calls", {.slots = 5, .max_bytes = 100});
     pair.second->add_blob("table", 321);
     pair.first->publish();
@@ -107,12 +105,12 @@ TEST_CASE("info shows every object of both halves") {
     const auto text = shm_program({"info", pair.link.name});
     CHECK(text.exit_code == 0);
     for (const char* part :
-         {"scan", "latest only", "stick", "second writes, wait 10 ms", "calls", "5 slots", "table", "321 B"})
+         {"scan", "first writes, 4.0 KiB", "stick", "second writes,", "calls", "5 slots", "table", "321 B"})
         CHECK(text.says(part));
     const auto json = shm_program({"info", pair.link.name, "--json"}).json();
     REQUIRE(json["objects"].size() == 4);
     CHECK(json["objects"][0]["name"] == "scan");
-    CHECK(json["objects"][0]["policy"] == "latest only");
+    CHECK(json["objects"][0]["owner"] == "first");
     CHECK(json["damage"].empty());
 }
 

@@ -21,10 +21,10 @@ TEST_CASE("a caller whose server is killed in the call learns it long before the
         kill(serving.pid(), SIGKILL);
     });
     const auto before = now_ns();
-    CHECK(client.call(1, bytes_of("x"), 300s).status == CallStatus::peer_died);
+    CHECK(client.call(bytes_of("x"), 300s).status == CallStatus::peer_died);
     CHECK(now_ns() - before < 60'000'000'000);
     killer.join();
-    CHECK(client.call(1, {}, 300s).status == CallStatus::peer_died); // and so does the next, taken by nobody
+    CHECK(client.call({}, 300s).status == CallStatus::peer_died); // and so does the next, taken by nobody
     CHECK(client.counters().in_use == 0);
 }
 
@@ -36,15 +36,15 @@ TEST_CASE("a killed caller's slots are freed and its running call does no harm")
     Child calling([&] {
         auto first = join(link, Side::first);
         CallClient client(*first->find_call_queue(Side::second, "c"));
-        std::thread other([&] { client.call(2, {}, 300s); });
-        client.call(1, bytes_of("x"), 300s);
+        std::thread other([&] { client.call({}, 300s); });
+        client.call(bytes_of("x"), 300s);
         return 0;
     });
     auto running = server.take(30s);
     REQUIRE(running);
     REQUIRE(eventually([&] { return server.counters().calls == 2; }));
     calling.kill_now();
-    CHECK(second->peer() == PeerState::dead);
+    CHECK(second->peer_state() == PeerState::dead);
     running->reply(CallStatus::ok, std::string("too late"));
     // The other call may have been submitted completely or not: either it is handed out once more or just
     // freed.
@@ -72,7 +72,7 @@ TEST_CASE("a server killed at any moment gives every caller an error or its resu
             callers.emplace_back([&, caller] {
                 for (std::size_t i = 0;; ++i) {
                     const std::string text = std::to_string(caller) + "/" + std::to_string(i);
-                    const Reply reply = client.call(1, bytes_of(text), 300s);
+                    const Reply reply = client.call(bytes_of(text), 300s);
                     if (reply.status == CallStatus::ok && reply.text() != text) ++wrong;
                     if (reply.status == CallStatus::ok) continue;
                     ++(reply.status == CallStatus::peer_died ? died : wrong);
@@ -103,7 +103,7 @@ TEST_CASE("callers killed at any moment leave a server that serves on with the n
             std::vector<std::thread> callers;
             for (int i = 0; i < 3; ++i)
                 callers.emplace_back([&] {
-                    for (;;) client.call(1, bytes_of("x"), 300s);
+                    for (;;) client.call(bytes_of("x"), 300s);
                 });
             for (;;) pause();
             return 0;

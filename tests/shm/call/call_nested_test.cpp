@@ -7,7 +7,8 @@ using namespace tandem::shm::test;
 
 namespace {
 
-/// A call with operation n makes the other side call back with n - 1, down to 0.
+/// A call whose arguments begin with the digit n makes the peer call back with n - 1, down to 0. The reply of the last
+/// one comes back through all.
 struct TwoWays : Pair {
     TwoWays(std::uint32_t slots, int workers)
         : to_second(first->add_call_queue("forth", options(Side::first, slots))),
@@ -22,12 +23,17 @@ struct TwoWays : Pair {
         return {.callers = callers, .slots = slots, .max_bytes = 64};
     }
     void go_down(IncomingCall& call, CallClient& onward) {
-        if (call.operation() == 0) return echo(call);
-        const auto left =
-            std::chrono::nanoseconds(call.deadline_ns() - std::min(now_ns(), call.deadline_ns()));
-        const Reply reply = onward.call(call.operation() - 1, call.arguments(), left);
+        std::string text = text_of(call.arguments());
+        if (text.at(0) == '0') return call.reply(CallStatus::ok, text.substr(1));
+        --text[0];
+        const Reply reply = onward.call(bytes_of(text), timeout);
         call.reply(reply.status, reply.bytes);
     }
+    Reply call(CallClient& client, std::size_t depth, const std::string& text) const {
+        return client.call(bytes_of(std::to_string(depth) + text), timeout);
+    }
+
+    std::chrono::nanoseconds timeout = 20s; // of each call
 
     CallClient to_second;
     CallServer at_first, at_second;
@@ -40,8 +46,8 @@ struct TwoWays : Pair {
 TEST_CASE("calls that call back into the caller do not deadlock") {
     TwoWays ways(4, 4);
     // A chain of 8 calls enters each queue 4 times: it needs all slots and all workers of both.
-    for (std::uint32_t depth = 0; depth < 8; ++depth)
-        CHECK(ways.to_second.call(depth, bytes_of("there and back"), 20s).text() == "there and back");
+    for (std::size_t depth = 0; depth < 8; ++depth)
+        CHECK(ways.call(ways.to_second, depth, "there and back").text() == "there and back");
     CHECK(ways.to_second.counters().in_use == 0);
     CHECK(ways.to_first.counters().in_use == 0);
 }
@@ -55,7 +61,7 @@ TEST_CASE("many chains of nested calls at once from both sides all come back") {
             auto& client = i % 2 == 0 ? ways.to_second : ways.to_first;
             for (std::size_t round = 0; round < stress(100); ++round) {
                 const std::string text = std::to_string(i) + "/" + std::to_string(round);
-                const Reply reply = client.call(static_cast<std::uint32_t>(round % 5), bytes_of(text), 60s);
+                const Reply reply = ways.call(client, round % 5, text);
                 if (reply.status != CallStatus::ok || reply.text() != text) ++wrong;
             }
         });
@@ -65,15 +71,17 @@ TEST_CASE("many chains of nested calls at once from both sides all come back") {
 
 TEST_CASE("a chain of nested calls too long for the slots ends with overload and no deadlock") {
     TwoWays ways(2, 4);
-    CHECK(ways.to_second.call(3, bytes_of("x"), 20s).status == CallStatus::ok);
-    CHECK(ways.to_second.call(4, bytes_of("x"), 20s).status == CallStatus::overload);
-    CHECK(ways.to_second.call(3, bytes_of("x"), 20s).status == CallStatus::ok);
+    CHECK(ways.call(ways.to_second, 3, "x").status == CallStatus::ok);
+    CHECK(ways.call(ways.to_second, 4, "x").status == CallStatus::overload);
+    CHECK(ways.call(ways.to_second, 3, "x").status == CallStatus::ok);
 }
 
 TEST_CASE("a chain of nested calls too long for the workers ends at its deadline") {
     TwoWays ways(8, 2);
-    CHECK(ways.to_second.call(4, bytes_of("x"), 50ms).status == CallStatus::timeout);
+    ways.timeout = 50ms;
+    CHECK(ways.call(ways.to_second, 4, "x").status == CallStatus::timeout);
+    ways.timeout = 20s;
     CHECK(
         eventually([&] { return ways.to_second.counters().in_use + ways.to_first.counters().in_use == 0; }));
-    CHECK(ways.to_second.call(3, bytes_of("x"), 20s).status == CallStatus::ok);
+    CHECK(ways.call(ways.to_second, 3, "x").status == CallStatus::ok);
 }

@@ -13,7 +13,7 @@ TEST_CASE("of calls from eight threads to four workers none is lost or doubled")
     std::atomic<std::size_t> wrong{0};
     {
         Workers workers(calls.server, 4, [&](IncomingCall& call) {
-            ++runs[call.operation()];
+            ++runs[number_of(call)];
             echo(call);
         });
         std::vector<std::thread> threads;
@@ -22,8 +22,7 @@ TEST_CASE("of calls from eight threads to four workers none is lost or doubled")
                 std::vector<std::byte> results;
                 for (std::size_t id = caller * rounds; id < (caller + 1) * rounds; ++id) {
                     const std::string text = std::to_string(id);
-                    const auto status =
-                        calls.client.call_into(static_cast<std::uint32_t>(id), bytes_of(text), 60s, results);
+                    const auto status = calls.client.call_into(bytes_of(text), 60s, results);
                     if (status != CallStatus::ok || text_of(results) != text) ++wrong;
                 }
             });
@@ -39,12 +38,15 @@ TEST_CASE("of calls from eight threads to four workers none is lost or doubled")
 }
 
 TEST_CASE("no call waits while a worker sleeps") {
-    // Begun and not waited for, so that the callers' second look before they sleep does not help.
+    // Callers that only poll, so that their second look before they sleep does not help.
     const auto mode = GENERATE(WaitMode::spin_then_futex, WaitMode::futex);
-    CallPair calls({.slots = 8, .max_bytes = 64}, {.mode = mode, .spin = 3us});
+    Pair pair;
+    CallClient client(pair.first->add_call_queue("c", {.slots = 8, .max_bytes = 64}), {WaitMode::spin});
+    pair.first->publish();
+    CallServer server(*pair.second->find_call_queue(Side::first, "c"), {.mode = mode, .spin = 3us});
     std::atomic<std::size_t> ran{0}, late{0};
     {
-        Workers workers(calls.server, 3, [&](IncomingCall& call) {
+        Workers workers(server, 3, [&](IncomingCall& call) {
             ++ran;
             echo(call);
         });
@@ -52,9 +54,7 @@ TEST_CASE("no call waits while a worker sleeps") {
         for (int caller = 0; caller < 2; ++caller)
             threads.emplace_back([&] {
                 for (std::size_t i = 0; i < stress(1500); ++i) {
-                    auto call = calls.client.begin(0, {}, 120s);
-                    if (!eventually([&] { return call.ready(); }, 60s)) ++late;
-                    call.wait();
+                    if (client.call({}, 60s).status != CallStatus::ok) ++late;
                     if (i % 7 == 0) std::this_thread::sleep_for(20us);
                 }
             });
@@ -62,6 +62,46 @@ TEST_CASE("no call waits while a worker sleeps") {
     }
     CHECK(late == 0);
     CHECK(ran == 2 * stress(1500));
+}
+
+TEST_CASE("of calls given up at any moment none runs twice and all slots come back") {
+    const std::size_t rounds = stress(2000), callers = GENERATE(1U, 3U);
+    CallPair calls({.slots = 4, .max_bytes = 64});
+    std::vector<std::atomic<std::uint8_t>> runs(callers * rounds);
+    std::atomic<std::size_t> wrong{0}, timeouts{0};
+    {
+        Workers workers(calls.server, 2, [&](IncomingCall& call) {
+            const std::size_t number = number_of(call);
+            ++runs[number];
+            for (std::size_t pause = 0; pause < number % 97; ++pause) _mm_pause();
+            echo(call);
+        });
+        std::vector<std::thread> threads;
+        for (std::size_t caller = 0; caller < callers; ++caller)
+            threads.emplace_back([&, caller] {
+                for (std::size_t i = 0; i < rounds; ++i) {
+                    const std::size_t number = caller * rounds + i;
+                    const std::string text = std::to_string(number);
+                    // From at once to long after the reply.
+                    const auto timeout =
+                        i % 4 == 0 ? std::chrono::nanoseconds(60s) : std::chrono::nanoseconds(100 * (i % 83));
+                    const Reply reply = calls.client.call(bytes_of(text), timeout);
+                    if (reply.status == CallStatus::ok && (reply.text() != text || runs[number] != 1))
+                        ++wrong;
+                    if (reply.status == CallStatus::timeout)
+                        ++timeouts;
+                    else if (reply.status != CallStatus::ok && reply.status != CallStatus::overload)
+                        ++wrong;
+                }
+            });
+        for (auto& thread : threads) thread.join();
+    }
+    CHECK(wrong == 0);
+    CHECK(std::none_of(runs.begin(), runs.end(), [](const auto& count) { return count > 1; }));
+    const auto counters = calls.client.counters();
+    CHECK(counters.in_use == 0);
+    CHECK(counters.taken == counters.answered);
+    CHECK(counters.timeouts + counters.expired >= timeouts);
 }
 
 TEST_CASE("a caller that only polls has a worker woken though another was expected back") {
@@ -75,8 +115,8 @@ TEST_CASE("a caller that only polls has a worker woken though another was expect
     std::this_thread::sleep_for(20ms); // so that it is this one that polls, and the other one that sleeps
     Workers asleep(server, 1, echo);
     std::this_thread::sleep_for(20ms);
-    CHECK(client.call(0, {}, 5s).status == CallStatus::ok);
-    CHECK(client.call(0, {}, 5s).status == CallStatus::ok);
+    CHECK(client.call({}, 5s).status == CallStatus::ok);
+    CHECK(client.call({}, 5s).status == CallStatus::ok);
     server.interrupt();
     once.join();
 }
@@ -87,7 +127,7 @@ TEST_CASE("calls to a server with a polling worker wake nobody") {
     const std::size_t rounds = 3000;
     std::vector<std::byte> results;
     for (std::size_t i = 0; i < rounds; ++i)
-        REQUIRE(calls.client.call_into(0, bytes_of("x"), 60s, results) == CallStatus::ok);
+        REQUIRE(calls.client.call_into(bytes_of("x"), 60s, results) == CallStatus::ok);
     const auto counters = calls.client.counters();
     CHECK(counters.caller_wakes == 0);
     CHECK(counters.worker_wakes < rounds / 100); // the first calls come while the others lie down

@@ -8,37 +8,35 @@ using namespace tandem::shm::test;
 
 namespace {
 
-constexpr std::uint8_t last_tag = 7;
-
-/// Which lengths a run mixes. by_loan: every 16th payload is too long for the ring and goes by loan.
+/// Which lengths a run mixes. in_chunks: every 16th payload is too long for a
+/// record and lies in a chunk.
 struct Mix {
     const char* name;
-    std::size_t most_words, capacity;
-    bool newest, by_loan;
+    std::size_t max_words, capacity;
+    bool newest, in_chunks;
 };
-constexpr std::size_t max_record = 240, loan_words = 600;
+constexpr std::size_t max_record = 240, chunk_words = 600;
 constexpr Mix mixes[] = {{"one line", 6, 64 * 1024, false, false},
                          {"all lengths in a small ring", 30, 1024, false, false},
                          {"all lengths", 30, 64 * 1024, false, false},
                          {"all lengths, the newest only", 30, 64 * 1024, true, false},
-                         {"loans between", 30, 4096, false, true},
-                         {"loans between, the newest only", 30, 4096, true, true}};
+                         {"chunks between", 30, 4096, false, true},
+                         {"chunks between, the newest only", 30, 4096, true, true}};
 
-RingOptions options_of(const Mix& mix, RingPolicy policy, Side writer) {
-    RingOptions options{.writer = writer,
-                        .policy = policy,
-                        .max_record = max_record,
-                        .capacity = mix.capacity,
-                        .wait = 100us};
-    if (mix.by_loan) options.chunk_bytes = 2 * layout::page, options.chunks = 4;
+RingOptions options_of(const Mix& mix, Side writer) {
+    RingOptions options{.writer = writer, .max_record = max_record, .capacity = mix.capacity};
+    if (mix.in_chunks) {
+        options.chunk_bytes = 2 * layout::page;
+        options.chunks = 4;
+    }
     return options;
 }
 
 /// Length and every word follow from the number.
 std::size_t payload_words(const Mix& mix, std::uint64_t number) {
     const std::uint64_t hash = number * 2654435761U >> 7;
-    if (mix.by_loan && hash % 16 == 0) return max_record / 8 + 1 + hash / 16 % loan_words;
-    return 1 + hash % mix.most_words;
+    if (mix.in_chunks && hash % 16 == 0) return max_record / 8 + 1 + hash / 16 % chunk_words;
+    return 1 + hash % mix.max_words;
 }
 
 void fill(std::span<std::byte> room, std::uint64_t number) {
@@ -63,11 +61,7 @@ struct Got {
     std::uint64_t messages = 0, bad = 0, out_of_order = 0, gaps = 0;
 };
 
-/// A writer that waits hands every few messages to the other thread and back: on a busy machine that takes
-/// its time.
-std::uint64_t messages(RingPolicy policy) {
-    return stress(policy == RingPolicy::wait ? 5000 : 100000, 20'000'000);
-}
+std::uint64_t messages() { return stress(100000, 20'000'000); }
 
 /// Never reached unless something hangs, however busy the machine is.
 std::uint64_t far_away(std::uint64_t count) {
@@ -83,7 +77,7 @@ void send(const Mix& mix, RingWriter& writer, std::uint64_t count) {
             const auto room = writer.reserve(bytes);
             if (room.data() != nullptr) {
                 fill(room, number);
-                writer.commit(bytes, number, number == count ? last_tag : 0);
+                writer.commit(bytes, number);
                 break;
             }
             if (number < count || now_ns() > deadline) break;
@@ -96,7 +90,7 @@ Got receive(const Mix& mix, RingReader& reader, std::uint64_t count) {
     Got got;
     std::uint64_t sequence = 0, stamp = 0;
     const auto deadline = far_away(count);
-    for (std::uint8_t tag = 0; tag != last_tag && now_ns() < deadline && !reader.corrupt();) {
+    while (stamp < count && now_ns() < deadline && !reader.corrupt()) {
         const auto record = mix.newest ? reader.read_newest() : reader.read();
         if (!record) {
             std::this_thread::yield();
@@ -108,7 +102,6 @@ Got receive(const Mix& mix, RingReader& reader, std::uint64_t count) {
         got.gaps += record->sequence - sequence - 1;
         sequence = record->sequence;
         stamp = record->stamp_ns;
-        tag = record->tag;
     }
     return got;
 }
@@ -125,12 +118,10 @@ void check(const Got& got, const RingCounters& c, std::uint64_t count) {
 } // namespace
 
 TEST_CASE("between two threads nothing is torn doubled or unaccounted for") {
-    const auto policy =
-        GENERATE(RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject, RingPolicy::wait);
     const Mix mix = mixes[GENERATE(range(0, static_cast<int>(std::size(mixes))))];
     Pair pair;
-    const std::uint64_t count = messages(policy);
-    RingWriter writer(pair.first->add_ring("r", options_of(mix, policy, Side::first)));
+    const std::uint64_t count = messages();
+    RingWriter writer(pair.first->add_ring("r", options_of(mix, Side::first)));
     pair.first->publish();
     // Through the writer's addresses: the thread sanitizer knows words by address, and would see no
     // connection between the two mappings that the sides have in one process.
@@ -138,7 +129,7 @@ TEST_CASE("between two threads nothing is torn doubled or unaccounted for") {
     const auto same = *pair.first->find_ring(Side::first, "r");
     handle.view = same.view;
     RingReader reader(handle);
-    CAPTURE(policy, mix.name);
+    CAPTURE(mix.name);
     Got got;
     std::thread thread([&] { got = receive(mix, reader, count); });
     send(mix, writer, count);
@@ -149,17 +140,15 @@ TEST_CASE("between two threads nothing is torn doubled or unaccounted for") {
 }
 
 TEST_CASE("between two processes nothing is torn doubled or unaccounted for") {
-    const auto policy =
-        GENERATE(RingPolicy::latest_only, RingPolicy::drop_oldest, RingPolicy::reject, RingPolicy::wait);
     const Mix mix = mixes[GENERATE(1, 4)];
     Link link;
-    const std::uint64_t count = messages(policy);
+    const std::uint64_t count = messages();
     Child sender([&] {
         auto second = join(link, Side::second);
-        RingWriter writer(second->add_ring("r", options_of(mix, policy, Side::second)));
+        RingWriter writer(second->add_ring("r", options_of(mix, Side::second)));
         second->publish();
         send(mix, writer, count);
-        return eventually([&] { return second->peer() == PeerState::dead; }, 100s) ? 0 : 1;
+        return eventually([&] { return second->peer_state() == PeerState::dead; }, 100s) ? 0 : 1;
     });
     std::unique_ptr<Segment> first;
     REQUIRE(eventually([&] { return !link.files().empty(); }));
@@ -176,31 +165,29 @@ TEST_CASE("between two processes nothing is torn doubled or unaccounted for") {
 }
 
 TEST_CASE("a writer killed at any moment leaves whole records only") {
-    const auto policy = GENERATE(RingPolicy::drop_oldest, RingPolicy::reject);
     const Mix mix = mixes[GENERATE(1, 4)];
     for (std::size_t round = 0; round < stress(20, 1000); ++round) {
         Link link;
         auto first = join(link, Side::first);
         Child sender([&] {
             auto second = join(link, Side::second);
-            RingWriter writer(second->add_ring("r", options_of(mix, policy, Side::second)));
+            RingWriter writer(second->add_ring("r", options_of(mix, Side::second)));
             second->publish();
             send(mix, writer, ~std::uint64_t{0});
             return 0;
         });
         REQUIRE(eventually([&] { return first->peer_published(); }));
         RingReader reader(*first->find_ring(Side::second, "r"));
-        std::size_t read = 0;
         const auto until = deadline_after(std::chrono::microseconds(500 + 37 * round));
         bool whole = true;
         while (now_ns() < until)
-            if (const auto record = reader.read()) whole = whole && intact(mix, *record), ++read;
+            if (const auto record = reader.read()) whole = whole && intact(mix, *record);
         sender.kill_now();
         for (int i = 0; i < 1000; ++i)
-            if (const auto record = reader.read()) whole = whole && intact(mix, *record), ++read;
+            if (const auto record = reader.read()) whole = whole && intact(mix, *record);
         CHECK(whole);
         CHECK_FALSE(reader.corrupt());
         CHECK(reader.empty());
-        CHECK(first->peer() == PeerState::dead);
+        CHECK(first->peer_state() == PeerState::dead);
     }
 }

@@ -33,9 +33,9 @@ TEST_CASE("a killed peer is dead at once and nothing is left after the survivor 
     Link link;
     auto first = join(link, Side::first);
     Child second = stays_in(link, Side::second);
-    REQUIRE(eventually([&] { return first->peer() == PeerState::alive; }));
+    REQUIRE(eventually([&] { return first->peer_state() == PeerState::alive; }));
     second.kill_now();
-    CHECK(first->peer() == PeerState::dead);
+    CHECK(first->peer_state() == PeerState::dead);
     first.reset();
     CHECK(link.files().empty());
 }
@@ -46,11 +46,11 @@ TEST_CASE("a stopped peer is late and not dead") {
     options.late_after = 20ms;
     auto first = join(link, Side::first, options);
     Child second = stays_in(link, Side::second);
-    REQUIRE(eventually([&] { return first->peer() != PeerState::absent; }));
+    REQUIRE(eventually([&] { return first->peer_state() != PeerState::absent; }));
     REQUIRE(kill(second.pid(), SIGSTOP) == 0);
-    CHECK(eventually([&] { return first->peer() == PeerState::late; }));
+    CHECK(eventually([&] { return first->peer_state() == PeerState::late; }));
     std::this_thread::sleep_for(30ms);
-    CHECK(first->peer() == PeerState::late);
+    CHECK(first->peer_state() == PeerState::late);
 }
 
 TEST_CASE("when either side restarts the survivor is superseded and both meet in the next generation") {
@@ -63,19 +63,19 @@ TEST_CASE("when either side restarts the survivor is superseded and both meet in
         REQUIRE(eventually([&] { return held(link, restarts); }));
         survivor = join(link, other(restarts));
         before = survivor->generation();
-        CHECK(survivor->peer() != PeerState::dead);
+        CHECK(survivor->peer_state() != PeerState::dead);
         dies.kill_now();
     }
-    CHECK(survivor->peer() == PeerState::dead);
+    CHECK(survivor->peer_state() == PeerState::dead);
     CHECK_FALSE(survivor->superseded());
     auto restarted = join(link, restarts);
     CHECK(restarted->generation() > before);
-    CHECK(restarted->peer() == PeerState::absent);
+    CHECK(restarted->peer_state() == PeerState::absent);
     CHECK(survivor->superseded());
     survivor.reset();
     survivor = join(link, other(restarts));
     CHECK(survivor->generation() == restarted->generation());
-    CHECK(restarted->peer() == PeerState::alive);
+    CHECK(restarted->peer_state() == PeerState::alive);
     CHECK(link.files().size() == 1);
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("when both die either may come back first and finds no trace of the ol
     auto one = join(link, back_first);
     auto two = join(link, other(back_first));
     CHECK(one->generation() == two->generation());
-    CHECK(one->peer() == PeerState::alive);
+    CHECK(one->peer_state() == PeerState::alive);
     CHECK(link.files().size() == 1);
 }
 
@@ -199,7 +199,7 @@ TEST_CASE("two sides that restart again and again at the same time always meet")
             const auto deadline = deadline_after(5s);
             bool there = false;
             while (!there && !segment->superseded() && now_ns() < deadline) {
-                const PeerState peer = segment->peer();
+                const PeerState peer = segment->peer_state();
                 if (peer == PeerState::dead) break;
                 there = peer != PeerState::absent;
                 std::this_thread::yield();

@@ -30,17 +30,17 @@ TEST_CASE("each side sees the other absent then alive then late then dead") {
     auto options = small();
     options.late_after = 50ms;
     auto first = join(link, Side::first, options);
-    CHECK(first->peer() == PeerState::absent);
+    CHECK(first->peer_state() == PeerState::absent);
     auto second = join(link, Side::second, options);
     second->heartbeat();
-    CHECK(first->peer() != PeerState::dead);
+    CHECK(first->peer_state() != PeerState::dead);
     CHECK(eventually([&] {
         second->heartbeat();
-        return first->peer() == PeerState::alive;
+        return first->peer_state() == PeerState::alive;
     }));
-    CHECK(eventually([&] { return first->peer() == PeerState::late; }));
+    CHECK(eventually([&] { return first->peer_state() == PeerState::late; }));
     second.reset();
-    CHECK(first->peer() == PeerState::dead);
+    CHECK(first->peer_state() == PeerState::dead);
 }
 
 TEST_CASE("a side that is held by somebody alive is refused") {
@@ -142,7 +142,7 @@ TEST_CASE("more than the address space holds is refused in one line and nothing 
     Link link;
     JoinOptions options = small();
     options.sparse = true; // so that it is not the memory which is missing
-    options.loan_bytes = std::size_t{1} << 50;
+    options.chunk_pool_bytes = std::size_t{1} << 50;
     CHECK_THROWS_WITH(join(link, Side::first, options),
                       Contains(link.name) && Contains("bytes cannot be mapped"));
     CHECK(link.files().empty());
@@ -170,10 +170,10 @@ TEST_CASE("a side that has left may be taken again while old objects still use t
     Pair pair;
     RingWriter writer(pair.first->add_ring("r", {}));
     pair.first->leave();
-    CHECK(pair.second->peer() == PeerState::dead);
+    CHECK(pair.second->peer_state() == PeerState::dead);
     auto again = join(pair.link, Side::first);
     CHECK(again->generation() == pair.second->generation() + 1);
-    CHECK(writer.write(bytes_of("into the void"), 0, 0));
+    CHECK(writer.write(bytes_of("into the void"), 0));
     pair.first->leave();
     pair.second->leave();
     CHECK(pair.link.files().size() == 1);
@@ -186,5 +186,5 @@ TEST_CASE("a fork()ed child that destroys its copy of a segment does not end its
         return 0;
     });
     CHECK(child.wait() == 0);
-    CHECK(pair.second->peer() != PeerState::dead);
+    CHECK(pair.second->peer_state() != PeerState::dead);
 }

@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t mib = std::size_t{1} << 20, large = 4 * mib;
 constexpr std::uint32_t chunks = 4;
 
-JoinOptions sparse(std::size_t loan_bytes) {
+JoinOptions sparse(std::size_t chunk_pool_bytes) {
     JoinOptions options = small();
-    options.loan_bytes = loan_bytes;
+    options.chunk_pool_bytes = chunk_pool_bytes;
     options.sparse = true;
     return options;
 }
@@ -44,17 +44,17 @@ TEST_CASE("a sparse segment takes memory for what is in it and for the chunks th
     const std::uint64_t without = pair.memory();
     CHECK(without < layout::arenas_begin + mib); // the ring of 256 KiB, and no chunk
     const std::string image(mib + 1, 'i');
-    REQUIRE(pair.writer.write(bytes_of(image), 0, 0));
+    REQUIRE(pair.writer.write(bytes_of(image), 0));
     CHECK(pair.memory() - without >= image.size());
     CHECK(pair.memory() - without <= 2 * mib + layout::page); // of one chunk, as much as is needed
     CHECK(text_of(pair.reader.read()->bytes) == image);
     for (int i = 0; i < 20; ++i) {
-        REQUIRE(pair.writer.write(bytes_of(image), 0, 0));
+        REQUIRE(pair.writer.write(bytes_of(image), 0));
         REQUIRE(pair.reader.read());
     }
     const std::uint64_t warm = pair.memory();
     CHECK(warm - without <= chunks * (2 * mib + layout::page));
-    for (int i = 0; i < 20; ++i) pair.writer.write(bytes_of(image), 0, 0);
+    for (int i = 0; i < 20; ++i) pair.writer.write(bytes_of(image), 0);
     CHECK(pair.memory() == warm);
     const auto c = pair.writer.counters();
     CHECK(c.refused == 0);
@@ -67,7 +67,7 @@ TEST_CASE("payloads that grow in a chunk of a sparse segment stay whole") {
     SparsePair pair;
     for (std::size_t bytes = 2000; bytes <= large; bytes = bytes * 3 / 2) {
         const std::string text(bytes, static_cast<char>('a' + bytes % 26));
-        REQUIRE(pair.writer.write(bytes_of(text), 0, 0));
+        REQUIRE(pair.writer.write(bytes_of(text), 0));
         const auto record = pair.reader.read();
         REQUIRE(record);
         CHECK(text_of(record->bytes) == text);

@@ -54,12 +54,12 @@ TEST_CASE("a watcher wakes when the peer joins late or is killed whether it crea
         REQUIRE(wakes_until(watcher, [&] { return !link.files().empty(); }));
         first = join(link, Side::first);
     }
-    REQUIRE(eventually([&] { return first->peer() != PeerState::absent; }));
+    REQUIRE(eventually([&] { return first->peer_state() != PeerState::absent; }));
     while (watcher.wait(1ms)) {
     }
     kill(second.pid(), SIGKILL);
     CHECK(watcher.wait(10s));
-    CHECK(eventually([&] { return first->peer() == PeerState::dead; }));
+    CHECK(eventually([&] { return first->peer_state() == PeerState::dead; }));
 }
 
 TEST_CASE("looking for the dead does not wake watchers") {
@@ -69,7 +69,7 @@ TEST_CASE("looking for the dead does not wake watchers") {
     remove_dead(link.name);
     CHECK_THROWS_AS(join(link, Side::first), SideTaken);
     first->superseded();
-    first->peer();
+    first->peer_state();
     CHECK_FALSE(watcher.wait(20ms));
 }
 

@@ -108,7 +108,7 @@ TEST_CASE("an owner that looks at its rings is told by the ring alone and no bit
     const std::size_t rounds = stress(2000);
     std::thread sender([&] {
         for (std::size_t i = 0; i < rounds; ++i) {
-            writer.write(bytes_of("x"), i, 0);
+            writer.write(bytes_of("x"), i);
             pair.first->ring_peer(5);
             eventually([&] { return writer.counters().waiting() == 0; });
         }

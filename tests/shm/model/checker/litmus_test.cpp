@@ -211,12 +211,12 @@ Outcome plain_hand_over(Order order) {
             std::uint64_t seen = 0;
             execution.thread("writer", [&] {
                 const std::uint64_t value = 7;
-                A::put_in(&cell, &value, sizeof value);
+                A::copy_plain_to_shared(&cell, &value, sizeof value);
                 flag.store(1, order);
             });
             execution.thread("reader", [&] {
                 if (flag.load(acquire) != 1) return;
-                A::take_out(&seen, &cell, sizeof seen);
+                A::copy_plain_from_shared(&seen, &cell, sizeof seen);
                 execution.require(seen == 7, "what was handed over is whole");
             });
             execution.run();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The policy `A` of shm/atomics.hpp, for code that shall run in the model.
+// The atomics policy (shm/os/atomics.hpp) of code that runs in the model.
 #pragma once
 #include "shm/os/clock.hpp"
 #include "tests/shm/model/checker/execution.hpp"
@@ -106,16 +106,20 @@ struct ModelAtomics {
         Execution::current().store(cell.word(), value, order, at);
     }
 
-    static void copy_out(void* to, const Cell* from, std::size_t bytes, const Site& at = Site::current()) {
+    static void copy_atomic_from_shared(void* to, const Cell* from, std::size_t bytes,
+                                        const Site& at = Site::current()) {
         out(to, from, bytes, [&](const Cell& cell) { return load(cell, Order::acquire, at); });
     }
-    static void copy_in(Cell* to, const void* from, std::size_t bytes, const Site& at = Site::current()) {
+    static void copy_atomic_to_shared(Cell* to, const void* from, std::size_t bytes,
+                                      const Site& at = Site::current()) {
         in(to, from, bytes, [&](Cell& cell, std::uint64_t value) { store(cell, value, Order::release, at); });
     }
-    static void take_out(void* to, const Cell* from, std::size_t bytes, const Site& at = Site::current()) {
+    static void copy_plain_from_shared(void* to, const Cell* from, std::size_t bytes,
+                                       const Site& at = Site::current()) {
         out(to, from, bytes, [&](const Cell& cell) { return Execution::current().take(cell.word(), at); });
     }
-    static void put_in(Cell* to, const void* from, std::size_t bytes, const Site& at = Site::current()) {
+    static void copy_plain_to_shared(Cell* to, const void* from, std::size_t bytes,
+                                     const Site& at = Site::current()) {
         in(to, from, bytes,
            [&](Cell& cell, std::uint64_t value) { Execution::current().put(cell.word(), value, at); });
     }
@@ -140,7 +144,8 @@ struct ModelAtomics {
       public:
         explicit BoundedSleep(std::chrono::nanoseconds bound)
             : deadline_(bound >= longest_wait ? Execution::never : now() + bounded_ns(bound)) {}
-        bool on(Atomic<std::uint32_t>& word, std::uint32_t expected, const Site& at = Site::current()) {
+        bool sleep_while(Atomic<std::uint32_t>& word, std::uint32_t expected,
+                         const Site& at = Site::current()) {
             if (now() >= deadline_) return false;
             futex_wait(word, expected, deadline_, at);
             return true;

@@ -10,7 +10,7 @@ namespace {
 constexpr auto order = Damage::weaker_order, failure = Damage::weaker_failure, no_store = Damage::no_store;
 constexpr const char* caller = "call_caller.hpp";
 constexpr const char* worker = "call_worker.hpp";
-constexpr const char* asleep = "futex.hpp";
+constexpr const char* asleep = "sleep_until.hpp";
 
 constexpr const char* plain =
     "hands over plain data inside of one process, which the model does not see (TSan does)";
@@ -19,7 +19,7 @@ constexpr const char* one_wins =
 constexpr const char* kernel =
     "the kernel's comparison and its barrier in the wake-up say the same once more";
 constexpr const char* twice =
-    "`interrupted_` and `rung` each tell a worker to look again; one of the two suffices";
+    "`interrupted_` and `wake_count` each tell a worker to look again; one of the two suffices";
 constexpr const char* costs = "costs a needless wake-up or a hint only";
 
 const std::vector<Spared> spared{
@@ -29,7 +29,7 @@ const std::vector<Spared> spared{
      {},
      "withdraw() and claim() look again with acquire before the slot is used"},
     {caller,
-     "owner.store(taken, std::memory_order_relaxed)",
+     "owner.store(claimed, std::memory_order_relaxed)",
      no_store,
      {},
      "in the constructor: nobody else is there"},
@@ -39,35 +39,32 @@ const std::vector<Spared> spared{
      {},
      "replied() has read the same word with seq_cst before"},
     {caller, "parked(sequence_of(", order, {}, "what is stored next depends on it"},
-    {caller, "owner.compare_exchange_strong(seen, taken", order, {}, plain},
-    {caller, "owner.compare_exchange_strong(seen, taken", failure, {}, plain},
+    {caller, "owner.compare_exchange_strong(seen, claimed", order, {}, plain},
+    {caller, "owner.compare_exchange_strong(seen, claimed", failure, {}, plain},
     {caller, "owner.store(state, std::memory_order_release)", order, {}, plain},
-    {caller, "layout::CallState::cancelled)", failure, {}, one_wins},
-    {caller, "layout::CallState::abandoned)", order, {}, one_wins},
-    {caller, "layout::CallState::abandoned)", failure, {}, one_wins},
     {caller,
      "request.word.store(with_state(ticket.word",
      no_store,
      {},
      "the server is dead, nobody reads it"},
     {caller, "worker_wakes.fetch_add", no_store, {}, "statistics"},
-    {caller, "header->rung.fetch_add", order, {}, kernel},
+    {caller, "header->wake_count.fetch_add", order, {}, kernel},
     {caller,
-     "if (!ticket.rung &&",
+     "if (!ticket.worker_woken &&",
      order,
      {},
      "begin() has stored the word: what is older cannot be read, and an old `submitted` costs a wake-up "
      "only"},
     {caller,
-     "header->sleepers.load(std::memory_order_seq_cst) != 0)",
+     "header->workers_asleep.load(std::memory_order_seq_cst) != 0)",
      order,
      {},
      "begin() has seen those who lay down before the call was there, and a later look sees no older count; "
      "those who lie down after it see the call"},
     {asleep, "word.store(0, std::memory_order_relaxed)", no_store, {}, costs},
     {asleep, "word.exchange(0,", order, {}, "the load before it is the one that must not miss the sleeper"},
-    {"call_view.hpp", "A::copy_in(cells, at", order, {}, one_wins},
-    {"call_view.hpp", "A::copy_out(to, cells", order, {}, one_wins},
+    {"call_view.hpp", "A::copy_atomic_to_shared(cells, at", order, {}, one_wins},
+    {"call_view.hpp", "A::copy_atomic_from_shared(to, cells", order, {}, one_wins},
     {worker, "busy_[slot].exchange(1,", order, {}, plain},
     {worker, "busy_[slot].store(0,", order, {}, plain},
     {worker, "busy_[taken.slot].store(0,", order, {}, plain},
@@ -78,27 +75,28 @@ const std::vector<Spared> spared{
      Damage::no_comparison,
      {},
      "the callers are dead"},
-    {worker, "const std::uint32_t rung = header.rung.load(", order, {}, kernel},
-    {worker, "header.sleepers.fetch_sub", order, {}, costs},
-    {worker, "header.sleepers.fetch_sub", no_store, {}, costs},
+    {worker, "const std::uint32_t rung = header.wake_count.load(", order, {}, kernel},
+    {worker, "header.workers_asleep.fetch_sub", order, {}, costs},
+    {worker, "header.workers_asleep.fetch_sub", no_store, {}, costs},
     {worker, "interrupted_.store(1,", order, {}, twice},
     {worker, "interrupted_.load(", order, {}, twice},
-    {worker, "header->rung.fetch_add", order, {}, kernel},
-    {worker, "header.rung.fetch_add", order, {}, kernel},
+    {worker, "header->wake_count.fetch_add", order, {}, kernel},
+    {worker, "header.wake_count.fetch_add", order, {}, kernel},
     {worker,
-     "spinning_.exchange(1,",
+     "has_poller_.exchange(1,",
      order,
      {},
-     "who reads the 0 before it also reads no later one, and the store of 0 that ends the watch is in order"},
-    {worker, "spinning_.exchange(1,", no_store, {}, "two workers poll instead of one"},
-    {worker, "^spinning_.store(0,", order, {}, "in stop_watching(), which corrects `watching` itself"},
-    {worker, "^spinning_.store(0,", no_store, {}, "no worker polls any more: each call is rung"},
+     "who reads the 0 before it also reads no later one, and the store of 0 that ends the polling is in "
+     "order"},
+    {worker, "has_poller_.exchange(1,", no_store, {}, "two workers poll instead of one"},
+    {worker, "^has_poller_.store(0,", order, {}, "in stop_polling(), which corrects `polling` itself"},
+    {worker, "^has_poller_.store(0,", no_store, {}, "no worker polls any more: each call is rung"},
     {worker,
-     "watching.store(value,",
+     "polling.store(value,",
      no_store,
      {},
      "never says `yes` either: callers ring, or do so before they sleep, as with a `soon` that was broken"},
-    {worker, "layout::CallWatch::soon), std::memory_order_relaxed", no_store, {}, costs},
+    {worker, "layout::WorkerPolling::soon), std::memory_order_relaxed", no_store, {}, costs},
 };
 
 TEST_CASE("Each weakened order or removed step of the call queue is caught or named with its reason") {

@@ -13,11 +13,11 @@ constexpr const char* costs = "costs a needless wake-up or a write to the owner'
 constexpr const char* one_wins = "decides who of several ringers makes the call, and nothing else";
 
 const std::vector<Spared> spared{
-    {bell, "owner) seen_.store(owner", no_store, {}, costs},
-    {bell, "words_.owner.compare_exchange_strong(owner, listens", order, {}, one_wins},
-    {bell, "words_.owner.compare_exchange_strong(owner, listens", failure, {}, one_wins},
-    {bell, "words_.owner.compare_exchange_strong(owner, listens", Damage::no_comparison, {}, costs},
-    {bell, "words_.owner.store(static_cast<std::uint32_t>(awake)", no_store, {}, costs},
+    {bell, "last_seen_owner_.store(owner", no_store, {}, costs},
+    {bell, "words_.owner.compare_exchange_strong(owner, awake", order, {}, one_wins},
+    {bell, "words_.owner.compare_exchange_strong(owner, awake", failure, {}, one_wins},
+    {bell, "words_.owner.compare_exchange_strong(owner, awake", Damage::no_comparison, {}, costs},
+    {bell, "words_.owner.store(static_cast<std::uint32_t>(afterwards)", no_store, {}, costs},
 };
 
 TEST_CASE("Each weakened order or removed step of the doorbell is caught or has a reason not to be") {

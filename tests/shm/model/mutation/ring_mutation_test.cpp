@@ -10,6 +10,7 @@ namespace {
 constexpr auto order = Damage::weaker_order, failure = Damage::weaker_failure, no_store = Damage::no_store;
 constexpr const char* consumer = "ring_consumer.hpp";
 constexpr const char* producer = "ring_producer.hpp";
+constexpr const char* parser = "record_parser.hpp";
 
 constexpr const char* second_line = "the compare-exchanges on the tail alone tell a torn copy: one that "
                                     "succeeds has read the newest tail, and its "
@@ -20,21 +21,20 @@ constexpr const char* hint = "only whether there is something; whoever reads loo
 constexpr const char* start = "before the first look at a record, which has an acquire of its own";
 
 const std::vector<Spared> spared{
-    {consumer, "A::copy_out(", order, {}, second_line},
+    {consumer, "A::copy_atomic_from_shared(", order, {}, second_line},
     {consumer, "std::uint64_t stamp = A::load(", order, {}, second_line},
     {consumer, "stamp_ = A::load(", order, {}, second_line},
-    {producer, "A::copy_in(", order, {}, second_line},
+    {producer, "A::copy_atomic_to_shared(", order, {}, second_line},
     {producer, "stamp, std::memory_order_release", order, {}, "the commit word behind it publishes both"},
-    {producer, "A::store(*ring_.cell(end), 0,", order, {}, "the commit word behind it publishes both"},
+    {producer, "A::store(*ring_.cell(position), 0,", order, {}, "the commit word behind it publishes both"},
     {consumer, "A::load(*ring_.cell(end), std::memory_order_acquire) != 0", order, {}, hint},
-    {consumer, "A::load(*ring_.cell(position_), std::memory_order_acquire) != 0", order, {}, hint},
-    {consumer,
-     "word = A::load(*ring_.cell(at), std::memory_order_acquire);",
+    {parser,
+     "word = A::load(*ring.cell(position), std::memory_order_acquire);",
      order,
      {},
      "behind padding: the padding's word was stored after this one, and its load has acquired it"},
     {consumer,
-     "Commit::of(A::load(*ring_.cell(tail)",
+     "CommitWord::unpack(A::load(*ring_.cell(tail)",
      order,
      {},
      "the tail was acquired, and this word was stored before the tail came to it"},
@@ -50,13 +50,6 @@ const std::vector<Spared> spared{
     {producer, "const bool dropped =", order, Order::release,
      "the tail it finds was acquired when it was read"},
     {producer, "shared.head.store(", order, {}, "for observers, and for the next writer of this side"},
-    {"futex.hpp", "word.store(0, std::memory_order_relaxed)", no_store, {}, "costs a needless wake-up only"},
-    {"futex.hpp", "word.exchange", no_store, {}, "costs needless wake-ups only"},
-    {"futex.hpp",
-     "word.exchange(0,",
-     order,
-     {},
-     "the load before it is the one that must not miss the sleeper"},
 };
 
 TEST_CASE("Each weakened order or removed step of the ring is caught or has a reason not to be") {

@@ -25,20 +25,6 @@ inline std::vector<Case> call_end_cases() {
                      },
                      Settings{.lapses = 1}});
 
-    cases.push_back({"a call is cancelled by another thread",
-                     [](Execution& execution) {
-                         CallWorld world(execution);
-                         CallWorld::Ends ends;
-                         CallTicket ticket;
-                         world.begin(1, CallWorld::far(1), 0, false, ticket);
-                         const CallTicket copy = ticket;
-                         execution.thread("caller", [&] { ends[1] = world.wait(1, ticket); });
-                         execution.thread("canceller", [&] { world.caller.cancel(copy); });
-                         execution.thread("worker", [&] { world.look(1); });
-                         world.run(ends, {End::answered, End::cancelled});
-                     },
-                     Settings{}, true});
-
     cases.push_back({"the queue is closed while a call comes",
                      [](Execution& execution) {
                          CallWorld world(execution);
@@ -116,40 +102,17 @@ inline std::vector<Case> call_end_cases() {
                      },
                      Settings{}, true});
 
-    cases.push_back({"a cancel comes when the next call is in the slot",
-                     [](Execution& execution) {
-                         CallWorld world(execution, 1);
-                         CallWorld::Ends ends;
-                         CallTicket ticket;
-                         world.begin(1, CallWorld::far(1), 0, false, ticket);
-                         const CallTicket copy = ticket;
-                         execution.thread("caller", [&] {
-                             ends[1] = world.wait(1, ticket, 0, true);
-                             ends[2] = world.begin(2, CallWorld::far(2), 0, false, ticket);
-                             if (ends[2] == End::answered) ends[2] = world.wait(2, ticket, 0, true);
-                             world.worker.interrupt();
-                         });
-                         execution.thread("canceller", [&] { world.caller.cancel(copy); });
-                         execution.thread("worker", [&] { world.serve(2); });
-                         execution.run();
-                         world.expect({{1, ends[1]}}, {End::answered, End::cancelled});
-                         // A slot that was given up while its call ran is not free until the worker is done.
-                         world.expect({{2, ends[2]}}, {End::answered, End::overload});
-                         world.check(ends);
-                     },
-                     Settings{}, true});
-
     cases.push_back({"a running call is given up and its slot used again",
                      [](Execution& execution) {
                          CallWorld world(execution, 1);
                          CallWorld::Ends ends;
                          CallTicket ticket;
                          world.begin(1, CallWorld::far(1), 0, false, ticket);
-                         bool watches = false;
-                         const auto running = world.worker.take(watches);
+                         bool polling = false;
+                         const auto running = world.worker.take(polling);
                          execution.thread("worker 1", [&] { world.answer(*running); });
                          execution.thread("caller", [&] {
-                             if (!world.caller.withdraw(ticket)) world.caller.done(ticket);
+                             if (!world.caller.withdraw(ticket)) world.caller.finish(ticket);
                              ends[2] = world.begin(2, CallWorld::far(2), 0, false, ticket);
                              if (ends[2] == End::answered) ends[2] = world.wait(2, ticket, 0, true);
                              world.worker.interrupt();
@@ -168,7 +131,7 @@ inline std::vector<Case> call_end_cases() {
                          for (const char* name : {"worker 1", "worker 2"})
                              execution.thread(name, [&] { world.look(1); });
                          execution.thread("caller", [&] {
-                             if (!world.caller.withdraw(ticket)) world.caller.done(ticket);
+                             if (!world.caller.withdraw(ticket)) world.caller.finish(ticket);
                              ends[2] = world.begin(2, CallWorld::far(2), 0, false, ticket);
                          });
                          execution.run();

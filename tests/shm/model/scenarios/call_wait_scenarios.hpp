@@ -98,7 +98,7 @@ inline std::vector<Case> call_wait_cases() {
                      },
                      Settings{.lapses = 1}});
 
-    cases.push_back({"callers poll and one of two workers watches",
+    cases.push_back({"callers poll and one of two workers polls",
                      [](Execution& execution) {
                          CallWorld world(execution);
                          CallWorld::A::Atomic<std::uint32_t> finished{0};
@@ -140,8 +140,8 @@ inline std::vector<Case> call_wait_cases() {
                      Settings{.lapses = 1}});
 
     for (const bool polls : {true, false})
-        cases.push_back({polls ? "the worker that watched goes off while callers poll"
-                               : "the worker that watched goes off while callers sleep",
+        cases.push_back({polls ? "the worker that polled goes off while callers poll"
+                               : "the worker that polled goes off while callers sleep",
                          [polls](Execution& execution) {
                              using A = CallWorld::A;
                              CallWorld world(execution);
@@ -170,20 +170,20 @@ inline std::vector<Case> call_wait_cases() {
     // Who lies down while the poller leaves and nobody sleeps yet is told neither by the poller nor, later,
     // by a caller who still believes in the poller.
     for (const bool before : {true, false})
-        cases.push_back({before ? "the worker that has been watching leaves while its colleague lies down"
-                                : "the worker that watches leaves while its colleague lies down",
+        cases.push_back({before ? "the worker that has been polling leaves while its colleague lies down"
+                                : "the worker that polls leaves while its colleague lies down",
                          [before](Execution& execution) {
                              CallWorld world(execution);
                              CallWorld::Ends ends;
                              CallTicket first, second;
                              world.begin(1, CallWorld::far(1), 0, false, first);
-                             bool watches = before && world.worker.watch();
+                             bool polling = before && world.worker.try_become_poller();
                              std::optional<TakenCall> held;
                              execution.thread("worker 1", [&] {
-                                 watches = watches || world.worker.watch();
-                                 held = world.worker.take(watches);
-                                 if (watches) world.worker.stop_watching();
-                                 if (held && held->operation == 1) return; // for long
+                                 polling = polling || world.worker.try_become_poller();
+                                 held = world.worker.take(polling);
+                                 if (polling) world.worker.stop_polling();
+                                 if (held && CallWorld::id_of(*held) == 1) return; // for long
                                  if (held) world.answer(*held);
                                  held.reset();
                                  world.serve(9);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A call queue in the model: what a scenario's callers and workers do, and what must hold in the end. The
-// waiting loops follow CallClient::State::await and IncomingCall::State::take, which are bound to a Mapping;
+// waiting loops follow CallClient::State::await_reply and IncomingCall::State::take, which are bound to a Mapping;
 // everything that touches shared memory is the code that ships.
 #pragma once
 #include "shm/call/call_caller.hpp"
@@ -16,7 +16,7 @@ class CallWorld {
     using A = ModelAtomics;
     static constexpr std::uint64_t never = ~std::uint64_t{0};
     static constexpr std::uint64_t second = 1'000'000'000;
-    enum class End { answered, timeout, cancelled, overload, closed, peer_died };
+    enum class End { answered, timeout, overload, closed, peer_died };
     using Ends = std::map<std::uint32_t, End>; ///< by the number of the call
 
     explicit CallWorld(Execution& execution, std::uint32_t slots = 2)
@@ -44,7 +44,7 @@ class CallWorld {
     End begin(CallCaller<A>& with, std::uint32_t id, std::uint64_t timeout, std::uint32_t prefer, bool waits,
               CallTicket& ticket) {
         const Message message{id, ~std::uint64_t{id}};
-        const CallStart start = with.begin(id, &message, sizeof message, timeout, prefer, waits, ticket);
+        const CallStart start = with.begin(&message, sizeof message, timeout, prefer, waits, ticket);
         if (start != CallStart::ok) return start == CallStart::overload ? End::overload : End::closed;
         ++begun_;
         return End::answered;
@@ -65,15 +65,14 @@ class CallWorld {
             const std::uint64_t until = patient ? never : ticket.deadline_ns;
             over = polls ? caller.spin(ticket, until) : caller.sleep(ticket, until);
         }
-        if (!caller.replied(ticket) && caller.withdraw(ticket)) return End::cancelled;
         return collect(id, ticket);
     }
 
-    /// Serves until interrupted. `polls`: may be the worker that watches.
+    /// Serves until interrupted. `polls`: may be the worker that polls.
     void serve(std::uint32_t calls, bool polls = false) {
         int fruitless = 0;
-        for (bool watches = false; calls > 0;) {
-            if (const auto taken = worker.take(watches)) {
+        for (bool polling = false; calls > 0;) {
+            if (const auto taken = worker.take(polling)) {
                 answer(*taken);
                 --calls;
                 fruitless = 0;
@@ -82,32 +81,37 @@ class CallWorld {
             if (worker.interrupted()) break;
             // Who finds a call that a colleague is just about to take goes round until that one has.
             if (++fruitless > 2) A::pause();
-            watches = watches || (polls && worker.watch());
-            if (watches && worker.spin(A::now() + 50'000)) continue;
-            if (watches) worker.stop_watching();
-            watches = false;
+            polling = polling || (polls && worker.try_become_poller());
+            if (polling && worker.spin(A::now() + 50'000)) continue;
+            if (polling) worker.stop_polling();
+            polling = false;
             worker.sleep(never);
         }
     }
 
     /// As a worker that never waits: looks for a call so many times, and answers it.
     void look(int times) {
-        bool watches = false;
+        bool polling = false;
         for (int i = 0; i < times; ++i)
-            if (const auto taken = worker.take(watches)) answer(*taken);
+            if (const auto taken = worker.take(polling)) answer(*taken);
+    }
+
+    static std::uint64_t id_of(const TakenCall& taken) {
+        Message message{};
+        std::memcpy(&message, taken.arguments, sizeof message);
+        return message.id;
     }
 
     void answer(const TakenCall& taken) {
         Message message{};
-        execution_.require(taken.sound && taken.bytes() == sizeof message, "a taken call has its length");
+        execution_.require(taken.valid && taken.bytes() == sizeof message, "a taken call has its length");
         std::memcpy(&message, taken.arguments, sizeof message);
-        execution_.require(message.id == taken.operation && message.check == ~message.id,
-                           "arguments and operation are of one call");
-        const std::uint64_t expected = far(taken.operation), found = taken.deadline_ns;
+        execution_.require(message.check == ~message.id, "the arguments are of one call");
+        const std::uint64_t expected = far(static_cast<std::uint32_t>(message.id)), found = taken.deadline_ns;
         execution_.require((found > expected && found < expected + 500 * second) ||
                                (found > 1000 && found < 500 * second),
                            "the deadline is that of the call");
-        execution_.require(++runs[taken.operation] == 1, "no call runs twice");
+        execution_.require(++runs[static_cast<std::uint32_t>(message.id)] == 1, "no call runs twice");
         message = {message.id + 1000, ~(message.id + 1000)};
         worker.answer(taken, 0, &message, sizeof message);
     }
@@ -158,7 +162,7 @@ class CallWorld {
         caller.copy_results(ticket, &message, sizeof message);
         execution_.require(message.id == id + 1000 && message.check == ~message.id,
                            "a reply is that of its call");
-        caller.done(ticket);
+        caller.finish(ticket);
         return End::answered;
     }
 

@@ -8,13 +8,10 @@
 namespace tandem::shm::model {
 
 struct RingShape {
-    RingPolicy policy = RingPolicy::drop_oldest;
     std::uint64_t lines = 4; ///< one of them always stays empty
     std::uint64_t start = 0; ///< position of the first record, lines
     std::uint64_t max_record = 112;
-    std::uint64_t longest_burst = 4096;
-    std::uint64_t wait_ns = 2 * Execution::never; ///< a wake-up that is lost is a failure
-    std::uint32_t chunks = 0;                     ///< of chunk_bytes
+    std::uint32_t chunks = 0; ///< of chunk_bytes
 };
 
 class RingWorld {
@@ -39,57 +36,43 @@ class RingWorld {
     bool write(std::size_t bytes) {
         const auto payload = payload_of(accepted_ + 1, bytes);
         ++tried_;
-        if (bytes > view_.max_record) return write_by_loan(payload, bytes);
+        if (bytes > view_.max_record) return write_in_chunk(payload, bytes);
         note_place(bytes);
-        const bool accepted =
-            writer->write(payload.data(), bytes, stamp_of(accepted_ + 1), tag_of(accepted_ + 1));
+        const bool accepted = writer->write(payload.data(), bytes, stamp_of(accepted_ + 1));
         count(accepted, bytes);
         return accepted;
     }
-    /// The same, in two steps, in place if the ring lets it; with less than was reserved. Before it, another
-    /// reservation is filled and abandoned.
-    bool write_in_place(std::size_t reserved, std::size_t bytes) {
-        using Place = typename RingProducer<A>::Place;
+    /// The same in two steps, with less than was reserved. Before it, another reservation is abandoned.
+    bool write_reserved(std::size_t reserved, std::size_t bytes) {
+        using Reservation = typename RingProducer<A>::Reservation;
         ++tried_;
-        Place place = writer->reserve(reserved);
-        if (place == Place::refused) return false;
-        const auto other = payload_of(77, reserved);
-        if (place == Place::ring) A::put_in(writer->cells(), other.data(), reserved);
+        require(writer->reserve(reserved) == Reservation::scratch,
+                "a short payload is made in scratch memory");
         writer->abandon();
-        place = writer->reserve(reserved);
-        require(place != Place::refused, "what was abandoned is free again");
+        require(writer->reserve(reserved) == Reservation::scratch,
+                "what was abandoned can be reserved again");
+        note_place(bytes);
         const auto payload = payload_of(accepted_ + 1, bytes);
-        if (place == Place::ring) A::put_in(writer->cells(), payload.data(), bytes);
-        const bool accepted =
-            writer->commit(payload.data(), bytes, stamp_of(accepted_ + 1), tag_of(accepted_ + 1));
+        const bool accepted = writer->commit(payload.data(), bytes, stamp_of(accepted_ + 1));
         count(accepted, bytes);
         return accepted;
     }
 
     bool read(bool newest = false) {
-        const auto record = newest ? reader->read_newest() : reader->read();
-        if (record) check(*record, is_loan(*record));
+        const auto record = reader->read(newest);
+        if (record) check(*record, is_in_chunk(*record));
         return record.has_value();
     }
     /// Another writer goes on from where the one before it has ended.
     void new_writer() { writer = std::make_unique<RingProducer<A>>(view_); }
-    std::size_t consume(std::size_t most) {
-        return reader->consume([&](const Record& record) { check(record, true); }, most);
-    }
-    bool peek_and_release() {
-        const auto record = reader->peek();
-        if (!record) return false;
-        check(*record, true);
-        reader->release();
-        return true;
-    }
 
-    /// At rest: all that can be read is read, and everything adds up. `whole`: no end was killed.
-    void check_at_end(bool whole = true) {
+    /// At rest: all that can be read is read, and everything adds up. `whole`: no end was killed. `newest_first`: begins
+    /// with the newest.
+    void check_at_end(bool whole = true, bool newest_first = false) {
         require(!writer->corrupt() && !reader->corrupt(), "no honest end makes a ring corrupt");
         const std::uint64_t seen_before = last_;
         if (whole) require_sum(waiting());
-        if (view_.policy == RingPolicy::latest_only && whole && read())
+        if (whole && newest_first && read(true))
             require(last_ == accepted_, "the newest record is read at once");
         while (read()) {
         }
@@ -104,9 +87,8 @@ class RingWorld {
             require(get(header_.bytes_received) == bytes_received_ && get(header_.bytes_sent) == bytes_sent_,
                     "the bytes of both ends");
         } else {
-            // A lossy writer may have dropped its last record already, for one that it did not finish.
-            require(last_ <= accepted_ + 1 && (lossy() || last_ >= accepted_),
-                    "what a killed writer has published is read");
+            // A killed writer may have dropped its last record already, for one that it did not finish.
+            require(last_ <= accepted_ + 1, "nothing is read that was not published");
             require(last_ >= seen_before, "records stay in order");
         }
     }
@@ -119,7 +101,6 @@ class RingWorld {
     std::uint64_t last() const { return last_; }
     std::uint64_t received() const { return received_; }
     RingView<A>& view() { return view_; }
-    bool lossy() const { return view_.lossy(); }
     void require(bool holds, const char* claim) { execution_.require(holds, claim); }
 
   private:
@@ -131,18 +112,14 @@ class RingWorld {
         view.cells = cells_.get();
         view.capacity = shape.lines * 64;
         view.max_record = shape.max_record;
-        view.wait_ns = shape.wait_ns;
-        view.policy = shape.policy;
         view.chunk_bytes = shape.chunks != 0 ? chunk_bytes : 0;
         view.chunk_count = shape.chunks;
-        view.longest_burst = shape.longest_burst;
         view.chunk_words = chunk_words_.get();
         view.chunks = reinterpret_cast<std::byte*>(chunks_.get());
         return view;
     }
 
     static std::uint64_t stamp_of(std::uint64_t sequence) { return 1000 + sequence; }
-    static std::uint8_t tag_of(std::uint64_t sequence) { return static_cast<std::uint8_t>(sequence + 7); }
     static Payload payload_of(std::uint64_t sequence, std::size_t bytes) {
         Payload payload{};
         for (std::size_t i = 0; i < bytes / 8; ++i) payload[i] = sequence * 1000 + i;
@@ -150,20 +127,20 @@ class RingWorld {
         return payload;
     }
 
-    /// Where the next record of a lossy ring begins.
+    /// Notes where the next record begins.
     void note_place(std::size_t bytes) {
-        const std::uint64_t record = record_bytes(bytes > view_.max_record ? sizeof(LoanRecord) : bytes);
-        const std::uint64_t room = view_.to_end(next_);
+        const std::uint64_t record = record_size(bytes > view_.max_record ? sizeof(ChunkReference) : bytes);
+        const std::uint64_t room = view_.bytes_to_end(next_);
         if (record > room) next_ += room;
         starts_.push_back(next_);
         next_ += record;
     }
 
-    bool write_by_loan(const Payload& payload, std::size_t bytes) {
+    bool write_in_chunk(const Payload& payload, std::size_t bytes) {
         note_place(bytes);
-        if (writer->reserve(bytes) == RingProducer<A>::Place::refused) return false;
-        A::put_in(reinterpret_cast<A::Cell*>(writer->chunk()), payload.data(), bytes);
-        const bool accepted = writer->commit(nullptr, bytes, stamp_of(accepted_ + 1), tag_of(accepted_ + 1));
+        if (writer->reserve(bytes) == RingProducer<A>::Reservation::refused) return false;
+        A::copy_plain_to_shared(reinterpret_cast<A::Cell*>(writer->chunk()), payload.data(), bytes);
+        const bool accepted = writer->commit(nullptr, bytes, stamp_of(accepted_ + 1));
         count(accepted, bytes);
         return accepted;
     }
@@ -172,7 +149,7 @@ class RingWorld {
         accepted_ += accepted ? 1 : 0;
         bytes_sent_ += accepted ? bytes : 0;
     }
-    bool is_loan(const Record& record) const { return record.bytes.size() > view_.max_record; }
+    bool is_in_chunk(const Record& record) const { return record.bytes.size() > view_.max_record; }
 
     /// `shared`: the bytes are cells of the model.
     void check(const Record& record, bool shared) {
@@ -181,15 +158,14 @@ class RingWorld {
         require(bytes <= sizeof found && bytes % 8 == 0 && bytes != 0,
                 "a record has the length that was written");
         if (shared)
-            A::take_out(found.data(), reinterpret_cast<const A::Cell*>(record.bytes.data()), bytes);
+            A::copy_plain_from_shared(found.data(), reinterpret_cast<const A::Cell*>(record.bytes.data()),
+                                      bytes);
         else
             std::memcpy(found.data(), record.bytes.data(), bytes);
         require(found == payload_of(record.sequence, bytes), "a record is whole, and has its own number");
-        require(record.stamp_ns == stamp_of(record.sequence) && record.tag == tag_of(record.sequence),
-                "a record has its own stamp and tag");
+        require(record.stamp_ns == stamp_of(record.sequence), "a record has its own stamp");
         require(record.sequence > last_, "no record comes twice or late");
-        require(lossy() || record.sequence == last_ + 1 || last_ == 0, "no record is left out");
-        if (lossy() && !shared) {
+        if (!shared) {
             const auto* cells = view_.cell(starts_[record.sequence - 1]);
             A::settle(cells + 1, 8 + bytes);
         }
@@ -216,12 +192,12 @@ class RingWorld {
     std::unique_ptr<A::Cell[]> cells_, chunks_;
     std::unique_ptr<layout::BasicChunkWords<A>[]> chunk_words_;
     RingView<A> view_;
-    std::vector<std::uint64_t> starts_; // of lossy rings, by sequence
+    std::vector<std::uint64_t> starts_; // by sequence
     std::uint64_t next_ = 0;
     std::uint64_t tried_ = 0, accepted_ = 0, bytes_sent_ = 0;    // the writer's
     std::uint64_t last_ = 0, received_ = 0, bytes_received_ = 0; // the reader's
 
-  public: // last, because a reader gives a loan back when it ends
+  public: // last, because a reader gives its chunk back when it ends
     std::unique_ptr<RingProducer<A>> writer;
     std::unique_ptr<RingConsumer<A>> reader;
 };

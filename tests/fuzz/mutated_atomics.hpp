@@ -3,7 +3,7 @@
 // the victim and, through the atomics of this header, before any of the victim's looks at shared words. All
 // in one thread, so every finding can be repeated.
 #pragma once
-#include "shm/os/futex.hpp"
+#include "shm/os/bounded_sleep.hpp"
 #include "shm/ring/ring_view.hpp"
 #include "shm/segment/layout.hpp"
 
@@ -27,7 +27,7 @@ class Input {
     const std::uint8_t *at_, *end_;
 };
 
-class Meddler {
+class Mutator {
   public:
     /// From now on it writes to this memory; at `records` the records or slots begin.
     static void unleash(Input& input, std::span<std::byte> target, std::size_t records = 0) {
@@ -73,8 +73,8 @@ class Meddler {
         case 5:
             return (old & ~std::uint64_t{0x3fffffff}) | input.number(2) % 1024;
         case 6:
-            return Commit::word(static_cast<layout::RecordKind>(how / 8U & 3U), input.byte(), 0,
-                                how / 32U + 1U);
+            return CommitWord::pack(static_cast<layout::RecordKind>(how / 8U & 3U), input.byte(),
+                                    how / 32U + 1U);
         default:
             return 0;
         }
@@ -85,7 +85,7 @@ class Meddler {
     static inline std::size_t records_ = 0;
 };
 
-struct MeddledAtomics : RealAtomics {
+struct MutatedAtomics : RealAtomics {
     using Order = std::memory_order;
 
     template <class T>
@@ -93,15 +93,15 @@ struct MeddledAtomics : RealAtomics {
       public:
         Atomic() = default;
         Atomic(T value) : value_(value) {}
-        T load(Order order) const { return Meddler::look(), value_.load(order); }
+        T load(Order order) const { return Mutator::look(), value_.load(order); }
         void store(T value, Order order) { value_.store(value, order); }
-        T exchange(T value, Order order) { return Meddler::look(), value_.exchange(value, order); }
+        T exchange(T value, Order order) { return Mutator::look(), value_.exchange(value, order); }
         T fetch_add(T value, Order order) { return value_.fetch_add(value, order); }
         T fetch_sub(T value, Order order) { return value_.fetch_sub(value, order); }
         T fetch_or(T value, Order order) { return value_.fetch_or(value, order); }
         template <class... Orders>
         bool compare_exchange_strong(T& expected, T value, Orders... orders) {
-            return Meddler::look(), value_.compare_exchange_strong(expected, value, orders...);
+            return Mutator::look(), value_.compare_exchange_strong(expected, value, orders...);
         }
         std::atomic<T>& real() { return value_; }
 
@@ -110,16 +110,15 @@ struct MeddledAtomics : RealAtomics {
     };
 
     static std::uint64_t load(const Cell& cell, Order order) {
-        return Meddler::look(), RealAtomics::load(cell, order);
+        return Mutator::look(), RealAtomics::load(cell, order);
     }
-    static void copy_out(void* to, const Cell* from, std::size_t bytes) {
+    static void copy_atomic_from_shared(void* to, const Cell* from, std::size_t bytes) {
         auto* out = static_cast<std::byte*>(to);
         for (std::size_t done = 0; done < bytes; done += word_bytes) {
-            Meddler::look();
+            Mutator::look();
             copy_from_shared(out + done, from + done / word_bytes, std::min(word_bytes, bytes - done));
         }
     }
-    static void take_out(void* to, const Cell* from, std::size_t bytes) { copy_out(to, from, bytes); }
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline) {
         RealAtomics::futex_wait(word.real(), expected, deadline);
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The atomics of shm/atomics.hpp, with a point behind every store: a process can be told to die, by a SIGKILL
+// The atomics of shm/os/atomics.hpp, with a point behind every store: a process can be told to die, by a SIGKILL
 // to itself, at the k-th point that it passes. The name of a point is the source line of the store. The
 // memory is laid out like that of RealAtomics, so one side may be this and the other what ships.
 #pragma once
 #include "shared.hpp"
-#include "shm/os/futex.hpp"
+#include "shm/os/bounded_sleep.hpp"
 #include "shm/segment/layout.hpp"
 
 #include <csignal>
@@ -31,7 +31,7 @@ struct Points {
     }
 };
 
-struct PointedAtomics : RealAtomics {
+struct CrashPointAtomics : RealAtomics {
     using Order = std::memory_order;
     using Where = std::source_location;
 
@@ -79,15 +79,13 @@ struct PointedAtomics : RealAtomics {
         RealAtomics::store(cell, value, order);
         Points::pass(at);
     }
-    static void copy_in(Cell* to, const void* from, std::size_t bytes, Where at = Where::current()) {
+    static void copy_atomic_to_shared(Cell* to, const void* from, std::size_t bytes,
+                                      Where at = Where::current()) {
         const auto* words = static_cast<const std::byte*>(from);
         for (std::size_t done = 0; done < bytes; done += word_bytes) {
             copy_to_shared(to + done / word_bytes, words + done, std::min(word_bytes, bytes - done));
             Points::pass(at);
         }
-    }
-    static void put_in(Cell* to, const void* from, std::size_t bytes, Where at = Where::current()) {
-        copy_in(to, from, bytes, at);
     }
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline) {
         RealAtomics::futex_wait(word.real(), expected, deadline);
@@ -98,9 +96,9 @@ struct PointedAtomics : RealAtomics {
     }
 };
 
-static_assert(sizeof(layout::BasicRingHeader<PointedAtomics>) == sizeof(layout::RingHeader));
-static_assert(sizeof(layout::BasicChunkWords<PointedAtomics>) == sizeof(layout::ChunkWords));
-static_assert(sizeof(layout::BasicCallQueueHeader<PointedAtomics>) == sizeof(layout::CallQueueHeader));
-static_assert(sizeof(layout::BasicCallSlot<PointedAtomics>) == sizeof(layout::CallSlot));
+static_assert(sizeof(layout::BasicRingHeader<CrashPointAtomics>) == sizeof(layout::RingHeader));
+static_assert(sizeof(layout::BasicChunkWords<CrashPointAtomics>) == sizeof(layout::ChunkWords));
+static_assert(sizeof(layout::BasicCallQueueHeader<CrashPointAtomics>) == sizeof(layout::CallQueueHeader));
+static_assert(sizeof(layout::BasicCallSlot<CrashPointAtomics>) == sizeof(layout::CallSlot));
 
 } // namespace tandem::shm::test

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/shm/fixture.hpp"
 
-#include "shm/os/sleep_alarm.hpp"
+#include "shm/os/bounded_sleep.hpp"
+#include "shm/os/futex.hpp"
 
 #include <csignal>
 #include <sys/mman.h>
@@ -20,7 +21,7 @@ std::uint64_t sleep_out(std::chrono::nanoseconds bound) {
     std::atomic<std::uint32_t> word{1};
     const std::uint64_t start = now_ns();
     BoundedSleep sleep(bound);
-    while (sleep.on(word, 1)) {
+    while (sleep.sleep_while(word, 1)) {
     }
     return now_ns() - start;
 }
@@ -51,7 +52,7 @@ TEST_CASE("a short sleep ends while a long one that began before goes on") {
     CHECK(ended);
 }
 
-TEST_CASE("sleepers beyond the slots of the alarm set timers of their own and all end") {
+TEST_CASE("sleepers beyond the slots of the timeout thread set timers of their own and all end") {
     std::vector<std::thread> sleepers;
     std::atomic<int> ended{0};
     for (int i = 0; i < 150; ++i)
@@ -63,7 +64,7 @@ TEST_CASE("sleepers beyond the slots of the alarm set timers of their own and al
     CHECK(ended == 150);
 }
 
-TEST_CASE("sleepers that come and go under the alarm all end") {
+TEST_CASE("sleepers that come and go under the timeout thread all end") {
     std::vector<std::thread> sleepers;
     std::atomic<int> sleeps{0};
     for (int i = 0; i < 6; ++i)
@@ -98,7 +99,7 @@ TEST_CASE("a thread that has blocked all signals sleeps no longer than its bound
     std::atomic<bool> ended{false};
     std::atomic<std::uint32_t> word{1};
     std::thread sleeper([&] {
-        sleep_out(15ms); // the alarm knows the thread
+        sleep_out(15ms); // the timeout thread knows this thread
         sigset_t all;
         sigfillset(&all);
         pthread_sigmask(SIG_SETMASK, &all, nullptr);
@@ -112,8 +113,8 @@ TEST_CASE("a thread that has blocked all signals sleeps no longer than its bound
 }
 
 #ifndef __SANITIZE_THREAD__ // which lets no forked child start a thread
-TEST_CASE("a forked child has an alarm of its own") {
-    sleep_out(15ms); // the parent's runs
+TEST_CASE("a forked child has a timeout thread of its own") {
+    sleep_out(15ms); // starts the parent's
     const pid_t child = fork();
     if (child == 0) {
         sleep_out(15ms);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "victims.hpp"
+#include "fuzz_targets.hpp"
 
 #include "shm/call/call_caller.hpp"
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 #include "shm/call/call_worker.hpp"
 #include "shm/inspect/observer.hpp"
-#include "tests/shm/ring/all_policies.hpp"
 #include "tests/shm/view_as.hpp"
 
 #include <cstdio>
@@ -16,7 +15,6 @@ namespace tandem::shm::fuzz {
 namespace {
 
 using namespace std::chrono_literals;
-using test::all_policies;
 using test::view_as;
 
 constexpr std::size_t max_record = 100, chunk_bytes = 4096, max_call = 200, max_operations = 64;
@@ -53,25 +51,22 @@ void check_record(const Record& record, const RingView<RealAtomics>& ring) {
 
 } // namespace
 
-Victims::Victims() : link_("fuzz-" + std::to_string(getpid())) {
+FuzzTargets::FuzzTargets() : link_("fuzz-" + std::to_string(getpid())) {
     JoinOptions options;
     options.arena_bytes = arena_bytes;
     hostile_ = Segment::join(link_, Side::first, options);
     victim_ = Segment::join(link_, Side::second, options);
-    for (const auto policy : all_policies)
-        for (const std::uint32_t chunks : {0U, 2U})
-            for (const Side writer : {Side::first, Side::second}) {
-                const std::string name = "r" + std::to_string(to_victim_.size() + from_victim_.size());
-                hostile_->add_ring(name, {.writer = writer,
-                                          .policy = policy,
-                                          .max_record = max_record,
-                                          .capacity = 512,
-                                          .wait = 1us,
-                                          .chunk_bytes = chunks * chunk_bytes / 2,
-                                          .chunks = chunks});
-                auto& list = writer == Side::first ? to_victim_ : from_victim_;
-                list.push_back({name, hostile_->list(Side::first).back().memory});
-            }
+    for (const std::uint32_t chunks : {0U, 2U})
+        for (const Side writer : {Side::first, Side::second}) {
+            const std::string name = "r" + std::to_string(to_victim_.size() + from_victim_.size());
+            hostile_->add_ring(name, {.writer = writer,
+                                      .max_record = max_record,
+                                      .capacity = 512,
+                                      .chunk_bytes = chunks * chunk_bytes / 2,
+                                      .chunks = chunks});
+            auto& list = writer == Side::first ? to_victim_ : from_victim_;
+            list.push_back({name, hostile_->list(Side::first).back().memory});
+        }
     hostile_->add_call_queue("c", {.callers = Side::second, .slots = 2, .max_bytes = max_call});
     queue_ = {"c", hostile_->list(Side::first).back().memory};
     hostile_->add_blob("b", 100);
@@ -83,61 +78,53 @@ Victims::Victims() : link_("fuzz-" + std::to_string(getpid())) {
     pristine_.assign(everything_.begin(), everything_.end());
 }
 
-void Victims::restore(Restore what) {
+void FuzzTargets::restore(Restore what) {
     const auto to = what == Restore::all ? everything_ : arena_;
     std::memcpy(to.data(), pristine_.data() + (pristine_.size() - to.size()), to.size());
 }
 
-RingHandle Victims::ring(const Object& object) const { return *victim_->find_ring(Side::first, object.name); }
+RingHandle FuzzTargets::ring(const Object& object) const {
+    return *victim_->find_ring(Side::first, object.name);
+}
 
 template <class A>
-void Victims::consume(Input& input, const Object& object) {
+void FuzzTargets::consume(Input& input, const Object& object) {
     const RingHandle handle = ring(object);
     RingProducer<RealAtomics> honest(hostile_->find_ring(Side::first, object.name)->view);
-    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
+    Mutator::unleash(input, object.hostile, sizeof(layout::RingHeader));
     RingConsumer<A> consumer(view_as<A>(handle.view));
     const std::vector<std::byte> payload(chunk_bytes, std::byte{7});
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
         std::optional<Record> record;
-        switch (what % 8) {
+        switch (what % 5) {
         case 0:
-            Meddler::rewrite();
+            Mutator::rewrite();
             break;
         case 1:
             record = consumer.read();
             break;
         case 2:
-            record = consumer.read_newest();
+            record = consumer.read(true);
             break;
         case 3:
-            if (!handle.view.lossy()) record = consumer.peek();
-            break;
-        case 4:
-            if (!handle.view.lossy()) consumer.release();
-            break;
-        case 5:
-            if (!handle.view.lossy())
-                consumer.consume([&](const Record& shown) { check_record(shown, handle.view); }, what / 8U);
-            break;
-        case 6:
             consumer.empty();
             break;
         default:
-            honest.write(payload.data(), what > 200 ? what * 16U : what / 2U, i, 0);
+            honest.write(payload.data(), what > 200 ? what * 16U : what / 2U, i);
             break;
         }
         if (record) check_record(*record, handle.view);
     }
-    Meddler::restrain();
+    Mutator::restrain();
 }
 
 template <class A>
-void Victims::produce(Input& input, const Object& object) {
+void FuzzTargets::produce(Input& input, const Object& object) {
     const RingHandle handle = ring(object);
     const auto same = hostile_->find_ring(Side::first, object.name)->view;
     RingConsumer<RealAtomics> honest(same);
-    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
+    Mutator::unleash(input, object.hostile, sizeof(layout::RingHeader));
     RingProducer<A> producer(view_as<A>(handle.view));
     const std::vector<std::byte> payload(2 * chunk_bytes, std::byte{7});
     for (std::size_t i = 0; i < max_operations && !input.used_up() && !producer.corrupt(); ++i) {
@@ -145,21 +132,20 @@ void Victims::produce(Input& input, const Object& object) {
         const std::size_t bytes = what > 200 ? what * 20U : what / 2U;
         switch (what % 4) {
         case 0:
-            Meddler::rewrite();
+            Mutator::rewrite();
             break;
         case 1:
-            producer.write(payload.data(), bytes, i, 0);
+            producer.write(payload.data(), bytes, i);
             break;
         case 2: {
-            using Place = typename RingProducer<A>::Place;
-            const Place place = producer.reserve(bytes);
-            if (place == Place::refused) break;
-            if (place == Place::ring) std::memset(producer.cells(), 1, bytes);
-            if (place == Place::chunk) std::memset(producer.chunk(), 1, bytes);
+            using Reservation = typename RingProducer<A>::Reservation;
+            const Reservation reserved = producer.reserve(bytes);
+            if (reserved == Reservation::refused) break;
+            if (reserved == Reservation::chunk) std::memset(producer.chunk(), 1, bytes);
             if (what % 3 == 0)
                 producer.abandon();
             else
-                producer.commit(payload.data(), bytes / (1 + what % 5), i, 0);
+                producer.commit(payload.data(), bytes / (1 + what % 5), i);
             break;
         }
         default:
@@ -167,52 +153,51 @@ void Victims::produce(Input& input, const Object& object) {
             break;
         }
     }
-    Meddler::restrain();
+    Mutator::restrain();
 }
 
-void Victims::read_with_shipping(Input& input, const Object& object) {
+void FuzzTargets::read_with_shipping(Input& input, const Object& object) {
     const RingHandle handle = ring(object);
-    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
-    Meddler::rewrite();
+    Mutator::unleash(input, object.hostile, sizeof(layout::RingHeader));
+    Mutator::rewrite();
     RingReader reader(handle);
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
-        if (what % 2 == 0) Meddler::rewrite();
+        if (what % 2 == 0) Mutator::rewrite();
         const auto record = what % 3 == 0 ? reader.read_newest() : reader.read();
         if (record) check_record(*record, handle.view);
-        reader.consume([&](const Record& shown) { check_record(shown, handle.view); }, what / 64U);
         reader.counters();
     }
 }
 
-void Victims::write_with_shipping(Input& input, const Object& object) {
-    Meddler::unleash(input, object.hostile, sizeof(layout::RingHeader));
-    Meddler::rewrite();
+void FuzzTargets::write_with_shipping(Input& input, const Object& object) {
+    Mutator::unleash(input, object.hostile, sizeof(layout::RingHeader));
+    Mutator::rewrite();
     RingWriter writer(ring(object));
     for (std::size_t i = 0; i < max_operations && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
-        if (what % 2 == 0) Meddler::rewrite();
+        if (what % 2 == 0) Mutator::rewrite();
         const auto room = writer.reserve(what > 200 ? what * 20U : what / 2U);
         if (room.data() == nullptr) continue;
         std::memset(room.data(), 1, room.size());
-        writer.commit(room.size(), i, 0);
+        writer.commit(room.size(), i);
     }
 }
 
-void Victims::call(Input& input) {
-    Meddler::unleash(input, queue_.hostile, slots_at);
-    CallCaller<MeddledAtomics> caller(
-        view_as<MeddledAtomics>(victim_->find_call_queue(Side::first, "c")->view));
+void FuzzTargets::call(Input& input) {
+    Mutator::unleash(input, queue_.hostile, slots_at);
+    CallCaller<MutatedAtomics> caller(
+        view_as<MutatedAtomics>(victim_->find_call_queue(Side::first, "c")->view));
     const std::vector<std::byte> payload(max_call, std::byte{7});
     std::vector<std::byte> results(max_call);
     for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
         CallTicket ticket;
         const std::uint8_t what = input.byte();
-        if (caller.begin(what, payload.data(), what % (max_call + 1), 1000, 0, what % 2 == 0, ticket) !=
+        if (caller.begin(payload.data(), what % (max_call + 1), 1000, 0, what % 2 == 0, ticket) !=
             CallStart::ok)
             continue;
-        Meddler::rewrite();
-        if (what % 3 == 0) caller.cancel(ticket);
+        Mutator::rewrite();
+        if (what % 3 == 0 && caller.withdraw(ticket)) continue;
         const bool over = what % 5 == 0 ? caller.sleep(ticket, now_ns() + 1000) : caller.spin(ticket, 0);
         if (over && caller.replied(ticket)) {
             const std::uint64_t word = caller.reply(ticket); // as CallClient does, it is read once
@@ -221,45 +206,48 @@ void Victims::call(Input& input) {
                 continue;
             }
             caller.copy_results(ticket, results.data(), length_of(word));
-            caller.done(ticket);
+            caller.finish(ticket);
         } else if (!caller.withdraw(ticket)) {
-            caller.done(ticket);
+            caller.finish(ticket);
         }
     }
-    Meddler::restrain();
+    Mutator::restrain();
 }
 
 /// The same queue from the other end: it stands in the first side's half, but a worker's view has no side.
-void Victims::serve(Input& input) {
-    Meddler::unleash(input, queue_.hostile, slots_at);
+void FuzzTargets::serve(Input& input) {
+    Mutator::unleash(input, queue_.hostile, slots_at);
     const auto view = victim_->find_call_queue(Side::first, "c")->view;
-    CallWorker<MeddledAtomics> worker(view_as<MeddledAtomics>(view));
+    CallWorker<MutatedAtomics> worker(view_as<MutatedAtomics>(view));
     CallCaller<RealAtomics> honest(view);
     const std::vector<std::byte> payload(max_call, std::byte{7});
     for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
         CallTicket ticket;
-        if (what % 4 != 0) honest.begin(what, payload.data(), what % (max_call + 1), 1000, 0, true, ticket);
-        Meddler::rewrite();
-        bool watches = what % 2 == 0 && worker.watch();
-        const auto call = worker.take(watches);
-        if (watches) worker.stop_watching();
+        if (what % 4 != 0) honest.begin(payload.data(), what % (max_call + 1), 1000, 0, true, ticket);
+        Mutator::rewrite();
+        bool polling = what % 2 == 0 && worker.try_become_poller();
+        const auto call = worker.take(polling);
+        if (polling) worker.stop_polling();
         if (call) {
             demand(call->bytes() <= max_call, "length of arguments");
             touch({static_cast<const std::byte*>(call->arguments), call->bytes()});
-            worker.cancelled(*call);
             worker.answer(*call, 0, call->arguments, call->bytes());
         } else if (what % 16 == 1) {
             worker.sleep(now_ns() + 1000);
         }
-        if (what % 32 == 2) worker.close(), worker.drop_submitted(), worker.open();
+        if (what % 32 == 2) {
+            worker.close();
+            worker.drop_submitted();
+            worker.open();
+        }
     }
-    Meddler::restrain();
+    Mutator::restrain();
 }
 
-void Victims::call_with_shipping(Input& input) {
-    Meddler::unleash(input, queue_.hostile, slots_at);
-    Meddler::rewrite();
+void FuzzTargets::call_with_shipping(Input& input) {
+    Mutator::unleash(input, queue_.hostile, slots_at);
+    Mutator::rewrite();
     const auto found = victim_->find_call_queue(Side::first, "c");
     // The header may say a little more by now: as much as the slots' room, which is whole lines, has place
     // for.
@@ -270,37 +258,35 @@ void Victims::call_with_shipping(Input& input) {
     const std::vector<std::byte> payload(max_call + 8, std::byte{7});
     for (std::size_t i = 0; i < max_operations / 8 && !input.used_up(); ++i) {
         const std::uint8_t what = input.byte();
-        auto pending = client.begin(what, {payload.data(), what % (max_call + 8)}, 5us);
-        if (what % 2 == 0) Meddler::rewrite();
+        if (what % 2 == 0) Mutator::rewrite();
+        // A call that nobody answers, and what a rewritten slot makes the server take.
+        const Reply reply = client.call({payload.data(), what % (max_call + 8)}, 5us);
+        demand(reply.bytes.size() <= longest, "length of a reply");
+        if (what % 5 == 0) Mutator::rewrite();
         if (auto call = server.take(0ns)) {
             demand(call->arguments().size() <= longest, "length of arguments");
             touch(call->arguments());
-            if (what % 3 == 0) Meddler::rewrite();
+            if (what % 3 == 0) Mutator::rewrite();
             call->reply(CallStatus::ok, call->arguments());
         }
-        if (what % 5 == 0) Meddler::rewrite();
-        if (what % 7 == 0) pending.cancel();
-        if (what % 11 == 0) continue; // destroyed unanswered
-        const Reply reply = pending.wait();
-        demand(reply.bytes.size() <= longest, "length of a reply");
         client.counters();
     }
 }
 
 /// Headers and directory: what can be found afterwards lies in the arena, and can be opened and used.
-void Victims::look_up(Input& input) {
+void FuzzTargets::look_up(Input& input) {
     const auto head = everything_.first(layout::page + 512 + 20 * sizeof(layout::DirectoryEntry));
-    Meddler::unleash(input, head);
+    Mutator::unleash(input, head);
     for (std::size_t i = 0; i < max_operations / 4 && !input.used_up(); ++i) {
-        Meddler::rewrite();
+        Mutator::rewrite();
         const std::uint8_t what = input.byte();
         if (what % 4 == 0) { // sizes of an object, too
             const auto& object = what < 128 ? to_victim_[what / 4U % to_victim_.size()] : queue_;
-            Meddler::unleash(input, object.hostile.first(64));
-            Meddler::rewrite();
-            Meddler::unleash(input, head);
+            Mutator::unleash(input, object.hostile.first(64));
+            Mutator::rewrite();
+            Mutator::unleash(input, head);
         }
-        victim_->peer();
+        victim_->peer_state();
         victim_->superseded();
         victim_->doorbell().poll();
         victim_->ring_peer(what);
@@ -311,7 +297,7 @@ void Victims::look_up(Input& input) {
                 if (!object.memory.empty()) touch(object.memory.last(1));
                 if (object.kind == layout::ObjectKind::ring) {
                     const auto found = victim_->find_ring(Side::first, object.name);
-                    if (found && found->writer == Side::first && found->view.wait_ns <= 1'000'000) {
+                    if (found && found->writer == Side::first) {
                         RingReader reader(*found);
                         if (const auto record = reader.read()) check_record(*record, found->view);
                     }
@@ -324,14 +310,14 @@ void Victims::look_up(Input& input) {
     }
 }
 
-void Victims::observe_it(Input& input) {
-    Meddler::unleash(input, everything_);
-    for (int i = 0; i < 4 + input.byte() % 8; ++i) Meddler::rewrite();
+void FuzzTargets::observe_it(Input& input) {
+    Mutator::unleash(input, everything_);
+    for (int i = 0; i < 4 + input.byte() % 8; ++i) Mutator::rewrite();
     const auto observed = observe(link_);
     demand(observed.has_value(), "the segment cannot be observed");
 }
 
-void Victims::run(Input& input) {
+void FuzzTargets::run(Input& input) {
     const std::uint8_t what = input.byte();
     const auto& to = to_victim_[what / 16U % to_victim_.size()];
     const auto& from = from_victim_[what / 16U % from_victim_.size()];
@@ -342,12 +328,12 @@ void Victims::run(Input& input) {
         case 1:
         case 2:
         case 3:
-            consume<MeddledAtomics>(input, to);
+            consume<MutatedAtomics>(input, to);
             break;
         case 4:
         case 5:
         case 6:
-            produce<MeddledAtomics>(input, from);
+            produce<MutatedAtomics>(input, from);
             break;
         case 7:
             read_with_shipping(input, to);
@@ -379,7 +365,7 @@ void Victims::run(Input& input) {
         }
     } catch (const Error&) { // the only clean way to refuse
     }
-    Meddler::restrain();
+    Mutator::restrain();
     restore(after);
 }
 

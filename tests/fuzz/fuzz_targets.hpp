@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzzer attacks: one segment with rings of all policies and both directions, a call queue and a
+// What the fuzzer attacks: one segment with rings of both directions, with and without chunks, a call queue and a
 // blob, made once; and everything that can be done with them. The first side is hostile, the second one the
 // victim.
 #pragma once
-#include "meddled_atomics.hpp"
+#include "mutated_atomics.hpp"
 
 #include "shm/segment.hpp"
 
 namespace tandem::shm::fuzz {
 
-class Victims {
+class FuzzTargets {
   public:
-    Victims();
+    FuzzTargets();
 
     /// Runs one input. Whatever comes out of shared memory out of bounds ends the process.
     void run(Input& input);

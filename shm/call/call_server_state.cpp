@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/call/call_server_state.hpp"
+
+namespace tandem::shm {
+
+std::optional<TakenCall> IncomingCall::State::take_runnable(bool& polling) {
+    for (std::uint32_t i = 0; i < queue.view.slot_count; ++i) {
+        const auto call = worker.take(polling);
+        if (!call) break;
+        if (!call->valid) {
+            answer(*call, CallStatus::bad_arguments, {});
+        } else if (worker.closed()) {
+            answer(*call, CallStatus::shut_down, {});
+        } else if (call->taken_ns >= call->deadline_ns) {
+            queue.view.header->expired.fetch_add(1, std::memory_order_relaxed);
+            answer(*call, CallStatus::timeout, {});
+        } else {
+            return call;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds bound) {
+    const std::uint64_t began = now_ns(), deadline = began + bounded_ns(bound);
+    const std::uint64_t spin_end = std::min(deadline, began + spin.limit_ns(max_spin_ns));
+    std::uint64_t now = began; // not read again for a call that was found by polling: only learn() uses it
+    for (bool polling = false, polled = false;;) {
+        auto call = take_runnable(polling);
+        if (call || worker.interrupted() || now >= deadline) {
+            if (polling) worker.stop_polling();
+            // From a short bound that passed without a call nothing can be learnt.
+            if (polled && (call || now - began > max_spin_ns)) spin.learn(max_spin_ns, now - began);
+            return call;
+        }
+        if (how.mode == WaitMode::spin) {
+            if (worker.spin(deadline)) continue;
+        } else {
+            polling = polling || (how.mode == WaitMode::spin_then_futex && worker.try_become_poller());
+            polled = polled || polling;
+            if (polling && worker.spin(spin_end)) continue;
+            if (polling) worker.stop_polling();
+            polling = false;
+            worker.sleep(deadline);
+        }
+        now = now_ns();
+    }
+}
+
+void IncomingCall::State::answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes) {
+    // The histogram has one writer at a time: a thread that finds another one writing leaves its time out.
+    if (is_timed(call.word) && !measuring.exchange(true, std::memory_order_acquire)) {
+        queue.times->service.add(now_ns() - call.taken_ns);
+        measuring.store(false, std::memory_order_release);
+    }
+    if (worker.answer(call, static_cast<std::uint32_t>(status), bytes.data(), bytes.size()))
+        queue.view.header->caller_wakes.fetch_add(1, std::memory_order_relaxed);
+}
+
+} // namespace tandem::shm

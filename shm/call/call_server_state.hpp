@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Internal to the serving end; users include call_server.hpp.
+#pragma once
+#include "shm/call/call_worker.hpp"
+#include "shm/call/incoming_call.hpp"
+#include "shm/wait/adaptive_spin.hpp"
+
+namespace tandem::shm {
+
+/// What a server and all of its calls share.
+struct IncomingCall::State {
+    State(const CallQueueHandle& handle, const WaitOptions& options)
+        : queue(handle), how(options), max_spin_ns(bounded_ns(options.spin)), worker(handle.view) {}
+
+    /// The call that waits longest; waits for one at most `bound`.
+    std::optional<TakenCall> take(std::chrono::nanoseconds bound);
+
+    /// The same without waiting. Calls that must not run are answered here.
+    std::optional<TakenCall> take_runnable(bool& polling);
+
+    void answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes);
+
+    const CallQueueHandle queue;
+    const WaitOptions how;
+    const std::uint64_t max_spin_ns;
+    CallWorker<RealAtomics> worker;
+
+  private:
+    AdaptiveSpin spin;
+    std::atomic<bool> measuring{false};
+};
+
+} // namespace tandem::shm

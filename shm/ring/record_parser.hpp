@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds records in a ring without taking them. Internal to the ring: users include ring_reader.hpp.
+//
+// The bytes that are looked at may be those of a record that the writer is overwriting at this moment, or
+// what a hostile peer has written. So each word is read once and checked against this process's own copy of
+// the sizes. An invalid record is no evidence of damage by itself: RingConsumer looks whether the tail has
+// moved meanwhile.
+#pragma once
+#include "shm/ring/ring_view.hpp"
+
+namespace tandem::shm {
+
+enum class ParseResult { nothing, record, invalid };
+
+struct ParsedRecord {
+    std::uint64_t start, end; ///< positions of the record itself, behind any padding
+    CommitWord commit;
+};
+
+/// Parses the record at `position`, or the one behind the padding there.
+template <class A>
+ParseResult parse_record(const RingView<A>& ring, std::uint64_t position, ParsedRecord& parsed) {
+    std::uint64_t word = A::load(*ring.cell(position), std::memory_order_acquire);
+    if (word == 0) return ParseResult::nothing;
+    if (CommitWord::unpack(word).kind == layout::RecordKind::padding) {
+        position += ring.bytes_to_end(position);
+        word = A::load(*ring.cell(position), std::memory_order_acquire);
+    }
+    const CommitWord commit = CommitWord::unpack(word);
+    parsed = {position, position + record_size(commit.length), commit};
+    const bool valid = (commit.kind == layout::RecordKind::data && commit.length <= ring.max_record) ||
+                       (commit.kind == layout::RecordKind::chunk && commit.length == sizeof(ChunkReference) &&
+                        ring.chunk_count != 0);
+    return valid && parsed.end - position <= ring.bytes_to_end(position) ? ParseResult::record
+                                                                         : ParseResult::invalid;
+}
+
+/// Parses the newest record from `tail` on. The shared word `newest` may lag behind by one record, for a
+/// moment or, if the writer was killed between two stores, for ever; hence the loop at the end. A reader that
+/// is up to date never reads that word: it polls only the line where the next record will appear.
+template <class A>
+ParseResult parse_newest_record(const RingView<A>& ring, std::uint64_t tail, ParsedRecord& parsed) {
+    const ParseResult oldest = parse_record(ring, tail, parsed);
+    ParsedRecord next;
+    ParseResult after =
+        oldest == ParseResult::record ? parse_record(ring, parsed.end, next) : ParseResult::nothing;
+    if (after == ParseResult::nothing) return oldest;
+    const std::uint64_t newest = ring.shared->newest.load(std::memory_order_acquire);
+    if (newest > parsed.start && newest - tail < ring.capacity && newest % layout::line == 0) {
+        if (parse_record(ring, newest, parsed) != ParseResult::record) return ParseResult::invalid;
+        after = parse_record(ring, parsed.end, next);
+    }
+    constexpr int max_lag = 4;
+    for (int i = 0; i < max_lag && after == ParseResult::record; ++i) {
+        parsed = next;
+        after = parse_record(ring, parsed.end, next);
+    }
+    return after == ParseResult::invalid ? after : ParseResult::record;
+}
+
+} // namespace tandem::shm

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shm/ring/ring.hpp"
+#include "shm/ring/ring_consumer.hpp"
+
+namespace tandem::shm {
+
+extern template class RingConsumer<RealAtomics>;
+
+/// [one thread] The reading end of a ring. Allocates nothing and makes no system call.
+class RingReader {
+  public:
+    /// Throws Error if this side is not the ring's reader, or the ring is damaged.
+    explicit RingReader(RingHandle ring);
+
+    /// True if there is nothing to read. Looks only at lines that stay in this core's cache until the writer
+    /// writes.
+    bool empty() const { return consumer_.empty(); }
+
+    /// The oldest record, copied out; a payload in a chunk is handed out in place, and the chunk goes back
+    /// with the next record that is read. Empty: nothing there, corrupt(), or the writer overtook every one
+    /// of many attempts; then the next read gets what it wrote.
+    std::optional<Record> read() { return consumer_.read(); }
+
+    /// The newest record; the older ones count as skipped.
+    std::optional<Record> read_newest() { return consumer_.read(true); }
+
+    /// The shared words are impossible: nothing is received any more.
+    bool corrupt() const { return consumer_.corrupt(); }
+    RingCounters counters() const { return read_counters(ring_); }
+
+  private:
+    RingHandle ring_;
+    RingConsumer<RealAtomics> consumer_;
+};
+
+} // namespace tandem::shm

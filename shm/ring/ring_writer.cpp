@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shm/ring/ring_writer.hpp"
+
+#include "shm/os/error.hpp"
+
+#include <stdexcept>
+
+namespace tandem::shm {
+
+template class RingProducer<RealAtomics>;
+
+namespace {
+
+std::vector<std::uint64_t> scratch_for(const RingView<RealAtomics>& ring) {
+    const std::size_t words = round_up(ring.max_record, word_bytes) / word_bytes;
+    return std::vector<std::uint64_t>(std::max<std::size_t>(words, 1)); // never empty: data() is not nullptr
+}
+
+} // namespace
+
+RingWriter::RingWriter(RingHandle ring)
+    : ring_(std::move(ring)), producer_(ring_.view), scratch_(scratch_for(ring_.view)) {
+    const std::string& path = ring_.mapping->path();
+    if (ring_.writer != ring_.mapping->side())
+        throw Error(path + ": a ring written by side " + name_of(ring_.writer) +
+                    " cannot be written here; use RingReader");
+    if (producer_.corrupt())
+        throw Error(path + ": a ring to be written is damaged; leave the segment and join again");
+    // Only the writer that lent chunks knows which of them the reader still holds.
+    if (ring_.view.chunk_count != 0 && ring_.view.shared->published.load(std::memory_order_relaxed) != 0)
+        throw Error(path +
+                    ": a ring with chunks takes one writer in its life; leave the segment and join again");
+}
+
+std::span<std::byte> RingWriter::reserve(std::size_t bytes) {
+    using Reservation = RingProducer<RealAtomics>::Reservation;
+    switch (producer_.reserve(bytes)) {
+    case Reservation::chunk:
+        return {producer_.chunk(), bytes};
+    case Reservation::scratch:
+        return {reinterpret_cast<std::byte*>(scratch_.data()), bytes};
+    case Reservation::refused:
+        break;
+    }
+    return {};
+}
+
+bool RingWriter::commit(std::size_t used, std::uint64_t stamp_ns) {
+    if (!producer_.is_open() || used > producer_.reserved_bytes())
+        throw std::logic_error("RingWriter::commit: more than was reserved");
+    return producer_.commit(scratch_.data(), used, stamp_ns);
+}
+
+} // namespace tandem::shm

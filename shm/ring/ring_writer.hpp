@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "shm/ring/ring.hpp"
+#include "shm/ring/ring_producer.hpp"
+
+#include <vector>
+
+namespace tandem::shm {
+
+extern template class RingProducer<RealAtomics>;
+
+/// [one thread] The writing end of a ring. Allocates nothing and makes no system call, but for the first use
+/// of a chunk in a sparse segment. It does not ring the doorbell: the user does, once after a batch.
+class RingWriter {
+  public:
+    /// Throws Error if this side is not the ring's writer, the ring is damaged, or it has chunks and another
+    /// RingWriter has written to it.
+    explicit RingWriter(RingHandle ring);
+
+    /// Memory for a payload of up to `bytes`. data() == nullptr if there is none, which counts as one sent
+    /// and dropped. Up to max_record bytes it never fails; commit() drops no more than the bytes used need.
+    std::span<std::byte> reserve(std::size_t bytes);
+
+    /// Publishes the first `used` bytes of what was reserved. False: dropped after all (ring damaged).
+    bool commit(std::size_t used, std::uint64_t stamp_ns);
+    void abandon() { producer_.abandon(); } ///< Forgets what was reserved, uncounted.
+
+    /// reserve(), copy, commit(). False: dropped.
+    bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
+        return producer_.write(bytes.data(), bytes.size(), stamp_ns);
+    }
+
+    std::size_t max_record() const { return ring_.view.max_record; } ///< payload that needs no chunk, bytes
+    std::size_t max_message() const { return producer_.max_message(); } ///< longest payload at all, bytes
+    /// The shared words are impossible: nothing is sent any more.
+    bool corrupt() const { return producer_.corrupt(); }
+    RingCounters counters() const { return read_counters(ring_); }
+
+  private:
+    RingHandle ring_;
+    RingProducer<RealAtomics> producer_;
+    std::vector<std::uint64_t> scratch_; // payloads up to max_record are made here, see ring_producer.hpp
+};
+
+} // namespace tandem::shm
