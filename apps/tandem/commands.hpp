@@ -8,10 +8,10 @@
 
 namespace tandem::command {
 
-using Run = std::function<int()>; ///< Returns the exit code.
+using Action = std::function<int()>; ///< Returns the exit code.
 
-void add_opros(CLI::App& tandem, Run& chosen);
-void add_rtm(CLI::App& tandem, Run& chosen);
-void add_shm(CLI::App& tandem, Run& chosen);
+void add_opros_commands(CLI::App& tandem, Action& selected);
+void add_rtm_commands(CLI::App& tandem, Action& selected);
+void add_shm_commands(CLI::App& tandem, Action& selected);
 
 } // namespace tandem::command

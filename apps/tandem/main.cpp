@@ -2,7 +2,7 @@
 // tandem: one command with sub-commands. See --help.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
 
 #include <fmt/format.h>
 #include <tandem_version.hpp>
@@ -16,19 +16,19 @@ int main(int argc, char** argv) {
     tandem.require_subcommand(1);
     tandem.set_version_flag("--version", std::string("tandem ") + tandem::version);
     tandem.footer("tandem COMMAND --help says more about a command.");
-    tandem::command::Run chosen;
-    tandem::command::add_opros(tandem, chosen);
-    tandem::command::add_rtm(tandem, chosen);
-    tandem::command::add_shm(tandem, chosen);
+    tandem::command::Action selected;
+    tandem::command::add_opros_commands(tandem, selected);
+    tandem::command::add_rtm_commands(tandem, selected);
+    tandem::command::add_shm_commands(tandem, selected);
     try {
         tandem.parse(argc, argv);
     } catch (const CLI::ParseError& end) {
         return tandem.exit(end);
     }
     try {
-        return chosen();
+        return selected();
     } catch (const std::exception& failure) {
-        fmt::print(stderr, "tandem: {}\n", tandem::command::in_one_line(failure.what()));
+        fmt::print(stderr, "tandem: {}\n", tandem::command::replace_control_characters(failure.what()));
         return 1;
     }
 }

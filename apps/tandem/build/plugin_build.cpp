@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/plugin_build.hpp"
 #include "apps/tandem/build/first_error.hpp"
-#include "apps/tandem/build/package_path.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/build/package_folder.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "host/process/run_command.hpp"
 
 #include <cstdlib>
@@ -44,35 +44,37 @@ class BuildFolder {
     fs::path path_;
 };
 
-std::string quoted(const std::string& text) {
+std::string cmake_quote(const std::string& text) {
     // Bracket arguments are taken as they are.
     return "[==[" + text + "]==]";
 }
 
-std::string listed(const char* keyword, const std::vector<std::string>& values) {
+std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
     if (values.empty()) return "";
     std::string text = std::string("\n  ") + keyword;
-    for (const auto& value : values) text += " " + quoted(value);
+    for (const auto& value : values) text += " " + cmake_quote(value);
     return text;
 }
 
-std::string project_text(const std::string& model, const std::string& name, const PluginBuild& options,
-                         const fs::path& output) {
+std::string cmake_project(const std::string& model, const std::string& name,
+                          const PluginBuildOptions& options, const fs::path& output) {
     std::vector<std::string> include_dirs;
     for (const auto& dir : options.include_dirs) include_dirs.push_back(fs::absolute(dir).string());
     return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
            "find_package(Tandem REQUIRED COMPONENTS " +
-           model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + quoted(output.string()) + ")\ntandem_add_" +
-           model + "_component(" + name + "\n  FOLDER " + quoted(fs::absolute(options.folder).string()) +
-           listed("INCLUDE_DIRS", include_dirs) + listed("DEFINITIONS", options.definitions) +
-           listed("LIBRARIES", options.libraries) + fmt::format("\n  CXX_STANDARD {})\n", options.standard);
+           model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote(output.string()) +
+           ")\ntandem_add_" + model + "_component(" + name + "\n  FOLDER " +
+           cmake_quote(fs::absolute(options.folder).string()) + cmake_argument("INCLUDE_DIRS", include_dirs) +
+           cmake_argument("DEFINITIONS", options.definitions) +
+           cmake_argument("LIBRARIES", options.libraries) +
+           fmt::format("\n  CXX_STANDARD {})\n", options.standard);
 }
 
 // What the compiler says belongs to the user, all of it; the first error is repeated in our own line.
-void run(const std::vector<std::string>& command, double seconds, const std::string& name,
+void run(const std::vector<std::string>& command, double timeout_s, const std::string& name,
          const std::string& what) {
     process::CommandOptions options;
-    options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+    options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout_s * 1000));
     options.merge_errors = true;
     options.stop_on_signal = true; // or the folder of the build would be left behind
     process::CommandResult end;
@@ -86,7 +88,7 @@ void run(const std::vector<std::string>& command, double seconds, const std::str
     if (end.timed_out)
         throw std::runtime_error(fmt::format("the build of component {} was not done within {} s and has "
                                              "been ended; --timeout gives it more time",
-                                             name, seconds));
+                                             name, timeout_s));
     if (end.succeeded()) return;
     print_text(end.output);
     throw std::runtime_error("component " + name + " " + what + ": " + first_error(end.output) +
@@ -94,8 +96,8 @@ void run(const std::vector<std::string>& command, double seconds, const std::str
 }
 
 // A list of CMake's would fall apart there.
-void require_no_semicolon(const fs::path& place) {
-    const std::string whole = place.empty() ? "" : fs::absolute(place).lexically_normal().string();
+void require_no_semicolon(const fs::path& path) {
+    const std::string whole = path.empty() ? "" : fs::absolute(path).lexically_normal().string();
     if (whole.find(';') != std::string::npos)
         throw std::runtime_error(whole +
                                  " has a ';' in its name, at which CMake takes it apart; build in a folder "
@@ -103,10 +105,10 @@ void require_no_semicolon(const fs::path& place) {
 }
 
 // The library replaces the old one when it is whole: a running host may have that one mapped.
-void replace(const fs::path& made, const fs::path& library) {
+void replace_library(const fs::path& cmake_output, const fs::path& library) {
     const fs::path fresh = library.parent_path() / ("." + library.filename().string() + ".new");
     std::error_code error, ignored;
-    if (fs::copy_file(made, fresh, fs::copy_options::overwrite_existing, error))
+    if (fs::copy_file(cmake_output, fresh, fs::copy_options::overwrite_existing, error))
         fs::rename(fresh, library, error);
     if (!error) return;
     fs::remove(fresh, ignored);
@@ -115,7 +117,7 @@ void replace(const fs::path& made, const fs::path& library) {
 
 } // namespace
 
-void add_build_options(CLI::App* command, PluginBuild& options, const char* where) {
+void add_build_options(CLI::App* command, PluginBuildOptions& options, const char* where) {
     const auto repeated = [&](const char* flag, std::vector<std::string>& values, const char* what) {
         command->add_option(flag, values, what)->allow_extra_args(false);
     };
@@ -125,7 +127,7 @@ void add_build_options(CLI::App* command, PluginBuild& options, const char* wher
     repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
     command->add_option("--standard", options.standard, "C++ standard (14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
-    command->add_option("--timeout", options.seconds, "seconds that the compilation may take (600)")
+    command->add_option("--timeout", options.timeout_s, "seconds that the compilation may take (600)")
         ->check(CLI::Range(0.1, 86400.));
     command->add_option("--output", options.output, where);
     command->add_option("--build-dir", options.build,
@@ -138,25 +140,26 @@ void require_folder(const fs::path& folder) {
                                  " is not a folder; name the one with the component's sources");
 }
 
-fs::path build_plugin(const std::string& model, const std::string& name, const PluginBuild& options,
-                      const fs::path& place) {
+fs::path build_plugin(const std::string& model, const std::string& name, const PluginBuildOptions& options,
+                      const fs::path& default_folder) {
     for (const auto& dir : options.include_dirs) require_folder(dir);
-    const fs::path output = fs::absolute(options.output.empty() ? place : options.output).lexically_normal();
+    const fs::path output =
+        fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
     for (const auto& dir : options.include_dirs) require_no_semicolon(dir);
     for (const auto& dir : {options.folder, output, options.build}) require_no_semicolon(dir);
     const BuildFolder build(options.build);
-    const fs::path made = build.path() / "made";
-    std::ofstream(build.path() / "CMakeLists.txt") << project_text(model, name, options, made);
+    const fs::path cmake_output = build.path() / "made";
+    std::ofstream(build.path() / "CMakeLists.txt") << cmake_project(model, name, options, cmake_output);
     const std::string bin = (build.path() / "bin").string();
     run({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-         "-DTandem_DIR=" + package_folder().string()},
-        options.seconds, name, "cannot be set up");
-    run({"cmake", "--build", bin, "--parallel"}, options.seconds, name, "does not compile");
+         "-DTandem_DIR=" + cmake_package_folder().string()},
+        options.timeout_s, name, "cannot be set up");
+    run({"cmake", "--build", bin, "--parallel"}, options.timeout_s, name, "does not compile");
     fs::create_directories(output);
     const fs::path library = output / (name + ".so");
-    replace(made / library.filename(), library);
+    replace_library(cmake_output / library.filename(), library);
     if (!options.output.empty())
-        for (const auto& entry : fs::directory_iterator(made))
+        for (const auto& entry : fs::directory_iterator(cmake_output))
             if (entry.path().filename() != library.filename())
                 fs::copy_file(entry.path(), output / entry.path().filename(),
                               fs::copy_options::overwrite_existing);

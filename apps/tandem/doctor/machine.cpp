@@ -24,7 +24,7 @@ std::uint64_t soft_limit(__rlimit_resource_t resource) {
 
 /// The errno that an attempt in a child process ends with.
 template <class Attempt>
-int tried(Attempt attempt) {
+int errno_of_attempt(Attempt attempt) {
     const pid_t child = fork();
     if (child < 0) return errno;
     if (child == 0) _exit(attempt() ? 0 : errno);
@@ -40,15 +40,15 @@ bool lock_memory() {
            mmap(nullptr, more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) != MAP_FAILED;
 }
 
-bool become_real_time() {
+bool set_sched_fifo() {
     sched_param parameters{};
     parameters.sched_priority = 50;
     return sched_setscheduler(0, SCHED_FIFO, &parameters) == 0;
 }
 
-bool watch_files() { return inotify_init1(IN_CLOEXEC) >= 0; }
+bool create_inotify_instance() { return inotify_init1(IN_CLOEXEC) >= 0; }
 
-unsigned usable_cores() {
+unsigned count_usable_cores() {
     cpu_set_t set;
     CPU_ZERO(&set);
     if (sched_getaffinity(0, sizeof set, &set) == 0) return static_cast<unsigned>(CPU_COUNT(&set));
@@ -75,40 +75,39 @@ std::optional<std::string> Machine::content(const std::string& absolute) const {
 std::optional<std::string> Machine::first_line(const std::string& absolute) const {
     const auto text = content(absolute);
     if (!text) return std::nullopt;
-    return trimmed(text->substr(0, text->find('\n')));
+    return trim(text->substr(0, text->find('\n')));
 }
 
-Machine this_machine() {
+Machine probe_this_machine() {
     Machine machine;
-    Answers& answers = machine.answers;
-    answers.locked_limit = soft_limit(RLIMIT_MEMLOCK);
-    answers.realtime_limit = soft_limit(RLIMIT_RTPRIO);
-    answers.files_limit = soft_limit(RLIMIT_NOFILE);
+    ProbedValues& probed = machine.probed;
+    probed.memlock_limit = soft_limit(RLIMIT_MEMLOCK);
+    probed.rtprio_limit = soft_limit(RLIMIT_RTPRIO);
+    probed.files_limit = soft_limit(RLIMIT_NOFILE);
     struct statvfs disk {};
     if (statvfs("/dev/shm", &disk) == 0) {
-        answers.shm_bytes = disk.f_blocks * disk.f_frsize;
-        answers.shm_free = disk.f_bavail * disk.f_frsize;
+        probed.shm_bytes = disk.f_blocks * disk.f_frsize;
+        probed.shm_free = disk.f_bavail * disk.f_frsize;
     }
-    answers.lock_error = tried(lock_memory);
-    answers.fifo_error = tried(become_real_time);
-    answers.inotify_error = tried(watch_files);
-    answers.dma_latency_error =
-        faccessat(AT_FDCWD, "/dev/cpu_dma_latency", W_OK, AT_EACCESS) == 0 ? 0 : errno;
-    answers.timer_slack_ns =
+    probed.lock_error = errno_of_attempt(lock_memory);
+    probed.fifo_error = errno_of_attempt(set_sched_fifo);
+    probed.inotify_error = errno_of_attempt(create_inotify_instance);
+    probed.dma_latency_error = faccessat(AT_FDCWD, "/dev/cpu_dma_latency", W_OK, AT_EACCESS) == 0 ? 0 : errno;
+    probed.timer_slack_ns =
         static_cast<std::uint64_t>(std::max(0, prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)));
-    answers.cores = usable_cores();
-    answers.user = geteuid();
+    probed.cores = count_usable_cores();
+    probed.user = geteuid();
     return machine;
 }
 
-std::string trimmed(const std::string& text) {
+std::string trim(const std::string& text) {
     constexpr auto blanks = " \t\r\n";
     const auto begin = text.find_first_not_of(blanks);
     if (begin == std::string::npos) return "";
     return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-std::string bracketed(const std::string& choices) {
+std::string bracketed_word(const std::string& choices) {
     const auto begin = choices.find_first_of("[("), end = choices.find_first_of("])");
     if (begin == std::string::npos || end == std::string::npos || end < begin) return "";
     return choices.substr(begin + 1, end - begin - 1);

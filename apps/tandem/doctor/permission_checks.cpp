@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/doctor/checks.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
 
 #include <charconv>
 #include <system_error>
@@ -12,7 +12,7 @@ std::string reason_of(int code) { return std::generic_category().message(code); 
 
 std::string limit_text(std::uint64_t limit, bool bytes) {
     if (limit == unlimited) return "unlimited";
-    return bytes ? command::bytes_text(limit) : std::to_string(limit);
+    return bytes ? command::format_bytes(limit) : std::to_string(limit);
 }
 
 std::optional<long> number_in(const Machine& machine, const std::string& file) {
@@ -30,72 +30,73 @@ constexpr auto raise_rtprio =
 
 } // namespace
 
-Finding check_locked_limit(const Machine& machine) {
-    const std::string name = "RLIMIT_MEMLOCK", seen = limit_text(machine.answers.locked_limit, true);
-    if (machine.answers.locked_limit == unlimited) return ok(name, seen);
-    if (machine.answers.lock_error == 0) return ok(name, seen + ", does not bind this user");
-    return warn(name, seen, std::string("hosts cannot lock their memory: ") + raise_memlock);
+CheckResult check_memlock_limit(const Machine& machine) {
+    const std::string name = "RLIMIT_MEMLOCK", value = limit_text(machine.probed.memlock_limit, true);
+    if (machine.probed.memlock_limit == unlimited) return ok(name, value);
+    if (machine.probed.lock_error == 0) return ok(name, value + ", does not bind this user");
+    return warning(name, value, std::string("hosts cannot lock their memory: ") + raise_memlock);
 }
 
-Finding check_locking(const Machine& machine) {
+CheckResult check_memory_locking(const Machine& machine) {
     const std::string name = "mlockall";
-    if (machine.answers.lock_error == 0) return ok(name, "permitted");
-    return warn(name, "refused (" + reason_of(machine.answers.lock_error) + ")",
-                std::string("memory may be swapped out, a page fault costs milliseconds: ") + raise_memlock);
+    if (machine.probed.lock_error == 0) return ok(name, "permitted");
+    return warning(name, "refused (" + reason_of(machine.probed.lock_error) + ")",
+                   std::string("memory may be swapped out, a page fault costs milliseconds: ") +
+                       raise_memlock);
 }
 
-Finding check_realtime_limit(const Machine& machine) {
-    const std::string name = "RLIMIT_RTPRIO", seen = limit_text(machine.answers.realtime_limit, false);
-    if (machine.answers.realtime_limit >= 50) return ok(name, seen);
-    if (machine.answers.fifo_error == 0) return ok(name, seen + ", does not bind this user");
-    return warn(name, seen, std::string("hosts cannot have real-time priorities: ") + raise_rtprio);
+CheckResult check_rtprio_limit(const Machine& machine) {
+    const std::string name = "RLIMIT_RTPRIO", value = limit_text(machine.probed.rtprio_limit, false);
+    if (machine.probed.rtprio_limit >= 50) return ok(name, value);
+    if (machine.probed.fifo_error == 0) return ok(name, value + ", does not bind this user");
+    return warning(name, value, std::string("hosts cannot have real-time priorities: ") + raise_rtprio);
 }
 
-Finding check_fifo(const Machine& machine) {
+CheckResult check_sched_fifo(const Machine& machine) {
     const std::string name = "SCHED_FIFO";
-    if (machine.answers.fifo_error == 0) return ok(name, "permitted");
-    return warn(name, "refused (" + reason_of(machine.answers.fifo_error) + ")",
-                std::string("any other process may delay a tick: ") + raise_rtprio +
-                    "; in a container docker run --cap-add SYS_NICE");
+    if (machine.probed.fifo_error == 0) return ok(name, "permitted");
+    return warning(name, "refused (" + reason_of(machine.probed.fifo_error) + ")",
+                   std::string("any other process may delay a tick: ") + raise_rtprio +
+                       "; in a container docker run --cap-add SYS_NICE");
 }
 
-Finding check_realtime_throttling(const Machine& machine) {
+CheckResult check_realtime_throttling(const Machine& machine) {
     const std::string name = "real-time throttling";
     const auto runtime = number_in(machine, "/proc/sys/kernel/sched_rt_runtime_us");
     const auto period = number_in(machine, "/proc/sys/kernel/sched_rt_period_us").value_or(1'000'000);
     if (!runtime) return ok(name, "not in this kernel");
     if (*runtime < 0 || *runtime >= period) return ok(name, "off");
-    return warn(name, std::to_string(*runtime) + " of each " + std::to_string(period) + " us",
-                "a SCHED_FIFO thread that spins is stopped for the rest: keep spinning threads at normal "
-                "priority, or "
-                "sysctl kernel.sched_rt_runtime_us=-1");
+    return warning(name, std::to_string(*runtime) + " of each " + std::to_string(period) + " us",
+                   "a SCHED_FIFO thread that spins is stopped for the rest: keep spinning threads at normal "
+                   "priority, or "
+                   "sysctl kernel.sched_rt_runtime_us=-1");
 }
 
-Finding check_open_files(const Machine& machine) {
+CheckResult check_open_files(const Machine& machine) {
     constexpr std::uint64_t few = 64, enough = 512;
-    const std::string name = "RLIMIT_NOFILE", seen = limit_text(machine.answers.files_limit, false);
+    const std::string name = "RLIMIT_NOFILE", value = limit_text(machine.probed.files_limit, false);
     const std::string remedy = "ulimit -n 1024, or LimitNOFILE=1024 in the unit";
-    if (machine.answers.files_limit < few)
-        return bad(name, seen, "a host cannot open its links and sockets: " + remedy);
-    if (machine.answers.files_limit < enough) return warn(name, seen, "little for many links: " + remedy);
-    return ok(name, seen);
+    if (machine.probed.files_limit < few)
+        return error(name, value, "a host cannot open its links and sockets: " + remedy);
+    if (machine.probed.files_limit < enough) return warning(name, value, "little for many links: " + remedy);
+    return ok(name, value);
 }
 
-Finding check_inotify(const Machine& machine) {
+CheckResult check_inotify(const Machine& machine) {
     constexpr long enough = 64;
     const std::string name = "inotify", remedy = "sysctl fs.inotify.max_user_instances=512";
-    if (machine.answers.inotify_error != 0)
-        return bad(name, "none left (" + reason_of(machine.answers.inotify_error) + ")",
-                   "each end of a link needs one: " + remedy);
+    if (machine.probed.inotify_error != 0)
+        return error(name, "none left (" + reason_of(machine.probed.inotify_error) + ")",
+                     "each end of a link needs one: " + remedy);
     const auto instances = number_in(machine, "/proc/sys/fs/inotify/max_user_instances");
     const auto watches = number_in(machine, "/proc/sys/fs/inotify/max_user_watches");
     if (!instances || !watches)
-        return warn(name, "limits unknown", "each end of a link needs one instance; is /proc mounted?");
-    const std::string seen =
+        return warning(name, "limits unknown", "each end of a link needs one instance; is /proc mounted?");
+    const std::string value =
         std::to_string(*instances) + " instances, " + std::to_string(*watches) + " watches per user";
     if (*instances < enough || *watches < enough)
-        return warn(name, seen, "each end of a link needs one: " + remedy);
-    return ok(name, seen);
+        return warning(name, value, "each end of a link needs one: " + remedy);
+    return ok(name, value);
 }
 
 } // namespace tandem::doctor

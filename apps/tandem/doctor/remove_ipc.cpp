@@ -13,10 +13,10 @@ namespace {
 
 constexpr const char* folders[] = {"/etc/systemd", "/run/systemd", "/usr/local/lib/systemd",
                                    "/usr/lib/systemd"};
-constexpr uid_t last_system_user = 999;
+constexpr uid_t max_system_uid = 999;
 
 /// The files in the order in which they count.
-std::vector<std::string> files(const Machine& machine) {
+std::vector<std::string> logind_files(const Machine& machine) {
     std::vector<std::string> found;
     for (const std::string folder : folders)
         if (found.empty() && machine.exists(folder + "/logind.conf"))
@@ -35,45 +35,45 @@ std::vector<std::string> files(const Machine& machine) {
 }
 
 /// The value that a file assigns in its section [Login]; empty if none.
-std::optional<std::string> assigned(const std::string& content) {
-    std::optional<std::string> value;
+std::optional<std::string> assigned_value(const std::string& content) {
+    std::optional<std::string> setting;
     std::string section;
     std::istringstream lines(content);
     for (std::string line; std::getline(lines, line);) {
-        line = trimmed(line);
+        line = trim(line);
         if (!line.empty() && line.front() == '[') section = line;
         const auto equals = line.find('=');
         if (section == "[Login]" && equals != std::string::npos &&
-            trimmed(line.substr(0, equals)) == "RemoveIPC")
-            value = trimmed(line.substr(equals + 1));
+            trim(line.substr(0, equals)) == "RemoveIPC")
+            setting = trim(line.substr(equals + 1));
     }
-    return value;
+    return setting;
 }
 
-bool is_no(std::string value) {
-    std::transform(value.begin(), value.end(), value.begin(),
+bool is_no(std::string setting) {
+    std::transform(setting.begin(), setting.end(), setting.begin(),
                    [](unsigned char c) { return std::tolower(c); });
-    return value == "no" || value == "n" || value == "false" || value == "f" || value == "off" ||
-           value == "0";
+    return setting == "no" || setting == "n" || setting == "false" || setting == "f" || setting == "off" ||
+           setting == "0";
 }
 
 } // namespace
 
-Finding check_remove_ipc(const Machine& machine) {
+CheckResult check_remove_ipc(const Machine& machine) {
     const std::string name = "RemoveIPC of logind";
     if (!machine.exists("/run/systemd/system")) return ok(name, "systemd does not run here");
-    std::string value = "yes", from = "the default";
-    for (const auto& file : files(machine))
-        if (const auto here = assigned(machine.content(file).value_or(""))) {
-            value = here->empty() ? "yes" : *here;
+    std::string setting = "yes", from = "the default";
+    for (const auto& file : logind_files(machine))
+        if (const auto here = assigned_value(machine.content(file).value_or(""))) {
+            setting = here->empty() ? "yes" : *here;
             from = file;
         }
-    const std::string seen = value + " (" + from + ")";
-    if (is_no(value)) return ok(name, seen);
-    if (machine.answers.user <= last_system_user)
-        return ok(name, seen + ", not for a system user like this one");
-    return warn(
-        name, seen,
+    const std::string value = setting + " (" + from + ")";
+    if (is_no(setting)) return ok(name, value);
+    if (machine.probed.user <= max_system_uid)
+        return ok(name, value + ", not for a system user like this one");
+    return warning(
+        name, value,
         "segments vanish when this user's last session ends: RemoveIPC=no in /etc/systemd/logind.conf, or "
         "loginctl enable-linger, or run the hosts as a system user");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/doctor/checks.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -49,95 +49,96 @@ std::set<std::string> governors(const Machine& machine) {
 
 } // namespace
 
-Finding check_cores(const Machine& machine) {
-    const std::string name = "cores", seen = std::to_string(machine.answers.cores) + " for this process";
-    if (machine.answers.cores >= 2) return ok(name, seen);
-    return warn(name, seen,
-                "the two hosts take turns: let them wait in the kernel and not spin, or give them two cores");
+CheckResult check_core_count(const Machine& machine) {
+    const std::string name = "cores", value = std::to_string(machine.probed.cores) + " for this process";
+    if (machine.probed.cores >= 2) return ok(name, value);
+    return warning(
+        name, value,
+        "the two hosts take turns: let them wait in the kernel and not spin, or give them two cores");
 }
 
-Finding check_isolation(const Machine& machine) {
+CheckResult check_isolated_cores(const Machine& machine) {
     const std::string name = "isolated cores", cores = core_list(machine, "/sys/devices/system/cpu/isolated");
     if (!cores.empty()) return ok(name, cores);
-    return warn(
+    return warning(
         name, "none",
         "other processes may run on the cores of the ticks: boot with isolcpus=LIST and pin the hosts there");
 }
 
-Finding check_nohz_full(const Machine& machine) {
+CheckResult check_nohz_full(const Machine& machine) {
     const std::string name = "cores without timer ticks",
                       cores = core_list(machine, "/sys/devices/system/cpu/nohz_full");
     if (!cores.empty()) return ok(name, cores);
-    return warn(
+    return warning(
         name, "none",
         "the kernel's tick interrupts a spinning thread: boot with nohz_full=LIST, the isolated cores");
 }
 
-Finding check_governor(const Machine& machine) {
+CheckResult check_governor(const Machine& machine) {
     const std::string name = "frequency governor";
     const auto found = governors(machine);
     if (found.empty()) return ok(name, "none: the frequency is not this system's to choose");
-    std::string seen;
-    for (const auto& governor : found) seen += (seen.empty() ? "" : ", ") + governor;
-    if (found == std::set<std::string>{"performance"}) return ok(name, seen);
-    return warn(name, seen, "a core that has idled starts slowly: cpupower frequency-set -g performance");
+    std::string value;
+    for (const auto& governor : found) value += (value.empty() ? "" : ", ") + governor;
+    if (found == std::set<std::string>{"performance"}) return ok(name, value);
+    return warning(name, value, "a core that has idled starts slowly: cpupower frequency-set -g performance");
 }
 
-Finding check_dma_latency(const Machine& machine) {
+CheckResult check_dma_latency(const Machine& machine) {
     const std::string name = "/dev/cpu_dma_latency";
-    switch (machine.answers.dma_latency_error) {
+    switch (machine.probed.dma_latency_error) {
     case 0:
         return ok(name, "writable");
     case ENOENT:
-        return warn(
+        return warning(
             name, "not there",
             "hosts cannot use low-latency-idle; for short wake-ups boot with cpuidle.off=1 or idle=poll");
     default:
-        return warn(
-            name, "not writable (" + std::generic_category().message(machine.answers.dma_latency_error) + ")",
+        return warning(
+            name, "not writable (" + std::generic_category().message(machine.probed.dma_latency_error) + ")",
             "hosts cannot use low-latency-idle: a udev rule KERNEL==\"cpu_dma_latency\", GROUP=\"realtime\", "
             "MODE=\"0660\"");
     }
 }
 
-Finding check_preemption(const Machine& machine) {
+CheckResult check_preemption(const Machine& machine) {
     const std::string name = "kernel preemption",
                       remedy = "install a PREEMPT_RT kernel, or boot with preempt=full";
     const std::string version = machine.first_line("/proc/sys/kernel/version").value_or("");
     if (machine.first_line("/sys/kernel/realtime") == "1" || contains_word(version, "PREEMPT_RT"))
         return ok(name, "PREEMPT_RT");
     if (contains_word(version, "PREEMPT")) return ok(name, "full");
-    if (!contains_word(version, "PREEMPT_DYNAMIC")) return warn(name, "none or voluntary", remedy);
-    std::string mode = bracketed(machine.first_line("/sys/kernel/debug/sched/preempt").value_or(""));
+    if (!contains_word(version, "PREEMPT_DYNAMIC")) return warning(name, "none or voluntary", remedy);
+    std::string mode = bracketed_word(machine.first_line("/sys/kernel/debug/sched/preempt").value_or(""));
     if (mode.empty()) mode = boot_option(machine, "preempt");
     if (mode == "full") return ok(name, "full");
-    return warn(name, mode.empty() ? "chosen at boot, the choice is not visible" : mode, remedy);
+    return warning(name, mode.empty() ? "chosen at boot, the choice is not visible" : mode, remedy);
 }
 
-Finding check_clock_source(const Machine& machine) {
+CheckResult check_clock_source(const Machine& machine) {
     const std::string name = "clock source";
-    const std::string seen =
+    const std::string value =
         machine.first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource")
             .value_or("unknown");
     constexpr const char* without_system_call[] = {"tsc", "kvm-clock", "hyperv_clocksource_tsc_page",
                                                    "arch_sys_counter"};
     const bool fast = std::any_of(std::begin(without_system_call), std::end(without_system_call),
-                                  [&](const char* source) { return seen == source; });
-    if (fast) return ok(name, seen);
-    return warn(name, seen,
-                "every time stamp is a system call: boot with clocksource=tsc tsc=reliable if the "
-                "processor's TSC is invariant");
+                                  [&](const char* source) { return value == source; });
+    if (fast) return ok(name, value);
+    return warning(name, value,
+                   "every time stamp is a system call: boot with clocksource=tsc tsc=reliable if the "
+                   "processor's TSC is invariant");
 }
 
-Finding check_timer_slack(const Machine& machine) {
+CheckResult check_timer_slack(const Machine& machine) {
     constexpr std::uint64_t usual = 50'000;
-    const std::string name = "timer slack", seen = command::duration_text(machine.answers.timer_slack_ns);
-    if (machine.answers.timer_slack_ns <= usual) return ok(name, seen + ", 1 ns in threads that tick");
-    return warn(name, seen,
-                "sleeping threads wake late: start the hosts from a process with the usual 50 us");
+    const std::string name = "timer slack", value = command::format_duration(machine.probed.timer_slack_ns);
+    if (machine.probed.timer_slack_ns <= usual) return ok(name, value + ", 1 ns in threads that tick");
+    return warning(name, value,
+                   "sleeping threads wake late: start the hosts from a process with the usual 50 us");
 }
 
-Finding check_hypervisor(const Machine& machine) {
+CheckResult check_hypervisor(const Machine& machine) {
     const std::string name = "hypervisor", cpu = machine.content("/proc/cpuinfo").value_or("");
     const auto flags = cpu.find("\nflags");
     const bool guest = flags != std::string::npos &&
@@ -146,10 +147,11 @@ Finding check_hypervisor(const Machine& machine) {
     std::string which = machine.first_line("/sys/class/dmi/id/sys_vendor").value_or("");
     if (const auto product = machine.first_line("/sys/class/dmi/id/product_name"))
         which += (which.empty() ? "" : " ") + *product;
-    return warn(name, which.empty() ? "yes" : command::printable(which),
-                "the host may take a core away at any time, and waking a halted one costs an exit: measure "
-                "on bare metal, "
-                "or pin virtual cores and poll in the guest (haltpoll)");
+    return warning(
+        name, which.empty() ? "yes" : command::replace_nonprintable(which),
+        "the host may take a core away at any time, and waking a halted one costs an exit: measure "
+        "on bare metal, "
+        "or pin virtual cores and poll in the guest (haltpoll)");
 }
 
 } // namespace tandem::doctor

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Builds a component from its folder, under the name that its profile gives.
 #include "apps/tandem/opros/commands.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
 #include "host/plugin/find_library.hpp"
 
@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<engine::ComponentProfile> component_profiles(const fs::path& folder) {
+std::vector<engine::ComponentProfile> find_component_profiles(const fs::path& folder) {
     std::vector<engine::ComponentProfile> found;
-    for (const char* place : {"", "profile", "profiles"}) {
+    for (const char* subfolder : {"", "profile", "profiles"}) {
         std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(folder / place, ignored)) {
+        for (const auto& entry : fs::directory_iterator(folder / subfolder, ignored)) {
             if (entry.path().extension() != ".xml") continue;
             try {
                 found.push_back(engine::read_component_profile(entry.path()));
@@ -31,9 +31,9 @@ std::vector<engine::ComponentProfile> component_profiles(const fs::path& folder)
     return found;
 }
 
-engine::ComponentProfile the_profile(const BuildOptions& options) {
+engine::ComponentProfile select_profile(const OprosBuildOptions& options) {
     if (!options.profile.empty()) return engine::read_component_profile(options.folder / options.profile);
-    const auto all = component_profiles(options.folder);
+    const auto all = find_component_profiles(options.folder);
     if (all.size() == 1) return all.front();
     if (all.empty())
         throw std::runtime_error("no component profile (XML with <component_profile>) in " +
@@ -50,21 +50,21 @@ engine::ComponentProfile the_profile(const BuildOptions& options) {
 std::string library_stem(const engine::ComponentProfile& profile) {
     const auto file = fs::path(profile.library_name).filename().string();
     auto stem = fs::path(plugin::library_file_names(file).back()).stem().stem().string();
-    const auto good = [](unsigned char c) {
+    const auto allowed = [](unsigned char c) {
         return c < 128 && (std::isalnum(c) || std::strchr("_-+.", c) != nullptr);
     };
-    if (stem.empty() || !std::all_of(stem.begin(), stem.end(), good))
+    if (stem.empty() || !std::all_of(stem.begin(), stem.end(), allowed))
         throw engine::SetupError(profile.library_location,
-                                 "no library can be built as '" + printable(stem) +
+                                 "no library can be built as '" + replace_nonprintable(stem) +
                                      "', expected letters, digits, and _ - + . of ASCII");
     return stem;
 }
 
 } // namespace
 
-int opros_build(const BuildOptions& options) {
+int opros_build(const OprosBuildOptions& options) {
     require_folder(options.folder);
-    const auto profile = the_profile(options);
+    const auto profile = select_profile(options);
     const auto library =
         build_plugin("opros", library_stem(profile), options, profile.location.file.parent_path());
     print_text(library.string() + "\n");

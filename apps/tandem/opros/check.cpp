@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
-#include "apps/tandem/opros/port_faults.hpp"
+#include "apps/tandem/opros/port_mismatches.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
-#include "apps/tandem/opros/type_faults.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/opros/type_profile_errors.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
@@ -17,10 +17,10 @@ namespace {
 using engine::ApplicationProfile;
 
 /// What has been found so far: one line each.
-class Faults {
+class ErrorList {
   public:
     /// Whether the step went without an error; its line is kept otherwise.
-    bool passes(const std::function<void()>& step) {
+    bool run_step(const std::function<void()>& step) {
         try {
             step();
             return true;
@@ -34,7 +34,7 @@ class Faults {
 
 /// Where its profile does not fit it. Throws when there is no component to run.
 std::vector<std::string> check_component(const ApplicationProfile& application,
-                                         const engine::Subcomponent& entry, const LookOptions& options) {
+                                         const engine::Subcomponent& entry, const InspectOptions& options) {
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.location.file.parent_path());
     const auto file = entry.file.empty()
@@ -44,57 +44,58 @@ std::vector<std::string> check_component(const ApplicationProfile& application,
     const auto library = engine::find_component_library(profile, dirs);
     try {
         engine::require_opros_component(library);
-        auto faults = port_faults(profile, described(library, file, options)["ports"], options.initialize);
-        for (std::string& each : type_faults(profile)) faults.push_back(std::move(each));
-        return faults;
+        auto errors = find_port_mismatches(profile, describe_in_child(library, file, options)["ports"],
+                                           options.initialize);
+        for (std::string& each : find_type_profile_errors(profile)) errors.push_back(std::move(each));
+        return errors;
     } catch (const plugin::Error& error) {
         throw engine::SetupError(profile.library_location, error.what());
     }
 }
 
-std::string counted(std::size_t count, const char* what) {
+std::string count_text(std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-int report(const ApplicationProfile& application, const Faults& faults, bool as_json) {
-    const int code = faults.lines.empty() ? 0 : 1;
+int print_report(const ApplicationProfile& application, const ErrorList& errors, bool as_json) {
+    const int code = errors.lines.empty() ? 0 : 1;
     if (as_json) {
         print_json({{"application", application.name},
                     {"components", application.subcomponents.size()},
                     {"connections", application.connections.size()},
-                    {"faults", faults.lines}});
+                    {"faults", errors.lines}});
         return code;
     }
-    for (const std::string& line : faults.lines) print_text(line + "\n");
+    for (const std::string& line : errors.lines) print_text(line + "\n");
     print_text(application.name + ": " +
-               (faults.lines.empty() ? counted(application.subcomponents.size(), "component") + " and " +
-                                           counted(application.connections.size(), "connection") + " fit"
-                                     : counted(faults.lines.size(), "fault")) +
+               (errors.lines.empty() ? count_text(application.subcomponents.size(), "component") + " and " +
+                                           count_text(application.connections.size(), "connection") + " fit"
+                                     : count_text(errors.lines.size(), "fault")) +
                "\n");
     return code;
 }
 
 } // namespace
 
-int opros_check(const LookOptions& options) {
+int opros_check(const InspectOptions& options) {
     auto application = engine::read_application_profile(options.file);
-    Faults faults;
+    ErrorList errors;
     // A profile that is missing is told below, one for each component.
     if (engine::has_composites(application, options.plugin_dirs))
         application = engine::flatten_composites(application, options.plugin_dirs);
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
-            faults.lines.push_back(connection.location.text() + ": " + connection.error);
+            errors.lines.push_back(connection.location.text() + ": " + connection.error);
     const auto add = [&](const std::vector<std::string>& lines) {
-        faults.lines.insert(faults.lines.end(), lines.begin(), lines.end());
+        errors.lines.insert(errors.lines.end(), lines.begin(), lines.end());
     };
-    std::vector<std::string> without;
+    std::vector<std::string> excluded;
     for (const auto& entry : application.subcomponents)
-        if (!faults.passes([&] { add(check_component(application, entry, options)); }))
-            without.push_back(entry.name);
-    faults.passes([&] { engine::start_order(application); });
-    faults.passes([&] { add(connection_faults(without, options)); });
-    return report(application, faults, options.json);
+        if (!errors.run_step([&] { add(check_component(application, entry, options)); }))
+            excluded.push_back(entry.name);
+    errors.run_step([&] { engine::start_order(application); });
+    errors.run_step([&] { add(check_connections_in_child(excluded, options)); });
+    return print_report(application, errors, options.json);
 }
 
 } // namespace tandem::command

@@ -12,22 +12,22 @@
 
 namespace tandem::command {
 
-struct LookOptions {
+struct InspectOptions {
     std::filesystem::path file;
     std::vector<std::filesystem::path> plugin_dirs;
     bool initialize = false; ///< ports that onInitialize makes are wanted, too: it is run, in a child process
-    double seconds = 10;     ///< bound for the component's code
+    double timeout_s = 10;   ///< bound for the component's code
     bool json = false;
 };
-int opros_info(const LookOptions& options);
-int opros_check(const LookOptions& options);
+int opros_info(const InspectOptions& options);
+int opros_check(const InspectOptions& options);
 
 int opros_new(const std::string& name, const std::filesystem::path& parent);
 
-struct BuildOptions : PluginBuild {
+struct OprosBuildOptions : PluginBuildOptions {
     std::string profile; ///< which one, when the folder has several
 };
-int opros_build(const BuildOptions& options);
+int opros_build(const OprosBuildOptions& options);
 
 /// What a child process of this program does for info and check.
 plugin::ProbeTasks opros_probe_tasks();

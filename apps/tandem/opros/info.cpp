@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
-#include "apps/tandem/opros/executor_text.hpp"
-#include "apps/tandem/opros/ports_text.hpp"
+#include "apps/tandem/opros/executor_format.hpp"
+#include "apps/tandem/opros/port_format.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
-#include "apps/tandem/opros/profile_info.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/opros/profile_description.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/plugin/find_library.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-struct Found {
+struct InspectedComponent {
     fs::path library;
     std::optional<engine::ComponentProfile> profile;
 };
@@ -29,7 +29,7 @@ bool names(const engine::ComponentProfile& profile, const fs::path& library) {
 }
 
 // The component profile in the library's folder that names it, if there is one.
-std::optional<engine::ComponentProfile> profile_beside(const fs::path& library) {
+std::optional<engine::ComponentProfile> find_profile_beside(const fs::path& library) {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(fs::absolute(library).parent_path(), ignored)) {
         if (entry.path().extension() != ".xml") continue;
@@ -43,48 +43,50 @@ std::optional<engine::ComponentProfile> profile_beside(const fs::path& library) 
     return std::nullopt;
 }
 
-Found find(const LookOptions& options) {
+InspectedComponent find(const InspectOptions& options) {
     if (options.file.empty())
         throw std::runtime_error("FILE is empty, expected a component library or profile");
-    if (options.file.extension() != ".xml") return {options.file, profile_beside(options.file)};
+    if (options.file.extension() != ".xml") return {options.file, find_profile_beside(options.file)};
     auto profile = engine::read_component_profile(options.file);
     return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile)};
 }
 
-json executor_of(const engine::ComponentProfile& profile) {
-    return {{"type", execution_word(profile.execution_type)},
+json describe_executor(const engine::ComponentProfile& profile) {
+    return {{"type", to_string(profile.execution_type)},
             {"period_ms", static_cast<double>(profile.period.count()) / 1e6},
             {"phase_ms", static_cast<double>(profile.phase.count()) / 1e6},
             {"priority", profile.priority}};
 }
 
-json look(const Found& found, const LookOptions& options) {
+json inspect(const InspectedComponent& found, const InspectOptions& options) {
     engine::require_opros_component(found.library);
-    json info = described(found.library, found.profile ? found.profile->location.file : fs::path(), options);
+    json info =
+        describe_in_child(found.library, found.profile ? found.profile->location.file : fs::path(), options);
     info["library"] = fs::absolute(found.library).lexically_normal().string();
     info["name"] = found.profile ? found.profile->name : found.library.stem().string();
     info["profile"] =
         found.profile ? json(fs::absolute(found.profile->location.file).lexically_normal().string()) : json();
-    info["executor"] = found.profile ? executor_of(*found.profile) : json();
+    info["executor"] = found.profile ? describe_executor(*found.profile) : json();
     return info;
 }
 
-std::string text_of(const json& info, const Found& found, const LookOptions& options) {
+std::string format_component(const json& info, const InspectedComponent& found,
+                             const InspectOptions& options) {
     std::string text =
         fmt::format("component  {}\nlibrary    {}, {}\n", info["name"].get<std::string>(),
                     info["library"].get<std::string>(),
                     info.contains("version") ? info["version"].get<std::string>() : "no version");
     text += "profile    " + (found.profile ? info["profile"].get<std::string>() : "none beside the library") +
             "\n";
-    if (found.profile) text += "executor   " + executor_text(*found.profile) + "\n";
-    text += "\n" + ports_text(info["ports"]);
+    if (found.profile) text += "executor   " + format_executor(*found.profile) + "\n";
+    text += "\n" + format_ports(info["ports"]);
     if (info["ports"].empty() && !options.initialize)
         text +=
             "ports that onInitialize makes are shown with --initialize, which runs it in a child process\n";
     if (!info["properties"].empty()) {
         Table table({"property", "value"});
         for (const auto& [name, value] : info["properties"].items())
-            table.add({in_one_line(name), in_one_line(value)});
+            table.add_row({replace_control_characters(name), replace_control_characters(value)});
         text += "\n" + table.text();
     }
     return text;
@@ -92,20 +94,20 @@ std::string text_of(const json& info, const Found& found, const LookOptions& opt
 
 } // namespace
 
-int opros_info(const LookOptions& options) {
+int opros_info(const InspectOptions& options) {
     if (options.file.extension() == ".xml")
         if (const auto kind = engine::read_profile_kind(options.file);
             kind != engine::ProfileKind::component) {
-            const json info = profile_info(kind, options);
-            options.json ? print_json(info) : print_text(profile_text(info));
+            const json info = describe_profile(kind, options);
+            options.json ? print_json(info) : print_text(format_profile(info));
             return 0;
         }
-    const Found found = find(options);
-    const json info = look(found, options);
+    const InspectedComponent found = find(options);
+    const json info = inspect(found, options);
     if (options.json)
         print_json(info);
     else
-        print_text(text_of(info, found, options));
+        print_text(format_component(info, found, options));
     return 0;
 }
 

@@ -15,50 +15,50 @@ CLI::App* add(CLI::App& parent, const char* name, const char* brief, const char*
     return command;
 }
 
-void add_look(CLI::App* command, LookOptions& options, const char* what) {
+void add_inspect_options(CLI::App* command, InspectOptions& options, const char* what) {
     command->add_option("FILE", options.file, what)->required();
     command->add_option("--plugin-path", options.plugin_dirs, "folder with component libraries (repeatable)")
         ->allow_extra_args(false);
     command->add_flag("--initialize", options.initialize,
                       "run onInitialize, in a child process: some components make their ports there");
-    command->add_option("--timeout", options.seconds, "seconds that the component's code may take (10)")
+    command->add_option("--timeout", options.timeout_s, "seconds that the component's code may take (10)")
         ->check(CLI::Range(0.1, 3600.));
     command->add_flag("--json", options.json, "print JSON instead of text");
 }
 
-void with_default_dirs(LookOptions& options) {
+void append_default_dirs(InspectOptions& options) {
     const auto dirs = engine::default_plugin_dirs();
     options.plugin_dirs.insert(options.plugin_dirs.end(), dirs.begin(), dirs.end());
 }
 
-void add_looks(CLI::App& opros, Run& chosen) {
-    auto options = std::make_shared<LookOptions>();
+void add_info_and_check(CLI::App& opros, Action& selected) {
+    auto options = std::make_shared<InspectOptions>();
     CLI::App* info = add(
         opros, "info", "What a component is: ports with types, services, properties, executor",
         "A component is made in a child process, which is given up if it crashes or hangs.\n"
         "Of a composite: its components and the ports that it exports; of an application: its components\n"
         "and connections; of a service type or data type: its methods or fields.\n"
         "Exit code 1 if it cannot be made, or FILE is neither a library nor a profile.");
-    add_look(info, *options, "component library (X.so) or profile (X.xml)");
-    info->callback([=, &chosen] {
-        chosen = [options] {
-            with_default_dirs(*options);
+    add_inspect_options(info, *options, "component library (X.so) or profile (X.xml)");
+    info->callback([=, &selected] {
+        selected = [options] {
+            append_default_dirs(*options);
             return opros_info(*options);
         };
     });
     CLI::App* check = add(opros, "check", "Whether an application's parts are there and fit together",
                           "Every fault is a line: file, line, what does not fit, what was expected.\n"
                           "Exit code 1 if there is a fault.");
-    add_look(check, *options, "application profile (XML)");
-    check->callback([=, &chosen] {
-        chosen = [options] {
-            with_default_dirs(*options);
+    add_inspect_options(check, *options, "application profile (XML)");
+    check->callback([=, &selected] {
+        selected = [options] {
+            append_default_dirs(*options);
             return opros_check(*options);
         };
     });
 }
 
-void add_new(CLI::App& opros, Run& chosen) {
+void add_new(CLI::App& opros, Action& selected) {
     struct Options {
         std::string name;
         std::filesystem::path parent = ".";
@@ -71,11 +71,11 @@ void add_new(CLI::App& opros, Run& chosen) {
     command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
     command->add_option("--in", options->parent, "folder in which to make it (.)");
     command->callback(
-        [=, &chosen] { chosen = [options] { return opros_new(options->name, options->parent); }; });
+        [=, &selected] { selected = [options] { return opros_new(options->name, options->parent); }; });
 }
 
-void add_build(CLI::App& opros, Run& chosen) {
-    auto options = std::make_shared<BuildOptions>();
+void add_build(CLI::App& opros, Action& selected) {
+    auto options = std::make_shared<OprosBuildOptions>();
     CLI::App* command =
         add(opros, "build", "Builds a component from nothing but its folder",
             "Takes the sources in DIR and DIR/src, and the component profile in DIR or DIR/profile, which\n"
@@ -83,18 +83,18 @@ void add_build(CLI::App& opros, Run& chosen) {
             "changed. Exit code 1 if it cannot be built.");
     add_build_options(command, *options, "folder for plugin and profiles instead of the profile's");
     command->add_option("--profile", options->profile, "component profile in DIR, when there are several");
-    command->callback([=, &chosen] { chosen = [options] { return opros_build(*options); }; });
+    command->callback([=, &selected] { selected = [options] { return opros_build(*options); }; });
 }
 
 } // namespace
 
-void add_opros(CLI::App& tandem, Run& chosen) {
+void add_opros_commands(CLI::App& tandem, Action& selected) {
     CLI::App* opros =
         tandem.add_subcommand("opros", "OPRoS components: look at them, check them, make and build them");
     opros->require_subcommand(1);
-    add_looks(*opros, chosen);
-    add_new(*opros, chosen);
-    add_build(*opros, chosen);
+    add_info_and_check(*opros, selected);
+    add_new(*opros, selected);
+    add_build(*opros, selected);
 }
 
 } // namespace tandem::command

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/probe_tasks.hpp"
 
-#include "apps/tandem/opros/description.hpp"
+#include "apps/tandem/opros/component_description.hpp"
 #include "host/opros/engine/connect/make_connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
@@ -18,14 +18,14 @@ namespace {
 
 using nlohmann::json;
 
-plugin::ProbeOptions self(const LookOptions& options, const char* subject) {
+plugin::ProbeOptions make_probe(const InspectOptions& options, const char* subject) {
     plugin::ProbeOptions probe;
-    probe.timeout = std::chrono::milliseconds(static_cast<long>(options.seconds * 1000));
+    probe.timeout = std::chrono::milliseconds(static_cast<long>(options.timeout_s * 1000));
     probe.subject = subject;
     return probe;
 }
 
-json request_of(const LookOptions& options) {
+json make_request(const InspectOptions& options) {
     json request{{"initialize", options.initialize}, {"plugin_dirs", json::array()}};
     for (const auto& dir : options.plugin_dirs) request["plugin_dirs"].push_back(dir.string());
     return request;
@@ -37,30 +37,31 @@ std::vector<std::filesystem::path> plugin_dirs(const json& request) {
     return dirs;
 }
 
-void initialize(Component& component, const std::string& whose, plugin::ProbeReport& report) {
-    report.begin_stage("onInitialize() of " + whose);
+void initialize(Component& component, const std::string& name, plugin::ProbeReport& report) {
+    report.begin_stage("onInitialize() of " + name);
     dlerror(); // device components ask it after their dlsym(), and would take what others have left for
                // theirs
     if (component.initialize() != OPROS_SUCCESS)
-        throw engine::SetupError("onInitialize() of " + whose + " failed with code " +
+        throw engine::SetupError("onInitialize() of " + name + " failed with code " +
                                  std::to_string(component.getErrorInfo()));
 }
 
 } // namespace
 
-json described(const std::filesystem::path& library, const std::filesystem::path& profile,
-               const LookOptions& options) {
-    json request = request_of(options);
+json describe_in_child(const std::filesystem::path& library, const std::filesystem::path& profile,
+                       const InspectOptions& options) {
+    json request = make_request(options);
     request["profile"] = profile.string();
-    return json::parse(plugin::run_probe(self(options, "library"), describe_task, library, {request.dump()}));
+    return json::parse(
+        plugin::run_probe(make_probe(options, "library"), describe_task, library, {request.dump()}));
 }
 
-std::vector<std::string> connection_faults(const std::vector<std::string>& without,
-                                           const LookOptions& options) {
-    json request = request_of(options);
+std::vector<std::string> check_connections_in_child(const std::vector<std::string>& without,
+                                                    const InspectOptions& options) {
+    json request = make_request(options);
     request["without"] = without;
     return json::parse(
-        plugin::run_probe(self(options, "application"), connect_task, options.file, {request.dump()}));
+        plugin::run_probe(make_probe(options, "application"), connect_task, options.file, {request.dump()}));
 }
 
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
@@ -76,7 +77,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     }
     if (request["initialize"]) initialize(*loaded.component, task.library, report);
     report.begin_stage("its ports");
-    json description = describe(*loaded.component);
+    json description = describe_component(*loaded.component);
     for (const char* name : engine::folder_property_names) description["properties"].erase(name);
     if (library->has("getVersion")) {
         report.begin_stage("getVersion()");
@@ -91,7 +92,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const auto dirs = plugin_dirs(request);
     auto profile = engine::read_application_profile(task.library);
     if (engine::has_composites(profile, dirs)) profile = engine::flatten_composites(profile, dirs);
-    std::vector<std::string> faults;
+    std::vector<std::string> errors;
     std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
     for (const auto& entry : profile.subcomponents) {
         if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
@@ -116,10 +117,10 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
         try {
             connections.push_back(engine::make_connection(connection, *source->second, *target->second));
         } catch (const engine::SetupError& error) {
-            faults.emplace_back(error.what());
+            errors.emplace_back(error.what());
         }
     }
-    report.finish(json(faults).dump(-1, ' ', false, json::error_handler_t::replace));
+    report.finish(json(errors).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 plugin::ProbeTasks opros_probe_tasks() {

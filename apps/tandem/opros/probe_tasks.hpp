@@ -17,11 +17,11 @@ constexpr char describe_task[] = "describe-opros";
 constexpr char connect_task[] = "connect-opros";
 
 /// What the component in this library shows, made in a child process. Throws plugin::Error.
-nlohmann::json described(const std::filesystem::path& library, const std::filesystem::path& profile,
-                         const LookOptions& options);
+nlohmann::json describe_in_child(const std::filesystem::path& library, const std::filesystem::path& profile,
+                                 const InspectOptions& options);
 /// Throws plugin::Error.
-std::vector<std::string> connection_faults(const std::vector<std::string>& without,
-                                           const LookOptions& options);
+std::vector<std::string> check_connections_in_child(const std::vector<std::string>& without,
+                                                    const InspectOptions& options);
 
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report);
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report);

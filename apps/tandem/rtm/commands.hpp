@@ -8,7 +8,7 @@ namespace tandem::command {
 
 int rtm_new(const std::string& name, const std::filesystem::path& parent);
 
-struct RtmBuildOptions : PluginBuild {
+struct RtmBuildOptions : PluginBuildOptions {
     std::string name; ///< of the module, when the folder has several
 };
 int rtm_build(const RtmBuildOptions& options);

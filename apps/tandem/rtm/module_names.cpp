@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Comments become blanks; what is in string literals does not matter to what is looked for.
-std::string without_comments(std::string text) {
+std::string strip_comments(std::string text) {
     enum { code, line, block } in = code;
     for (std::size_t i = 0; i + 1 < text.size(); ++i) {
         if (in == code && text[i] == '/' && (text[i + 1] == '/' || text[i + 1] == '*'))
@@ -30,7 +30,7 @@ std::string without_comments(std::string text) {
 }
 
 // Words and signs, one after the other.
-std::vector<std::string> tokens(const std::string& text) {
+std::vector<std::string> tokenize(const std::string& text) {
     std::vector<std::string> found;
     for (std::size_t i = 0; i < text.size();) {
         const auto word = [&](std::size_t at) {
@@ -46,7 +46,8 @@ std::vector<std::string> tokens(const std::string& text) {
     return found;
 }
 
-bool follows(const std::vector<std::string>& all, std::size_t at, std::initializer_list<const char*> wanted) {
+bool matches_at(const std::vector<std::string>& all, std::size_t at,
+                std::initializer_list<const char*> wanted) {
     if (at + wanted.size() > all.size()) return false;
     for (const char* each : wanted)
         if (all[at++] != each) return false;
@@ -57,16 +58,16 @@ void add_names(const fs::path& file, std::set<std::string>& names) {
     std::ifstream stream(file);
     std::ostringstream text;
     text << stream.rdbuf();
-    const auto all = tokens(without_comments(text.str()));
-    std::set<std::string> here;
+    const auto all = tokenize(strip_comments(text.str()));
+    std::set<std::string> found_here;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (follows(all, i, {"int", "main", "("})) return;
+        if (matches_at(all, i, {"int", "main", "("})) return;
         const std::string& word = all[i];
         if (word.size() > 4 && word.ends_with("Init") && i > 0 && all[i - 1] == "void" &&
-            follows(all, i + 1, {"(", "RTC", ":", ":", "Manager", "*"}))
-            here.insert(word.substr(0, word.size() - 4));
+            matches_at(all, i + 1, {"(", "RTC", ":", ":", "Manager", "*"}))
+            found_here.insert(word.substr(0, word.size() - 4));
     }
-    names.merge(here);
+    names.merge(found_here);
 }
 
 bool is_source(const fs::path& file) {
@@ -76,7 +77,7 @@ bool is_source(const fs::path& file) {
 
 } // namespace
 
-std::set<std::string> module_names(const fs::path& folder) {
+std::set<std::string> find_module_names(const fs::path& folder) {
     std::set<std::string> names;
     std::error_code ignored;
     for (const char* place : {"", "src", "include"})

@@ -9,6 +9,6 @@ namespace tandem::command {
 
 /// The modules that sources in the folder, its src/ and include/ define: X for each function
 /// XInit(RTC::Manager*). Sources with a main() do not count, nor do comments.
-std::set<std::string> module_names(const std::filesystem::path& folder);
+std::set<std::string> find_module_names(const std::filesystem::path& folder);
 
 } // namespace tandem::command

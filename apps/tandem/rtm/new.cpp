@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/build/new_folder.hpp"
+#include "apps/tandem/build/component_folder.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "apps/tandem/rtm/commands.hpp"
-#include "apps/tandem/rtm/skeleton.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/rtm/component_template.hpp"
 
 #include <fmt/format.h>
 
 namespace tandem::command {
 
 int rtm_new(const std::string& name, const std::filesystem::path& parent) {
-    require_identifier(name);
+    require_component_name(name);
     const auto folder = parent / name;
-    write_new_folder(folder, rtc_skeleton(name));
+    create_component_folder(folder, rt_component_template(name));
     const std::string shown = folder.lexically_normal().string();
     print_text(fmt::format("{0}: component {1} and an rtc.conf that runs it. Next:\n"
                            "  tandem rtm build {0}\n"

@@ -2,7 +2,7 @@
 // The command line of `tandem rtm`.
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/rtm/commands.hpp"
-#include "apps/tandem/rtm/running/running.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <memory>
 
@@ -15,7 +15,7 @@ CLI::App* add(CLI::App& parent, const char* name, const char* brief, const char*
     return command;
 }
 
-void add_new(CLI::App& rtm, Run& chosen) {
+void add_new(CLI::App& rtm, Action& selected) {
     struct Options {
         std::string name;
         std::filesystem::path parent = ".";
@@ -28,10 +28,10 @@ void add_new(CLI::App& rtm, Run& chosen) {
     command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
     command->add_option("--in", options->parent, "folder in which to make it (.)");
     command->callback(
-        [=, &chosen] { chosen = [options] { return rtm_new(options->name, options->parent); }; });
+        [=, &selected] { selected = [options] { return rtm_new(options->name, options->parent); }; });
 }
 
-void add_build(CLI::App& rtm, Run& chosen) {
+void add_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
     CLI::App* command = add(
         rtm, "build", "Builds an RT-Component from nothing but its folder",
@@ -41,18 +41,18 @@ void add_build(CLI::App& rtm, Run& chosen) {
         "be built.");
     add_build_options(command, *options, "folder for the plugin instead of DIR");
     command->add_option("--name", options->name, "name of the module, when DIR has several");
-    command->callback([=, &chosen] { chosen = [options] { return rtm_build(*options); }; });
+    command->callback([=, &selected] { selected = [options] { return rtm_build(*options); }; });
 }
 
 } // namespace
 
-void add_rtm(CLI::App& tandem, Run& chosen) {
+void add_rtm_commands(CLI::App& tandem, Action& selected) {
     CLI::App* rtm = tandem.add_subcommand(
         "rtm", "RT-Components: make and build them, look at and control those that run");
     rtm->require_subcommand(1);
-    add_new(*rtm, chosen);
-    add_build(*rtm, chosen);
-    add_running(*rtm, chosen);
+    add_new(*rtm, selected);
+    add_build(*rtm, selected);
+    add_running_commands(*rtm, selected);
 }
 
 } // namespace tandem::command

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/shm/segment_format.hpp"
 #include "apps/tandem/shm/shm_commands.hpp"
-#include "apps/tandem/shm/shm_words.hpp"
-#include "apps/tandem/text.hpp"
 
 #include <fmt/format.h>
 
 namespace tandem::command {
 namespace {
 
-std::string note_on(const shm::ObservedSegment& segment) {
+std::string segment_note(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::foreign) return segment.reason;
     if (segment.readability != shm::Readability::readable)
-        return fmt::format("{}: {}", word_of(segment.readability), segment.reason);
+        return fmt::format("{}: {}", to_string(segment.readability), segment.reason);
     if (segment.superseded_by != 0) return fmt::format("superseded by generation {}", segment.superseded_by);
     return "";
 }
@@ -28,11 +28,12 @@ int shm_list(bool json) {
     }
     Table table({"link", ">gen", ">memory", "owner", "first", "second", ">age", "note"});
     for (const auto& segment : segments)
-        table.add({printable(segment.link), std::to_string(segment.generation),
-                   bytes_text(segment.memory_bytes), user_text(segment.owner),
-                   side_text(segment, shm::Side::first), side_text(segment, shm::Side::second),
-                   segment.readability == shm::Readability::readable ? age_text(segment.created_ns) : "-",
-                   note_on(segment)});
+        table.add_row(
+            {replace_nonprintable(segment.link), std::to_string(segment.generation),
+             format_bytes(segment.memory_bytes), user_name(segment.owner),
+             format_side(segment, shm::Side::first), format_side(segment, shm::Side::second),
+             segment.readability == shm::Readability::readable ? format_age(segment.created_ns) : "-",
+             segment_note(segment)});
     print_text(table.empty() ? "no segments in /dev/shm\n" : table.text());
     return 0;
 }

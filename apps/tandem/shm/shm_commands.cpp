@@ -8,16 +8,16 @@
 namespace tandem::command {
 namespace {
 
-struct Manual {
+struct CommandHelp {
     const char *brief, *details;
 };
 
-constexpr Manual shm_manual{
+constexpr CommandHelp shm_help{
     "Segments of shared memory: look at them while their hosts run, clean up, check the machine",
     "A segment is the file in /dev/shm through which the two hosts of a link talk. Looking changes, wakes "
     "and\n"
     "locks nothing: it may be done at any time, on a running robot too."};
-constexpr Manual list_manual{
+constexpr CommandHelp list_help{
     "All segments: link, generation, size, owner, both sides, age",
     "The two sides of a segment are\n"
     "  absent   has not joined this generation yet\n"
@@ -26,10 +26,11 @@ constexpr Manual list_manual{
     "  dead     has left or died; the pid says who it was\n"
     "  held     (of a segment that cannot be read) somebody alive has it\n"
     "Segments of other users are named and not opened, damaged ones are named with the reason. Exit code 0."};
-constexpr Manual info_manual{"One segment: header, sides, and every ring, call queue and blob in it",
-                             "States of a side: see tandem shm list --help. Exit code 1 if there is no such "
-                             "segment or it cannot be read."};
-constexpr Manual stats_manual{
+constexpr CommandHelp info_help{
+    "One segment: header, sides, and every ring, call queue and blob in it",
+    "States of a side: see tandem shm list --help. Exit code 1 if there is no such "
+    "segment or it cannot be read."};
+constexpr CommandHelp stats_help{
     "Counters of every ring and call queue, or with --watch what happens per second",
     "For a ring, since the segment was made,\n"
     "  sent = received + refused + overwritten + skipped + waiting\n"
@@ -50,12 +51,12 @@ constexpr Manual stats_manual{
     "bucket, at most a quarter too long.\n"
     "The counters are read one after the other while the system runs: the sum is exact at rest only.\n"
     "Exit code 1 if there is no such segment or it cannot be read."};
-constexpr Manual clean_manual{"Removes segments that nobody alive holds",
-                              "Says what it removed, what it left, and why. Damaged segments are removed, "
-                              "too; never one that a living\n"
-                              "process holds, nor one of another user. Exit code 0."};
+constexpr CommandHelp clean_help{"Removes segments that nobody alive holds",
+                                 "Says what it removed, what it left, and why. Damaged segments are removed, "
+                                 "too; never one that a living\n"
+                                 "process holds, nor one of another user. Exit code 0."};
 
-constexpr Manual doctor_manual{
+constexpr CommandHelp doctor_help{
     "Checks this machine's limits, permissions and timing, and says what to do about each shortcoming",
     "  ok     as it should be\n"
     "  warn   works, but slower, less predictable, or not under every circumstance\n"
@@ -70,65 +71,66 @@ struct Common {
     bool json = false;
 };
 
-CLI::App* add(CLI::App& parent, const char* name, const Manual& manual) {
-    CLI::App* command = parent.add_subcommand(name, manual.brief);
-    command->footer(manual.details);
+CLI::App* add_command(CLI::App& parent, const char* name, const CommandHelp& help) {
+    CLI::App* command = parent.add_subcommand(name, help.brief);
+    command->footer(help.details);
     return command;
 }
 
-void add_json(CLI::App* command, bool& json) {
+void add_json_flag(CLI::App* command, bool& json) {
     command->add_flag("--json", json, "print JSON instead of text");
 }
 
-void add_segment(CLI::App* command, std::string& link, std::uint64_t& generation) {
+void add_segment_options(CLI::App* command, std::string& link, std::uint64_t& generation) {
     command->add_option("LINK", link, "name of the link")->required();
     command->add_option("--generation", generation, "look at this generation instead of the newest")
         ->check(CLI::PositiveNumber);
 }
 
-void add_stats(CLI::App* shm, Run& chosen) {
+void add_stats_command(CLI::App* shm, Action& selected) {
     auto options = std::make_shared<StatsOptions>();
-    CLI::App* stats = add(*shm, "stats", stats_manual);
-    add_segment(stats, options->link, options->generation);
-    add_json(stats, options->json);
+    CLI::App* stats = add_command(*shm, "stats", stats_help);
+    add_segment_options(stats, options->link, options->generation);
+    add_json_flag(stats, options->json);
     stats
-        ->add_option("--watch", options->watch,
+        ->add_option("--watch", options->period_s,
                      "look every so many seconds and show rates; follows the link through its "
                      "generations; with --json one line per look")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.01, 86400.0));
     stats->add_option("--count", options->count, "end --watch after so many looks")->needs("--watch");
-    stats->callback([=, &chosen] { chosen = [options] { return shm_stats(*options); }; });
+    stats->callback([=, &selected] { selected = [options] { return shm_stats(*options); }; });
 }
 
 } // namespace
 
-void add_shm(CLI::App& tandem, Run& chosen) {
-    CLI::App* shm = add(tandem, "shm", shm_manual);
+void add_shm_commands(CLI::App& tandem, Action& selected) {
+    CLI::App* shm = add_command(tandem, "shm", shm_help);
     shm->require_subcommand(1);
     auto common = std::make_shared<Common>();
 
-    CLI::App* list = add(*shm, "list", list_manual);
-    add_json(list, common->json);
-    list->callback([=, &chosen] { chosen = [common] { return shm_list(common->json); }; });
+    CLI::App* list = add_command(*shm, "list", list_help);
+    add_json_flag(list, common->json);
+    list->callback([=, &selected] { selected = [common] { return shm_list(common->json); }; });
 
-    CLI::App* info = add(*shm, "info", info_manual);
-    add_segment(info, common->link, common->generation);
-    add_json(info, common->json);
-    info->callback([=, &chosen] {
-        chosen = [common] { return shm_info(common->link, common->generation, common->json); };
+    CLI::App* info = add_command(*shm, "info", info_help);
+    add_segment_options(info, common->link, common->generation);
+    add_json_flag(info, common->json);
+    info->callback([=, &selected] {
+        selected = [common] { return shm_info(common->link, common->generation, common->json); };
     });
 
-    add_stats(shm, chosen);
+    add_stats_command(shm, selected);
 
-    CLI::App* clean = add(*shm, "clean", clean_manual);
+    CLI::App* clean = add_command(*shm, "clean", clean_help);
     clean->add_option("LINK", common->link, "only segments of this link");
-    add_json(clean, common->json);
-    clean->callback([=, &chosen] { chosen = [common] { return shm_clean(common->link, common->json); }; });
+    add_json_flag(clean, common->json);
+    clean->callback(
+        [=, &selected] { selected = [common] { return shm_clean(common->link, common->json); }; });
 
-    CLI::App* doctor = add(*shm, "doctor", doctor_manual);
-    add_json(doctor, common->json);
-    doctor->callback([=, &chosen] { chosen = [common] { return shm_doctor(common->json); }; });
+    CLI::App* doctor = add_command(*shm, "doctor", doctor_help);
+    add_json_flag(doctor, common->json);
+    doctor->callback([=, &selected] { selected = [common] { return shm_doctor(common->json); }; });
 }
 
 } // namespace tandem::command

@@ -14,7 +14,7 @@ struct StatsOptions {
     std::string link;
     std::uint64_t generation = 0; ///< 0: the newest
     bool json = false;
-    double watch = 0;        ///< seconds from look to look; 0: one look
+    double period_s = 0;     ///< seconds from look to look; 0: one look
     std::uint64_t count = 0; ///< of looks; 0: until interrupted
 };
 int shm_stats(const StatsOptions& options);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/shm/rates.hpp"
+#include "apps/tandem/shm/segment_format.hpp"
 #include "apps/tandem/shm/shm_commands.hpp"
-#include "apps/tandem/shm/shm_rates.hpp"
-#include "apps/tandem/shm/shm_words.hpp"
-#include "apps/tandem/text.hpp"
 #include "shm/os/clock.hpp"
 
 #include <fmt/format.h>
@@ -15,86 +15,87 @@ namespace {
 
 using shm::Side;
 
-std::string headline(const shm::ObservedSegment& segment) {
-    return fmt::format("{}: first {}; second {}\n", segment.path, side_text(segment, Side::first),
-                       side_text(segment, Side::second));
+std::string format_headline(const shm::ObservedSegment& segment) {
+    return fmt::format("{}: first {}; second {}\n", segment.path, format_side(segment, Side::first),
+                       format_side(segment, Side::second));
 }
 
-constexpr double shares[] = {0.5, 0.9, 0.99, 0.999, 1};
-constexpr const char* share_names[] = {"p50_ns", "p90_ns", "p99_ns", "p99_9_ns", "max_ns"};
+constexpr double percentile_shares[] = {0.5, 0.9, 0.99, 0.999, 1};
+constexpr const char* percentile_keys[] = {"p50_ns", "p90_ns", "p99_ns", "p99_9_ns", "max_ns"};
 
-std::string number(std::uint64_t value) { return std::to_string(value); }
+std::string cell(std::uint64_t value) { return std::to_string(value); }
 
-std::string rings_text(const shm::Observation& seen) {
+std::string format_rings(const shm::Observation& observation) {
     Table table({"ring", "writer", ">sent", ">received", ">refused", ">overwritten", ">skipped", ">waiting",
                  ">bytes sent", ">bytes received"});
-    for (const auto& ring : seen.rings) {
+    for (const auto& ring : observation.rings) {
         const auto& c = ring.counters;
         if (ring.damage.empty())
-            table.add({printable(ring.name), name_of(ring.writer), number(c.sent), number(c.received),
-                       number(c.refused), number(c.overwritten), number(c.skipped), number(c.waiting()),
-                       number(c.bytes_sent), number(c.bytes_received)});
+            table.add_row({replace_nonprintable(ring.name), name_of(ring.writer), cell(c.sent),
+                           cell(c.received), cell(c.refused), cell(c.overwritten), cell(c.skipped),
+                           cell(c.waiting()), cell(c.bytes_sent), cell(c.bytes_received)});
         else
-            table.add({printable(ring.name), "damaged"});
+            table.add_row({replace_nonprintable(ring.name), "damaged"});
     }
     return table.empty() ? "" : table.text();
 }
 
-std::string call_queues_text(const shm::Observation& seen) {
+std::string format_call_queues(const shm::Observation& observation) {
     Table table({"call queue", "callers", ">calls", ">taken", ">answered", ">expired", ">overload",
                  ">time-out", ">cancelled", ">in use", ">slots"});
-    for (const auto& queue : seen.call_queues) {
+    for (const auto& queue : observation.call_queues) {
         const auto& c = queue.counters;
         if (queue.damage.empty())
-            table.add({printable(queue.name), name_of(queue.callers), number(c.calls), number(c.taken),
-                       number(c.answered), number(c.expired), number(c.overloads), number(c.timeouts),
-                       number(c.cancels), number(c.in_use), number(queue.slots)});
+            table.add_row({replace_nonprintable(queue.name), name_of(queue.callers), cell(c.calls),
+                           cell(c.taken), cell(c.answered), cell(c.expired), cell(c.overloads),
+                           cell(c.timeouts), cell(c.cancels), cell(c.in_use), cell(queue.slots)});
         else
-            table.add({printable(queue.name), "damaged"});
+            table.add_row({replace_nonprintable(queue.name), "damaged"});
     }
     return table.empty() ? "" : table.text();
 }
 
-void add_times(Table& table, const std::string& of, shm::Side side, const char* what,
-               const shm::HistogramCounts& times) {
+void add_time_row(Table& table, const std::string& of, shm::Side side, const char* what,
+                  const shm::HistogramCounts& times) {
     if (times.total() == 0) return;
-    std::vector<std::string> row{printable(of), name_of(side), what, number(times.total())};
-    for (const double share : shares) row.push_back(duration_text(times.percentile(share)));
-    table.add(std::move(row));
+    std::vector<std::string> row{replace_nonprintable(of), name_of(side), what, cell(times.total())};
+    for (const double share : percentile_shares) row.push_back(format_duration(times.percentile(share)));
+    table.add_row(std::move(row));
 }
 
-std::string times_text(const shm::Observation& seen) {
+std::string format_times(const shm::Observation& observation) {
     Table table({"time", "of", "what", ">samples", ">p50 <=", ">p90 <=", ">p99 <=", ">p99.9 <=", ">max <="});
-    for (const auto& ring : seen.rings)
-        if (ring.damage.empty()) add_times(table, ring.name, ring.writer, "age when read", ring.age);
-    for (const auto& queue : seen.call_queues) {
+    for (const auto& ring : observation.rings)
+        if (ring.damage.empty()) add_time_row(table, ring.name, ring.writer, "age when read", ring.age);
+    for (const auto& queue : observation.call_queues) {
         if (!queue.damage.empty()) continue;
-        add_times(table, queue.name, queue.callers, "round trip", queue.round_trip);
-        add_times(table, queue.name, other(queue.callers), "service", queue.service);
+        add_time_row(table, queue.name, queue.callers, "round trip", queue.round_trip);
+        add_time_row(table, queue.name, other(queue.callers), "service", queue.service);
     }
     return table.empty() ? "" : table.text();
 }
 
-std::string text_of(const shm::Observation& seen) {
-    if (seen.segment.readability != shm::Readability::readable) return "";
-    std::string text = headline(seen.segment);
-    for (const auto& part : {rings_text(seen), call_queues_text(seen), times_text(seen)})
+std::string format_observation(const shm::Observation& observation) {
+    if (observation.segment.readability != shm::Readability::readable) return "";
+    std::string text = format_headline(observation.segment);
+    for (const auto& part :
+         {format_rings(observation), format_call_queues(observation), format_times(observation)})
         if (!part.empty()) text += "\n" + part;
-    if (seen.rings.empty() && seen.call_queues.empty()) text += "no rings or call queues\n";
-    for (const auto& damage : seen.damage) text += "damaged: " + damage + "\n";
+    if (observation.rings.empty() && observation.call_queues.empty()) text += "no rings or call queues\n";
+    for (const auto& damage : observation.damage) text += "damaged: " + damage + "\n";
     return text;
 }
 
 /// Percentiles are upper bounds; of no samples null.
-nlohmann::json json_of(const shm::HistogramCounts& times) {
+nlohmann::json histogram_json(const shm::HistogramCounts& times) {
     nlohmann::json json{{"samples", times.total()}};
-    for (std::size_t i = 0; i < std::size(shares); ++i)
-        json[share_names[i]] =
-            times.total() == 0 ? nlohmann::json() : nlohmann::json(times.percentile(shares[i]));
+    for (std::size_t i = 0; i < std::size(percentile_shares); ++i)
+        json[percentile_keys[i]] =
+            times.total() == 0 ? nlohmann::json() : nlohmann::json(times.percentile(percentile_shares[i]));
     return json;
 }
 
-nlohmann::json json_of(const shm::ObservedRing& ring) {
+nlohmann::json ring_json(const shm::ObservedRing& ring) {
     const auto& c = ring.counters;
     if (!ring.damage.empty()) return {{"name", ring.name}, {"damage", ring.damage}};
     return {{"name", ring.name},
@@ -105,10 +106,10 @@ nlohmann::json json_of(const shm::ObservedRing& ring) {
             {"waiting", ring.counters.waiting()},
             {"bytes_sent", c.bytes_sent},
             {"bytes_received", c.bytes_received},
-            {"age", json_of(ring.age)}};
+            {"age", histogram_json(ring.age)}};
 }
 
-nlohmann::json json_of(const shm::ObservedCallQueue& queue) {
+nlohmann::json call_queue_json(const shm::ObservedCallQueue& queue) {
     const auto& c = queue.counters;
     if (!queue.damage.empty()) return {{"name", queue.name}, {"damage", queue.damage}};
     return {{"name", queue.name},
@@ -124,55 +125,55 @@ nlohmann::json json_of(const shm::ObservedCallQueue& queue) {
             {"slots", queue.slots},
             {"worker_wakes", c.worker_wakes},
             {"caller_wakes", c.caller_wakes},
-            {"round_trip", json_of(queue.round_trip)},
-            {"service", json_of(queue.service)}};
+            {"round_trip", histogram_json(queue.round_trip)},
+            {"service", histogram_json(queue.service)}};
 }
 
-nlohmann::json json_of(const shm::Observation& seen) {
-    nlohmann::json json{{"seen_ns", shm::now_ns()}, {"segment", to_json(seen.segment)}};
-    if (seen.segment.readability != shm::Readability::readable) return json;
+nlohmann::json observation_json(const shm::Observation& observation) {
+    nlohmann::json json{{"seen_ns", shm::now_ns()}, {"segment", to_json(observation.segment)}};
+    if (observation.segment.readability != shm::Readability::readable) return json;
     json["rings"] = nlohmann::json::array();
     json["call_queues"] = nlohmann::json::array();
-    for (const auto& ring : seen.rings) json["rings"].push_back(json_of(ring));
-    for (const auto& queue : seen.call_queues) json["call_queues"].push_back(json_of(queue));
-    json["damage"] = seen.damage;
+    for (const auto& ring : observation.rings) json["rings"].push_back(ring_json(ring));
+    for (const auto& queue : observation.call_queues) json["call_queues"].push_back(call_queue_json(queue));
+    json["damage"] = observation.damage;
     return json;
 }
 
 /// One look of --watch: what happened since the last look at the same segment.
-void show_look(const StatsOptions& options, const std::optional<shm::Observation>& seen,
-               const std::optional<Rates>& rates) {
+void print_observation(const StatsOptions& options, const std::optional<shm::Observation>& observation,
+                       const std::optional<Rates>& rates) {
     if (options.json) {
-        nlohmann::json json =
-            seen ? json_of(*seen) : nlohmann::json{{"seen_ns", shm::now_ns()}, {"segment", nullptr}};
+        nlohmann::json json = observation ? observation_json(*observation)
+                                          : nlohmann::json{{"seen_ns", shm::now_ns()}, {"segment", nullptr}};
         if (rates) json["rates"] = to_json(*rates);
         print_json(json, true);
         return;
     }
-    if (!seen)
+    if (!observation)
         print_text("link '" + options.link + "': no segment at the moment\n");
     else if (rates)
-        print_text(headline(seen->segment) + to_text(*rates) + "\n");
+        print_text(format_headline(observation->segment) + format_rates(*rates) + "\n");
     else
-        print_text(text_of(*seen) + "\n");
-    if (seen) report_readability(seen->segment);
+        print_text(format_observation(*observation) + "\n");
+    if (observation) report_if_unreadable(observation->segment);
 }
 
-int watch(const StatsOptions& options) {
+int watch_segment(const StatsOptions& options) {
     shm::check_link_name(options.link);
-    const auto period = std::chrono::nanoseconds(static_cast<std::int64_t>(options.watch * 1e9));
-    std::optional<shm::Observation> before;
-    std::uint64_t before_ns = 0;
+    const auto period = std::chrono::nanoseconds(static_cast<std::int64_t>(options.period_s * 1e9));
+    std::optional<shm::Observation> previous;
+    std::uint64_t previous_ns = 0;
     auto next = std::chrono::steady_clock::now();
-    for (std::uint64_t look = 1;; ++look) {
-        auto seen = shm::observe(options.link, options.generation);
+    for (std::uint64_t iteration = 1;; ++iteration) {
+        auto observation = shm::observe(options.link, options.generation);
         const std::uint64_t now = shm::now_ns();
         std::optional<Rates> rates;
-        if (before && seen) rates = rates_between(*before, *seen, now - before_ns);
-        show_look(options, seen, rates);
-        if (look == options.count) return 0;
-        before = std::move(seen);
-        before_ns = now;
+        if (previous && observation) rates = compute_rates(*previous, *observation, now - previous_ns);
+        print_observation(options, observation, rates);
+        if (iteration == options.count) return 0;
+        previous = std::move(observation);
+        previous_ns = now;
         std::this_thread::sleep_until(next += period);
     }
 }
@@ -180,13 +181,13 @@ int watch(const StatsOptions& options) {
 } // namespace
 
 int shm_stats(const StatsOptions& options) {
-    if (options.watch > 0) return watch(options);
-    const auto seen = observe_or_throw(options.link, options.generation);
+    if (options.period_s > 0) return watch_segment(options);
+    const auto observation = observe_or_throw(options.link, options.generation);
     if (options.json)
-        print_json(json_of(seen));
+        print_json(observation_json(observation));
     else
-        print_text(text_of(seen));
-    return report_readability(seen.segment);
+        print_text(format_observation(observation));
+    return report_if_unreadable(observation.segment);
 }
 
 } // namespace tandem::command

@@ -14,20 +14,20 @@ using namespace tandem::doctor;
 namespace {
 
 /// A machine of files in a folder of its own, on which nothing is wrong until a test makes it so.
-class Patient {
+class FakeMachine {
   public:
-    Patient() {
+    FakeMachine() {
         std::string name = (std::filesystem::temp_directory_path() / "tandem-doctor-XXXXXX").string();
         REQUIRE(mkdtemp(name.data()) != nullptr);
         machine.root = name;
-        machine.answers = {.locked_limit = unlimited,
-                           .realtime_limit = 90,
-                           .files_limit = 1024,
-                           .shm_bytes = gib,
-                           .shm_free = gib,
-                           .timer_slack_ns = 50'000,
-                           .cores = 4,
-                           .user = 1000};
+        machine.probed = {.memlock_limit = unlimited,
+                          .rtprio_limit = 90,
+                          .files_limit = 1024,
+                          .shm_bytes = gib,
+                          .shm_free = gib,
+                          .timer_slack_ns = 50'000,
+                          .cores = 4,
+                          .user = 1000};
         mount("tmpfs", "rw,nosuid,nodev,huge=within_size");
         file("/sys/kernel/mm/transparent_hugepage/shmem_enabled",
              "always within_size advise [never] deny force\n");
@@ -45,9 +45,9 @@ class Patient {
         file("/sys/devices/system/clocksource/clocksource0/current_clocksource", "tsc\n");
         file("/proc/cpuinfo", "processor\t: 0\nflags\t\t: fpu tsc sse2\nbugs\t: x\n");
     }
-    ~Patient() { std::filesystem::remove_all(machine.root); }
-    Patient(const Patient&) = delete;
-    Patient& operator=(const Patient&) = delete;
+    ~FakeMachine() { std::filesystem::remove_all(machine.root); }
+    FakeMachine(const FakeMachine&) = delete;
+    FakeMachine& operator=(const FakeMachine&) = delete;
 
     void file(const std::string& name, const std::string& content) {
         const auto path = machine.path(name);
@@ -65,228 +65,228 @@ class Patient {
 };
 
 /// A warn or bad finding must say what to do, in one line; an ok one has nothing to say.
-bool is(const Finding& finding, Verdict verdict, const std::string& seen) {
-    INFO(finding.name << ": " << finding.seen << " - " << finding.advice);
-    CHECK(finding.verdict == verdict);
-    CHECK(finding.seen.find(seen) != std::string::npos);
-    CHECK(finding.advice.empty() == (verdict == Verdict::ok));
-    CHECK(finding.advice.find('\n') == std::string::npos);
-    return finding.verdict == verdict;
+bool is(const CheckResult& result, CheckStatus status, const std::string& value) {
+    INFO(result.name << ": " << result.value << " - " << result.advice);
+    CHECK(result.status == status);
+    CHECK(result.value.find(value) != std::string::npos);
+    CHECK(result.advice.empty() == (status == CheckStatus::ok));
+    CHECK(result.advice.find('\n') == std::string::npos);
+    return result.status == status;
 }
 
 } // namespace
 
-TEST_CASE_METHOD(Patient, "a machine on which all is well gets nothing but ok") {
-    const auto findings = examine(machine);
-    CHECK(findings.size() == 20);
+TEST_CASE_METHOD(FakeMachine, "a machine on which all is well gets nothing but ok") {
+    const auto results = run_checks(machine);
+    CHECK(results.size() == 20);
     std::set<std::string> names;
-    for (const auto& finding : findings) {
-        INFO(finding.name << ": " << finding.seen);
-        CHECK(finding.verdict == Verdict::ok);
-        CHECK_FALSE(finding.seen.empty());
-        names.insert(finding.name);
+    for (const auto& result : results) {
+        INFO(result.name << ": " << result.value);
+        CHECK(result.status == CheckStatus::ok);
+        CHECK_FALSE(result.value.empty());
+        names.insert(result.name);
     }
-    CHECK(names.size() == findings.size());
+    CHECK(names.size() == results.size());
 }
 
-TEST_CASE_METHOD(Patient, "a machine without any of the files is examined all the same") {
+TEST_CASE_METHOD(FakeMachine, "a machine without any of the files is examined all the same") {
     std::filesystem::remove_all(machine.root);
-    CHECK(examine(machine).size() == 20);
+    CHECK(run_checks(machine).size() == 20);
 }
 
-TEST_CASE_METHOD(Patient, "/dev/shm must be a tmpfs that can be written") {
-    is(check_shm_mount(machine), Verdict::ok, "tmpfs");
+TEST_CASE_METHOD(FakeMachine, "/dev/shm must be a tmpfs that can be written") {
+    is(check_shm_mount(machine), CheckStatus::ok, "tmpfs");
     mount("ext4", "rw");
-    is(check_shm_mount(machine), Verdict::bad, "ext4");
+    is(check_shm_mount(machine), CheckStatus::error, "ext4");
     mount("tmpfs", "ro,relatime");
-    is(check_shm_mount(machine), Verdict::bad, "read-only");
+    is(check_shm_mount(machine), CheckStatus::error, "read-only");
     no_file("/proc/self/mounts");
-    is(check_shm_mount(machine), Verdict::bad, "nothing is mounted");
+    is(check_shm_mount(machine), CheckStatus::error, "nothing is mounted");
 }
 
-TEST_CASE_METHOD(Patient, "/dev/shm must have room for a link and should have room for images") {
-    is(check_shm_space(machine), Verdict::ok, "1 GiB free");
-    machine.answers.shm_free = std::uint64_t{64} << 20;
-    is(check_shm_space(machine), Verdict::warn, "64 MiB free of 1 GiB");
-    machine.answers.shm_free = std::uint64_t{1} << 20;
-    is(check_shm_space(machine), Verdict::bad, "1 MiB free");
+TEST_CASE_METHOD(FakeMachine, "/dev/shm must have room for a link and should have room for images") {
+    is(check_shm_space(machine), CheckStatus::ok, "1 GiB free");
+    machine.probed.shm_free = std::uint64_t{64} << 20;
+    is(check_shm_space(machine), CheckStatus::warning, "64 MiB free of 1 GiB");
+    machine.probed.shm_free = std::uint64_t{1} << 20;
+    is(check_shm_space(machine), CheckStatus::error, "1 MiB free");
 }
 
-TEST_CASE_METHOD(Patient, "huge pages depend on the mount unless the kernel forces or denies them") {
+TEST_CASE_METHOD(FakeMachine, "huge pages depend on the mount unless the kernel forces or denies them") {
     const auto shmem = "/sys/kernel/mm/transparent_hugepage/shmem_enabled";
-    is(check_huge_pages(machine), Verdict::ok, "huge=within_size");
+    is(check_huge_pages(machine), CheckStatus::ok, "huge=within_size");
     mount("tmpfs", "rw");
-    is(check_huge_pages(machine), Verdict::warn, "huge=never");
+    is(check_huge_pages(machine), CheckStatus::warning, "huge=never");
     mount("tmpfs", "rw,huge=advise");
-    is(check_huge_pages(machine), Verdict::warn, "huge=advise");
+    is(check_huge_pages(machine), CheckStatus::warning, "huge=advise");
     file(shmem, "always within_size advise never deny [force]\n");
-    is(check_huge_pages(machine), Verdict::ok, "forced");
+    is(check_huge_pages(machine), CheckStatus::ok, "forced");
     mount("tmpfs", "rw,huge=always");
     file(shmem, "always within_size advise never [deny] force\n");
-    is(check_huge_pages(machine), Verdict::warn, "denied");
+    is(check_huge_pages(machine), CheckStatus::warning, "denied");
     no_file(shmem);
-    is(check_huge_pages(machine), Verdict::warn, "not in this kernel");
+    is(check_huge_pages(machine), CheckStatus::warning, "not in this kernel");
 }
 
-TEST_CASE_METHOD(Patient, "RemoveIPC is read as logind reads it") {
-    is(check_remove_ipc(machine), Verdict::ok, "no (/etc/systemd/logind.conf)");
+TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read as logind reads it") {
+    is(check_remove_ipc(machine), CheckStatus::ok, "no (/etc/systemd/logind.conf)");
     SECTION("a comment sets nothing and the default is yes") {
         file("/etc/systemd/logind.conf", "[Login]\n#RemoveIPC=no\n");
-        is(check_remove_ipc(machine), Verdict::warn, "yes (the default)");
+        is(check_remove_ipc(machine), CheckStatus::warning, "yes (the default)");
     }
     SECTION("only the section Login counts") {
         file("/etc/systemd/logind.conf", "[Other]\nRemoveIPC=no\n");
-        is(check_remove_ipc(machine), Verdict::warn, "yes");
+        is(check_remove_ipc(machine), CheckStatus::warning, "yes");
     }
     SECTION("a drop-in overrules the main file") {
         file("/etc/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC = yes\n");
-        is(check_remove_ipc(machine), Verdict::warn, "50-ipc.conf");
+        is(check_remove_ipc(machine), CheckStatus::warning, "50-ipc.conf");
     }
     SECTION("the later name wins whatever its folder") {
         file("/etc/systemd/logind.conf.d/10-a.conf", "[Login]\nRemoveIPC=yes\n");
         file("/usr/lib/systemd/logind.conf.d/90-b.conf", "[Login]\nRemoveIPC=off\n");
-        is(check_remove_ipc(machine), Verdict::ok, "off");
+        is(check_remove_ipc(machine), CheckStatus::ok, "off");
     }
     SECTION("a file hides those of its name in later folders") {
         file("/etc/systemd/logind.conf.d/50-ipc.conf", "");
         file("/usr/lib/systemd/logind.conf.d/50-ipc.conf", "[Login]\nRemoveIPC=yes\n");
-        is(check_remove_ipc(machine), Verdict::ok, "no");
+        is(check_remove_ipc(machine), CheckStatus::ok, "no");
     }
     SECTION("system users are exempt") {
         file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
-        is(check_remove_ipc(machine), Verdict::warn, "yes");
-        machine.answers.user = 120;
-        is(check_remove_ipc(machine), Verdict::ok, "system user");
+        is(check_remove_ipc(machine), CheckStatus::warning, "yes");
+        machine.probed.user = 120;
+        is(check_remove_ipc(machine), CheckStatus::ok, "system user");
     }
     SECTION("where systemd does not run nobody reads it") {
         file("/etc/systemd/logind.conf", "[Login]\nRemoveIPC=yes\n");
         std::filesystem::remove_all(machine.path("/run/systemd"));
-        is(check_remove_ipc(machine), Verdict::ok, "does not run");
+        is(check_remove_ipc(machine), CheckStatus::ok, "does not run");
     }
 }
 
-TEST_CASE_METHOD(Patient, "what is not permitted is a warning with its reason") {
-    is(check_locking(machine), Verdict::ok, "permitted");
-    is(check_fifo(machine), Verdict::ok, "permitted");
-    machine.answers.lock_error = ENOMEM;
-    machine.answers.fifo_error = EPERM;
-    is(check_locking(machine), Verdict::warn, "refused (Cannot allocate memory)");
-    is(check_fifo(machine), Verdict::warn, "refused (Operation not permitted)");
+TEST_CASE_METHOD(FakeMachine, "what is not permitted is a warning with its reason") {
+    is(check_memory_locking(machine), CheckStatus::ok, "permitted");
+    is(check_sched_fifo(machine), CheckStatus::ok, "permitted");
+    machine.probed.lock_error = ENOMEM;
+    machine.probed.fifo_error = EPERM;
+    is(check_memory_locking(machine), CheckStatus::warning, "refused (Cannot allocate memory)");
+    is(check_sched_fifo(machine), CheckStatus::warning, "refused (Operation not permitted)");
 }
 
-TEST_CASE_METHOD(Patient, "a low limit counts only for those whom it binds") {
-    is(check_locked_limit(machine), Verdict::ok, "unlimited");
-    is(check_realtime_limit(machine), Verdict::ok, "90");
-    machine.answers.locked_limit = 8 << 20;
-    machine.answers.realtime_limit = 0;
-    is(check_locked_limit(machine), Verdict::ok, "8 MiB, does not bind");
-    is(check_realtime_limit(machine), Verdict::ok, "0, does not bind");
-    machine.answers.lock_error = machine.answers.fifo_error = EPERM;
-    is(check_locked_limit(machine), Verdict::warn, "8 MiB");
-    is(check_realtime_limit(machine), Verdict::warn, "0");
+TEST_CASE_METHOD(FakeMachine, "a low limit counts only for those whom it binds") {
+    is(check_memlock_limit(machine), CheckStatus::ok, "unlimited");
+    is(check_rtprio_limit(machine), CheckStatus::ok, "90");
+    machine.probed.memlock_limit = 8 << 20;
+    machine.probed.rtprio_limit = 0;
+    is(check_memlock_limit(machine), CheckStatus::ok, "8 MiB, does not bind");
+    is(check_rtprio_limit(machine), CheckStatus::ok, "0, does not bind");
+    machine.probed.lock_error = machine.probed.fifo_error = EPERM;
+    is(check_memlock_limit(machine), CheckStatus::warning, "8 MiB");
+    is(check_rtprio_limit(machine), CheckStatus::warning, "0");
 }
 
-TEST_CASE_METHOD(Patient, "real-time throttling is off or a warning") {
-    is(check_realtime_throttling(machine), Verdict::ok, "off");
+TEST_CASE_METHOD(FakeMachine, "real-time throttling is off or a warning") {
+    is(check_realtime_throttling(machine), CheckStatus::ok, "off");
     file("/proc/sys/kernel/sched_rt_runtime_us", "950000\n");
-    is(check_realtime_throttling(machine), Verdict::warn, "950000 of each 1000000 us");
+    is(check_realtime_throttling(machine), CheckStatus::warning, "950000 of each 1000000 us");
     no_file("/proc/sys/kernel/sched_rt_runtime_us");
-    is(check_realtime_throttling(machine), Verdict::ok, "not in this kernel");
+    is(check_realtime_throttling(machine), CheckStatus::ok, "not in this kernel");
 }
 
-TEST_CASE_METHOD(Patient, "a host needs files to open") {
-    is(check_open_files(machine), Verdict::ok, "1024");
-    machine.answers.files_limit = 256;
-    is(check_open_files(machine), Verdict::warn, "256");
-    machine.answers.files_limit = 20;
-    is(check_open_files(machine), Verdict::bad, "20");
-    machine.answers.files_limit = unlimited;
-    is(check_open_files(machine), Verdict::ok, "unlimited");
+TEST_CASE_METHOD(FakeMachine, "a host needs files to open") {
+    is(check_open_files(machine), CheckStatus::ok, "1024");
+    machine.probed.files_limit = 256;
+    is(check_open_files(machine), CheckStatus::warning, "256");
+    machine.probed.files_limit = 20;
+    is(check_open_files(machine), CheckStatus::error, "20");
+    machine.probed.files_limit = unlimited;
+    is(check_open_files(machine), CheckStatus::ok, "unlimited");
 }
 
-TEST_CASE_METHOD(Patient, "a link needs an inotify instance") {
-    is(check_inotify(machine), Verdict::ok, "128 instances");
+TEST_CASE_METHOD(FakeMachine, "a link needs an inotify instance") {
+    is(check_inotify(machine), CheckStatus::ok, "128 instances");
     file("/proc/sys/fs/inotify/max_user_instances", "8\n");
-    is(check_inotify(machine), Verdict::warn, "8 instances");
+    is(check_inotify(machine), CheckStatus::warning, "8 instances");
     file("/proc/sys/fs/inotify/max_user_instances", "many\n");
-    is(check_inotify(machine), Verdict::warn, "unknown");
-    machine.answers.inotify_error = EMFILE;
-    is(check_inotify(machine), Verdict::bad, "Too many open files");
+    is(check_inotify(machine), CheckStatus::warning, "unknown");
+    machine.probed.inotify_error = EMFILE;
+    is(check_inotify(machine), CheckStatus::error, "Too many open files");
 }
 
-TEST_CASE_METHOD(Patient, "two hosts want two cores and cores of their own") {
-    is(check_cores(machine), Verdict::ok, "4");
-    machine.answers.cores = 1;
-    is(check_cores(machine), Verdict::warn, "1");
-    is(check_isolation(machine), Verdict::ok, "2-3");
-    is(check_nohz_full(machine), Verdict::ok, "2-3");
+TEST_CASE_METHOD(FakeMachine, "two hosts want two cores and cores of their own") {
+    is(check_core_count(machine), CheckStatus::ok, "4");
+    machine.probed.cores = 1;
+    is(check_core_count(machine), CheckStatus::warning, "1");
+    is(check_isolated_cores(machine), CheckStatus::ok, "2-3");
+    is(check_nohz_full(machine), CheckStatus::ok, "2-3");
     file("/sys/devices/system/cpu/isolated", "\n");
     file("/sys/devices/system/cpu/nohz_full", "  (null)\n");
-    is(check_isolation(machine), Verdict::warn, "none");
-    is(check_nohz_full(machine), Verdict::warn, "none");
+    is(check_isolated_cores(machine), CheckStatus::warning, "none");
+    is(check_nohz_full(machine), CheckStatus::warning, "none");
 }
 
-TEST_CASE_METHOD(Patient, "one core with another governor is enough for a warning") {
-    is(check_governor(machine), Verdict::ok, "performance");
+TEST_CASE_METHOD(FakeMachine, "one core with another governor is enough for a warning") {
+    is(check_governor(machine), CheckStatus::ok, "performance");
     file("/sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "schedutil\n");
-    is(check_governor(machine), Verdict::warn, "performance, schedutil");
+    is(check_governor(machine), CheckStatus::warning, "performance, schedutil");
     std::filesystem::remove_all(machine.path("/sys/devices/system/cpu"));
-    is(check_governor(machine), Verdict::ok, "none");
+    is(check_governor(machine), CheckStatus::ok, "none");
 }
 
-TEST_CASE_METHOD(Patient, "low-latency-idle needs its device") {
-    is(check_dma_latency(machine), Verdict::ok, "writable");
-    machine.answers.dma_latency_error = EACCES;
-    is(check_dma_latency(machine), Verdict::warn, "not writable (Permission denied)");
-    machine.answers.dma_latency_error = ENOENT;
-    is(check_dma_latency(machine), Verdict::warn, "not there");
+TEST_CASE_METHOD(FakeMachine, "low-latency-idle needs its device") {
+    is(check_dma_latency(machine), CheckStatus::ok, "writable");
+    machine.probed.dma_latency_error = EACCES;
+    is(check_dma_latency(machine), CheckStatus::warning, "not writable (Permission denied)");
+    machine.probed.dma_latency_error = ENOENT;
+    is(check_dma_latency(machine), CheckStatus::warning, "not there");
 }
 
-TEST_CASE_METHOD(Patient, "the preemption mode is found wherever the kernel shows it") {
+TEST_CASE_METHOD(FakeMachine, "the preemption mode is found wherever the kernel shows it") {
     const auto version = [&](const std::string& text) { file("/proc/sys/kernel/version", text); };
-    is(check_preemption(machine), Verdict::ok, "PREEMPT_RT");
+    is(check_preemption(machine), CheckStatus::ok, "PREEMPT_RT");
     version("#1 SMP PREEMPT Debian\n");
-    is(check_preemption(machine), Verdict::ok, "full");
+    is(check_preemption(machine), CheckStatus::ok, "full");
     version("#1 SMP Debian\n");
-    is(check_preemption(machine), Verdict::warn, "none or voluntary");
+    is(check_preemption(machine), CheckStatus::warning, "none or voluntary");
     version("#1 SMP PREEMPT_DYNAMIC Debian\n");
-    is(check_preemption(machine), Verdict::warn, "not visible");
+    is(check_preemption(machine), CheckStatus::warning, "not visible");
     file("/proc/cmdline", "quiet preempt=full root=/dev/sda\n");
-    is(check_preemption(machine), Verdict::ok, "full");
+    is(check_preemption(machine), CheckStatus::ok, "full");
     file("/sys/kernel/debug/sched/preempt", "none (voluntary) full\n");
-    is(check_preemption(machine), Verdict::warn, "voluntary");
+    is(check_preemption(machine), CheckStatus::warning, "voluntary");
     file("/sys/kernel/realtime", "1\n");
-    is(check_preemption(machine), Verdict::ok, "PREEMPT_RT");
+    is(check_preemption(machine), CheckStatus::ok, "PREEMPT_RT");
 }
 
-TEST_CASE_METHOD(Patient, "a clock that takes a system call is a warning") {
+TEST_CASE_METHOD(FakeMachine, "a clock that takes a system call is a warning") {
     const auto source = "/sys/devices/system/clocksource/clocksource0/current_clocksource";
-    is(check_clock_source(machine), Verdict::ok, "tsc");
+    is(check_clock_source(machine), CheckStatus::ok, "tsc");
     file(source, "hpet\n");
-    is(check_clock_source(machine), Verdict::warn, "hpet");
+    is(check_clock_source(machine), CheckStatus::warning, "hpet");
     no_file(source);
-    is(check_clock_source(machine), Verdict::warn, "unknown");
+    is(check_clock_source(machine), CheckStatus::warning, "unknown");
 }
 
-TEST_CASE_METHOD(Patient, "a large timer slack is a warning") {
-    is(check_timer_slack(machine), Verdict::ok, "50 us");
-    machine.answers.timer_slack_ns = 40'000'000;
-    is(check_timer_slack(machine), Verdict::warn, "40 ms");
+TEST_CASE_METHOD(FakeMachine, "a large timer slack is a warning") {
+    is(check_timer_slack(machine), CheckStatus::ok, "50 us");
+    machine.probed.timer_slack_ns = 40'000'000;
+    is(check_timer_slack(machine), CheckStatus::warning, "40 ms");
 }
 
-TEST_CASE_METHOD(Patient, "a guest is told so and of whom") {
-    is(check_hypervisor(machine), Verdict::ok, "none");
+TEST_CASE_METHOD(FakeMachine, "a guest is told so and of whom") {
+    is(check_hypervisor(machine), CheckStatus::ok, "none");
     file("/proc/cpuinfo", "processor\t: 0\nflags\t\t: fpu hypervisor tsc\nbugs\t: x\n");
-    is(check_hypervisor(machine), Verdict::warn, "yes");
+    is(check_hypervisor(machine), CheckStatus::warning, "yes");
     file("/sys/class/dmi/id/sys_vendor", "QEMU\n");
     file("/sys/class/dmi/id/product_name", "Standard PC\n");
-    is(check_hypervisor(machine), Verdict::warn, "QEMU Standard PC");
+    is(check_hypervisor(machine), CheckStatus::warning, "QEMU Standard PC");
 }
 
 TEST_CASE("this machine answers every question") {
-    const Machine machine = this_machine();
-    CHECK(machine.answers.cores >= 1);
-    CHECK(machine.answers.shm_bytes > 0);
-    CHECK(machine.answers.user == geteuid());
-    CHECK(examine(machine).size() == 20);
+    const Machine machine = probe_this_machine();
+    CHECK(machine.probed.cores >= 1);
+    CHECK(machine.probed.shm_bytes > 0);
+    CHECK(machine.probed.user == geteuid());
+    CHECK(run_checks(machine).size() == 20);
 }

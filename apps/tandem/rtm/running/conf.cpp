@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/rtm/running/running.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 
 #include <fmt/format.h>
@@ -17,9 +17,10 @@ std::string listed(const SDOPackage::NVList& values) {
     return names.empty() ? "none" : names;
 }
 
-void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& what, const std::string& id) {
+void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
+                const std::string& id) {
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(id.c_str());
-    for (const auto& assignment : what.values) {
+    for (const auto& assignment : options.values) {
         const std::size_t equals = assignment.find('=');
         if (equals == std::string::npos || equals == 0)
             throw std::runtime_error("`" + assignment + "`: expected NAME=VALUE");
@@ -36,7 +37,7 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
 }
 
 nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
-    const std::string active = active_set(configuration);
+    const std::string active = active_configuration_set(configuration);
     SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
     nlohmann::json json = nlohmann::json::array();
     for (CORBA::ULong i = 0; i < sets->length(); ++i) {
@@ -52,23 +53,23 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
 
 } // namespace
 
-int rtm_conf(const PeerOptions& options, const ConfOptions& what) {
-    const Peers peers(options);
-    const Component component = peers.find(what.component);
+int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options) {
+    const RtmClient client(client_options);
+    const RemoteComponent component = client.find(options.component);
     try {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
-        std::string id = what.set;
-        if (id.empty()) id = active_set(configuration.in());
+        std::string id = options.set;
+        if (id.empty()) id = active_configuration_set(configuration.in());
         if (id.empty()) id = "default";
-        if (!what.values.empty()) set_values(configuration.in(), what, id);
-        if (!what.activate.empty()) configuration->activate_configuration_set(what.activate.c_str());
+        if (!options.values.empty()) set_values(configuration.in(), options, id);
+        if (!options.activate.empty()) configuration->activate_configuration_set(options.activate.c_str());
         const nlohmann::json sets = sets_json(configuration.in());
-        if (options.json) {
+        if (client_options.json) {
             print_json(sets);
             return 0;
         }
         for (const auto& set : sets) {
-            if (!what.set.empty() && set["set"] != what.set) continue;
+            if (!options.set.empty() && set["set"] != options.set) continue;
             print_text(fmt::format("{}{}\n", set["set"].get<std::string>(),
                                    set["active"].get<bool>() ? " (active)" : ""));
             for (const auto& [name, value] : set["values"].items())
@@ -80,7 +81,7 @@ int rtm_conf(const PeerOptions& options, const ConfOptions& what) {
     } catch (const SDOPackage::InternalError& e) {
         throw std::runtime_error(component.instance + ": " + e.description.in());
     } catch (const CORBA::Exception& e) {
-        give_up(component.address, e);
+        throw_corba_error(component.address, e);
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/rtm/running/running.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 
 #include <fmt/format.h>
@@ -24,12 +24,12 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
 
 namespace {
 
-std::string fact(const Port& port, const char* key) {
+std::string fact(const RemotePort& port, const char* key) {
     return NVUtil::toString(port.profile->properties, key);
 }
 
 // What the ports themselves would refuse without saying why; a serializer may make one type of another.
-void check(const Port& a, const Port& b, const RTC::ConnectorProfile& profile) {
+void check(const RemotePort& a, const RemotePort& b, const RTC::ConnectorProfile& profile) {
     const std::string ka = fact(a, "port.port_type"), kb = fact(b, "port.port_type");
     const bool services = ka == "CorbaPort" && kb == "CorbaPort";
     if (!services && (ka == kb || ka == "CorbaPort" || kb == "CorbaPort"))
@@ -45,17 +45,17 @@ void check(const Port& a, const Port& b, const RTC::ConnectorProfile& profile) {
 
 } // namespace
 
-int rtm_connect(const PeerOptions& options, const ConnectOptions& what) {
-    const Peers peers(options);
-    const Port first = find_port(peers, what.ports.front());
+int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& options) {
+    const RtmClient client(client_options);
+    const RemotePort first = find_port(client, options.ports.front());
     nlohmann::json json = nlohmann::json::array();
-    for (std::size_t i = 1; i < what.ports.size(); ++i) {
-        const Port other = find_port(peers, what.ports[i]);
+    for (std::size_t i = 1; i < options.ports.size(); ++i) {
+        const RemotePort other = find_port(client, options.ports[i]);
         const std::string names = first.name + " and " + other.name;
-        calling(names, [&] {
-            const std::string name = what.name.empty() ? first.name + "-" + other.name : what.name;
+        call_remote(names, [&] {
+            const std::string name = options.name.empty() ? first.name + "-" + other.name : options.name;
             RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
-                name, connection_properties(what.properties), first.object.in(), other.object.in());
+                name, connection_properties(options.properties), first.object.in(), other.object.in());
             check(first, other, profile.in());
             const RTC::ReturnCode_t code = first.object->connect(profile.inout());
             if (code != RTC::RTC_OK)
@@ -63,10 +63,10 @@ int rtm_connect(const PeerOptions& options, const ConnectOptions& what) {
                                          "; their logs say more");
             const std::string id(profile->connector_id);
             json.push_back({{"ports", {first.name, other.name}}, {"name", name}, {"id", id}});
-            if (!options.json) print_text(first.name + " <-> " + other.name + "  " + id + "\n");
+            if (!client_options.json) print_text(first.name + " <-> " + other.name + "  " + id + "\n");
         });
     }
-    if (options.json) print_json(json);
+    if (client_options.json) print_json(json);
     return 0;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/rtm/running/running.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 
 namespace tandem::command {
 namespace {
@@ -13,17 +13,17 @@ bool joins(const RTC::ConnectorProfile& connection, RTC::PortService_ptr port) {
 
 } // namespace
 
-int rtm_disconnect(const PeerOptions& options, const DisconnectOptions& what) {
-    const Peers peers(options);
-    const Port first = find_port(peers, what.ports.front());
-    Port second;
-    if (what.ports.size() > 1) second = find_port(peers, what.ports[1]);
+int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptions& options) {
+    const RtmClient client(client_options);
+    const RemotePort first = find_port(client, options.ports.front());
+    RemotePort second;
+    if (options.ports.size() > 1) second = find_port(client, options.ports[1]);
     nlohmann::json ended = nlohmann::json::array();
-    calling(first.name, [&] {
+    call_remote(first.name, [&] {
         RTC::ConnectorProfileList_var all = first.object->get_connector_profiles();
         for (CORBA::ULong i = 0; i < all->length(); ++i) {
             const std::string id(all[i].connector_id);
-            if (!what.id.empty() && id != what.id) continue;
+            if (!options.id.empty() && id != options.id) continue;
             if (!CORBA::is_nil(second.object.in()) && !joins(all[i], second.object.in())) continue;
             const RTC::ReturnCode_t code = first.object->disconnect(id.c_str());
             if (code != RTC::RTC_OK)
@@ -34,7 +34,7 @@ int rtm_disconnect(const PeerOptions& options, const DisconnectOptions& what) {
     if (ended.empty())
         throw std::runtime_error(first.name + " has no such connection" +
                                  (second.name.empty() ? "" : " with " + second.name));
-    if (options.json)
+    if (client_options.json)
         print_json(ended);
     else
         for (const auto& one : ended) print_text("ended " + one["name"].get<std::string>() + "\n");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/rtm/running/running.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <fmt/format.h>
 #include <rtm/NVUtil.h>
@@ -45,7 +45,7 @@ json contexts_json(RTC::RTObject_ptr component) {
     static const char* const kinds[] = {"periodic", "event driven", "other"};
     static const char* const states[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
     json list = json::array();
-    for (auto& context : contexts_of(component))
+    for (auto& context : execution_contexts(component))
         list.push_back({{"handle", component->get_context_handle(context.in())},
                         {"kind", kinds[context->get_kind()]},
                         {"rate", context->get_rate()},
@@ -54,7 +54,7 @@ json contexts_json(RTC::RTObject_ptr component) {
     return list;
 }
 
-json info_json(const Component& component) {
+json info_json(const RemoteComponent& component) {
     RTC::ComponentProfile_var profile = component.object->get_component_profile();
     SDOPackage::Configuration_var configuration = component.object->get_configuration();
     return {{"instance", profile->instance_name.in()},
@@ -64,9 +64,9 @@ json info_json(const Component& component) {
             {"version", profile->version.in()},
             {"vendor", profile->vendor.in()},
             {"category", profile->category.in()},
-            {"state", state_of(component.object.in())},
+            {"state", component_state(component.object.in())},
             {"contexts", contexts_json(component.object.in())},
-            {"configuration", active_set(configuration.in())},
+            {"configuration", active_configuration_set(configuration.in())},
             {"ports", ports_json(profile->port_profiles)},
             {"properties", properties_json(profile->properties)}};
 }
@@ -101,10 +101,10 @@ std::string text_of_info(const json& info) {
 
 } // namespace
 
-int rtm_info(const PeerOptions& options, const std::string& name) {
-    const Peers peers(options);
-    const Component component = peers.find(name);
-    const json info = calling(component.address, [&] { return info_json(component); });
+int rtm_info(const RtmClientOptions& options, const std::string& name) {
+    const RtmClient client(options);
+    const RemoteComponent component = client.find(name);
+    const json info = call_remote(component.address, [&] { return info_json(component); });
     if (options.json)
         print_json(info);
     else

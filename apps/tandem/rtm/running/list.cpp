@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/rtm/running/running.hpp"
-#include "apps/tandem/rtm/running/survey.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/running/component_source.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <fmt/format.h>
 
 namespace tandem::command {
 
-int rtm_list(const PeerOptions& options) {
-    const Peers peers(options);
-    const auto places = survey(peers);
+int rtm_list(const RtmClientOptions& options) {
+    const RtmClient client(options);
+    const auto sources = enumerate_components(client);
     nlohmann::json json = nlohmann::json::array();
     Table table({"INSTANCE", "TYPE", "STATE", ">PORTS", "ADDRESS"});
-    for (const auto& place : places) {
-        for (const auto& seen : place.components) {
-            json.push_back({{"instance", seen.instance},
-                            {"type", seen.type},
-                            {"category", seen.category},
-                            {"state", seen.trouble.empty() ? seen.state : "UNREACHABLE"},
-                            {"ports", seen.ports},
-                            {"address", seen.address},
-                            {"trouble", seen.trouble}});
-            if (seen.trouble.empty())
-                table.add({seen.instance, seen.type, seen.state, std::to_string(seen.ports), seen.address});
+    for (const auto& source : sources) {
+        for (const auto& entry : source.components) {
+            json.push_back({{"instance", entry.instance},
+                            {"type", entry.type},
+                            {"category", entry.category},
+                            {"state", entry.error.empty() ? entry.state : "UNREACHABLE"},
+                            {"ports", entry.ports},
+                            {"address", entry.address},
+                            {"trouble", entry.error}});
+            if (entry.error.empty())
+                table.add_row(
+                    {entry.instance, entry.type, entry.state, std::to_string(entry.ports), entry.address});
             else
-                table.add({"-", "-", "UNREACHABLE", "-", seen.address + " (" + seen.trouble + ")"});
+                table.add_row({"-", "-", "UNREACHABLE", "-", entry.address + " (" + entry.error + ")"});
         }
     }
     if (options.json)
         print_json(json);
     else if (!table.empty())
         print_text(table.text());
-    require_answers(peers, places);
+    require_reachable(client, sources);
     return 0;
 }
 

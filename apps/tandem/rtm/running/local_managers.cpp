@@ -64,7 +64,7 @@ std::set<std::string> sockets_of(const fs::path& process) {
 
 } // namespace
 
-std::vector<std::string> local_managers(CORBA::ORB_ptr orb) {
+std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb) {
     const auto sockets = listening();
     std::set<std::string> candidates;
     std::error_code none;

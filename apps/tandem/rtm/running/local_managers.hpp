@@ -9,6 +9,6 @@ namespace tandem::command {
 
 /// Addresses `127.0.0.1:PORT` of the RTM managers in this user's processes on this machine: TCP ports on
 /// which processes with an ORB listen, and where a manager answers.
-std::vector<std::string> local_managers(CORBA::ORB_ptr orb);
+std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb);
 
 } // namespace tandem::command

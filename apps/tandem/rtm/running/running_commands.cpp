@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of `tandem rtm` for components that run.
-#include "apps/tandem/rtm/running/running.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <cctype>
 #include <memory>
@@ -8,7 +8,7 @@
 namespace tandem::command {
 namespace {
 
-using Chosen = std::function<int()>;
+using Action = std::function<int()>;
 constexpr const char* addresses =
     "COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a\n"
     "path PATH/NAME.rtc in the default name server, or NAME alone: then the name servers and this user's\n"
@@ -16,53 +16,54 @@ constexpr const char* addresses =
     "A port is COMPONENT:PORT.\n"
     "Exit code 1, with one line, when something is not there or does not answer in time.";
 
-CLI::App* add(CLI::App& rtm, const char* name, const char* brief, PeerOptions& peers,
+CLI::App* add(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
               const std::string& details = "") {
     CLI::App* command = rtm.add_subcommand(name, brief);
     command->footer(details + (details.empty() ? "" : "\n") + addresses);
     command
-        ->add_option("--nameserver", peers.name_servers,
+        ->add_option("--nameserver", client.name_servers,
                      "HOST or HOST:PORT of a name server (repeatable; $RTCSH_NAMESERVERS, else localhost)")
         ->allow_extra_args(false);
-    command->add_option("--manager", peers.managers, "HOST:PORT of a manager (repeatable; those found here)")
+    command->add_option("--manager", client.managers, "HOST:PORT of a manager (repeatable; those found here)")
         ->allow_extra_args(false);
-    command->add_option("--timeout", peers.seconds, "seconds that a call may take (5)")
+    command->add_option("--timeout", client.timeout_s, "seconds that a call may take (5)")
         ->check(CLI::Range(0.1, 3600.));
-    command->add_flag("--json", peers.json, "print JSON instead of text");
+    command->add_flag("--json", client.json, "print JSON instead of text");
     return command;
 }
 
-void add_looks(CLI::App& rtm, Chosen& chosen) {
-    auto list = std::make_shared<PeerOptions>();
+void add_looks(CLI::App& rtm, Action& selected) {
+    auto list = std::make_shared<RtmClientOptions>();
     add(rtm, "list", "The components that run, here and in name servers", *list,
         "A name whose component does not answer is listed as UNREACHABLE.")
-        ->callback([=, &chosen] { chosen = [list] { return rtm_list(*list); }; });
-    auto tree = std::make_shared<PeerOptions>();
-    add(rtm, "tree", "The same with ports and what they are connected with", *tree)->callback([=, &chosen] {
-        chosen = [tree] { return rtm_tree(*tree); };
+        ->callback([=, &selected] { selected = [list] { return rtm_list(*list); }; });
+    auto tree = std::make_shared<RtmClientOptions>();
+    add(rtm, "tree", "The same with ports and what they are connected with", *tree)->callback([=, &selected] {
+        selected = [tree] { return rtm_tree(*tree); };
     });
     struct Info {
-        PeerOptions peers;
+        RtmClientOptions client;
         std::string component;
     };
     auto info = std::make_shared<Info>();
     CLI::App* command =
-        add(rtm, "info", "What a component is: profile, contexts, ports, connections", info->peers);
+        add(rtm, "info", "What a component is: profile, contexts, ports, connections", info->client);
     command->add_option("COMPONENT", info->component, "which one")->required();
-    command->callback([=, &chosen] { chosen = [info] { return rtm_info(info->peers, info->component); }; });
+    command->callback(
+        [=, &selected] { selected = [info] { return rtm_info(info->client, info->component); }; });
 }
 
-void add_transitions(CLI::App& rtm, Chosen& chosen) {
+void add_transitions(CLI::App& rtm, Action& selected) {
     struct Options {
-        PeerOptions peers;
+        RtmClientOptions client;
         std::vector<std::string> components;
     };
     auto one = [&](const char* name, const char* brief, Transition transition) {
         auto options = std::make_shared<Options>();
-        CLI::App* command = add(rtm, name, brief, options->peers);
+        CLI::App* command = add(rtm, name, brief, options->client);
         command->add_option("COMPONENT", options->components, "which ones")->required();
-        command->callback([=, &chosen] {
-            chosen = [=] { return rtm_transition(options->peers, options->components, transition); };
+        command->callback([=, &selected] {
+            selected = [=] { return rtm_transition(options->client, options->components, transition); };
         });
     };
     one("activate", "Makes components active, and waits for it", Transition::activate);
@@ -71,76 +72,79 @@ void add_transitions(CLI::App& rtm, Chosen& chosen) {
     one("exit", "Ends components", Transition::exit);
 }
 
-void add_connections(CLI::App& rtm, Chosen& chosen) {
+void add_connections(CLI::App& rtm, Action& selected) {
     struct Connect {
-        PeerOptions peers;
-        ConnectOptions what;
+        RtmClientOptions client;
+        ConnectOptions options;
     };
     auto connect = std::make_shared<Connect>();
-    CLI::App* command = add(rtm, "connect", "Connects the first port with each of the others", connect->peers,
-                            "Properties are those of manager.components.preconnect: dataflow_type=pull, "
-                            "subscription_type=new ...");
-    command->add_option("PORT", connect->what.ports, "two ports or more")->required()->expected(2, -1);
-    command->add_option("-p,--property", connect->what.properties, "KEY=VALUE (repeatable)")
+    CLI::App* command =
+        add(rtm, "connect", "Connects the first port with each of the others", connect->client,
+            "Properties are those of manager.components.preconnect: dataflow_type=pull, "
+            "subscription_type=new ...");
+    command->add_option("PORT", connect->options.ports, "two ports or more")->required()->expected(2, -1);
+    command->add_option("-p,--property", connect->options.properties, "KEY=VALUE (repeatable)")
         ->allow_extra_args(false);
-    command->add_option("--name", connect->what.name, "name of the connection");
+    command->add_option("--name", connect->options.name, "name of the connection");
     command->callback(
-        [=, &chosen] { chosen = [connect] { return rtm_connect(connect->peers, connect->what); }; });
+        [=, &selected] { selected = [connect] { return rtm_connect(connect->client, connect->options); }; });
 
     struct Disconnect {
-        PeerOptions peers;
-        DisconnectOptions what;
+        RtmClientOptions client;
+        DisconnectOptions options;
     };
     auto end = std::make_shared<Disconnect>();
-    command = add(rtm, "disconnect", "Ends the connections of a port, or those between two", end->peers);
-    command->add_option("PORT", end->what.ports, "one port or two")->required()->expected(1, 2);
-    command->add_option("--id", end->what.id, "only the connection with this id");
-    command->callback([=, &chosen] { chosen = [end] { return rtm_disconnect(end->peers, end->what); }; });
+    command = add(rtm, "disconnect", "Ends the connections of a port, or those between two", end->client);
+    command->add_option("PORT", end->options.ports, "one port or two")->required()->expected(1, 2);
+    command->add_option("--id", end->options.id, "only the connection with this id");
+    command->callback(
+        [=, &selected] { selected = [end] { return rtm_disconnect(end->client, end->options); }; });
 }
 
-void add_conf(CLI::App& rtm, Chosen& chosen) {
+void add_conf(CLI::App& rtm, Action& selected) {
     struct Options {
-        PeerOptions peers;
-        ConfOptions what;
+        RtmClientOptions client;
+        ConfOptions options;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = add(rtm, "conf", "Shows and sets configuration parameters", options->peers,
+    CLI::App* command = add(rtm, "conf", "Shows and sets configuration parameters", options->client,
                             "A component takes a new value over between two executions.");
-    command->add_option("COMPONENT", options->what.component, "which one")->required();
-    command->add_option("NAME=VALUE", options->what.values, "parameters to set");
-    command->add_option("--set", options->what.set, "configuration set (the active one)");
-    command->add_option("--activate", options->what.activate, "configuration set to make the active one");
+    command->add_option("COMPONENT", options->options.component, "which one")->required();
+    command->add_option("NAME=VALUE", options->options.values, "parameters to set");
+    command->add_option("--set", options->options.set, "configuration set (the active one)");
+    command->add_option("--activate", options->options.activate, "configuration set to make the active one");
     command->callback(
-        [=, &chosen] { chosen = [options] { return rtm_conf(options->peers, options->what); }; });
+        [=, &selected] { selected = [options] { return rtm_conf(options->client, options->options); }; });
 }
 
 struct Stream {
-    PeerOptions peers;
-    StreamOptions what;
+    RtmClientOptions client;
+    StreamOptions options;
 };
 
 CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char* brief,
                      const char* details) {
-    CLI::App* command = add(rtm, name, brief, stream.peers, details);
-    command->add_option("PORT", stream.what.port, "which one")->required();
+    CLI::App* command = add(rtm, name, brief, stream.client, details);
+    command->add_option("PORT", stream.options.port, "which one")->required();
     command
-        ->add_option("--types", stream.what.types,
+        ->add_option("--types", stream.options.types,
                      "library of a component, for its own data types (repeatable)")
         ->allow_extra_args(false);
-    command->add_option("-p,--property", stream.what.properties, "KEY=VALUE of the connection (repeatable)")
+    command
+        ->add_option("-p,--property", stream.options.properties, "KEY=VALUE of the connection (repeatable)")
         ->allow_extra_args(false);
     return command;
 }
 
-void add_streams(CLI::App& rtm, Chosen& chosen) {
+void add_streams(CLI::App& rtm, Action& selected) {
     auto cat = std::make_shared<Stream>();
     CLI::App* command = add_stream(rtm, *cat, "cat", "Prints what an OutPort sends, one line of JSON each",
                                    "A type that is not known is printed as the bytes of its CDR form.");
-    command->add_option("-n,--count", cat->what.count, "leave after so many samples");
-    command->add_option("--for", cat->what.seconds, "leave after so many seconds")
+    command->add_option("-n,--count", cat->options.count, "leave after so many samples");
+    command->add_option("--for", cat->options.timeout_s, "leave after so many seconds")
         ->check(CLI::Range(0.01, 1e6));
-    command->add_flag("--raw", cat->what.raw, "print bytes in any case");
-    command->callback([=, &chosen] { chosen = [cat] { return rtm_cat(cat->peers, cat->what); }; });
+    command->add_flag("--raw", cat->options.raw, "print bytes in any case");
+    command->callback([=, &selected] { selected = [cat] { return rtm_cat(cat->client, cat->options); }; });
 
     auto inject = std::make_shared<Stream>();
     command = add_stream(
@@ -151,28 +155,28 @@ void add_streams(CLI::App& rtm, Chosen& chosen) {
     auto value = std::make_shared<std::string>();
     command->add_option("VALUE", *value, "what to send; more may follow")->required();
     command->allow_extras();
-    command->add_option("-n,--count", inject->what.count, "send all so many times (1)");
-    command->add_option("--rate", inject->what.rate, "values per second (at once)")
+    command->add_option("-n,--count", inject->options.count, "send all so many times (1)");
+    command->add_option("--rate", inject->options.rate, "values per second (at once)")
         ->check(CLI::Range(0., 1e6));
-    command->callback([=, &chosen] {
-        inject->what.values = {*value};
+    command->callback([=, &selected] {
+        inject->options.values = {*value};
         for (const auto& more : command->remaining()) {
             if (more.size() > 1 && more[0] == '-' && std::isdigit(static_cast<unsigned char>(more[1])) == 0)
                 throw CLI::ExtrasError({more});
-            inject->what.values.push_back(more);
+            inject->options.values.push_back(more);
         }
-        chosen = [inject] { return rtm_inject(inject->peers, inject->what); };
+        selected = [inject] { return rtm_inject(inject->client, inject->options); };
     });
 }
 
 } // namespace
 
-void add_running(CLI::App& rtm, Chosen& chosen) {
-    add_looks(rtm, chosen);
-    add_transitions(rtm, chosen);
-    add_connections(rtm, chosen);
-    add_conf(rtm, chosen);
-    add_streams(rtm, chosen);
+void add_running_commands(CLI::App& rtm, Action& selected) {
+    add_looks(rtm, selected);
+    add_transitions(rtm, selected);
+    add_connections(rtm, selected);
+    add_conf(rtm, selected);
+    add_streams(rtm, selected);
 }
 
 } // namespace tandem::command

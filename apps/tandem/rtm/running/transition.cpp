@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/rtm/running/running.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -25,16 +25,16 @@ RTC::ReturnCode_t ask(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr compo
 }
 
 // The context carries a transition out in its next cycle, which may be after its answer.
-std::string state_after(const Component& component, const std::string& wanted, double seconds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+std::string state_after(const RemoteComponent& component, const std::string& wanted, double timeout_s) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
     for (;;) {
-        const std::string state = state_of(component.object.in());
+        const std::string state = component_state(component.object.in());
         if (state == wanted || state == "ERROR" || std::chrono::steady_clock::now() > end) return state;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
 }
 
-std::string change(const Component& component, Transition transition, double seconds) {
+std::string change(const RemoteComponent& component, Transition transition, double timeout_s) {
     if (transition == Transition::exit) {
         const RTC::ReturnCode_t code = component.object->exit();
         if (code != RTC::RTC_OK)
@@ -42,10 +42,10 @@ std::string change(const Component& component, Transition transition, double sec
         return "exited";
     }
     const std::string wanted = wanted_state(transition);
-    if (state_of(component.object.in()) == wanted && transition != Transition::reset) return wanted;
-    const auto contexts = contexts_of(component.object.in());
+    if (component_state(component.object.in()) == wanted && transition != Transition::reset) return wanted;
+    const auto contexts = execution_contexts(component.object.in());
     const RTC::ReturnCode_t code = ask(contexts.front().in(), component.object.in(), transition);
-    const std::string state = state_after(component, wanted, code == RTC::RTC_OK ? seconds : 0);
+    const std::string state = state_after(component, wanted, code == RTC::RTC_OK ? timeout_s : 0);
     if (state == wanted) return state;
     const char* hint = state == "ERROR" ? "; see its log, then tandem rtm reset" : "";
     throw std::runtime_error(fmt::format("{} is {}, expected {}{}{}", component.instance, state, wanted,
@@ -54,13 +54,14 @@ std::string change(const Component& component, Transition transition, double sec
 
 } // namespace
 
-int rtm_transition(const PeerOptions& options, const std::vector<std::string>& names, Transition transition) {
-    const Peers peers(options);
+int rtm_transition(const RtmClientOptions& options, const std::vector<std::string>& names,
+                   Transition transition) {
+    const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();
     for (const auto& name : names) {
-        const Component component = peers.find(name);
+        const RemoteComponent component = client.find(name);
         const std::string state =
-            calling(component.address, [&] { return change(component, transition, options.seconds); });
+            call_remote(component.address, [&] { return change(component, transition, options.timeout_s); });
         json.push_back({{"instance", component.instance}, {"address", component.address}, {"state", state}});
         if (!options.json) print_text(component.instance + " " + state + "\n");
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/rtm/running/running.hpp"
-#include "apps/tandem/rtm/running/survey.hpp"
-#include "apps/tandem/text.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/running/component_source.hpp"
+#include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <fmt/format.h>
 #include <rtm/NVUtil.h>
@@ -52,22 +52,22 @@ std::vector<PortLine> ports_of(RTC::RTObject_ptr component) {
 
 } // namespace
 
-int rtm_tree(const PeerOptions& options) {
-    const Peers peers(options);
+int rtm_tree(const RtmClientOptions& options) {
+    const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();
     std::string text;
-    const auto places = survey(peers);
-    for (const auto& place : places) {
+    const auto sources = enumerate_components(client);
+    for (const auto& source : sources) {
         nlohmann::json components = nlohmann::json::array();
-        text += (place.trouble.empty() ? place.kind + " " + place.address : place.trouble) + "\n";
-        for (const auto& seen : place.components) {
+        text += (source.error.empty() ? source.kind + " " + source.address : source.error) + "\n";
+        for (const auto& entry : source.components) {
             nlohmann::json ports = nlohmann::json::array();
-            std::string trouble = seen.trouble;
-            text += fmt::format("  {} {}\n", seen.instance.empty() ? seen.address : seen.instance,
-                                trouble.empty() ? seen.state : "UNREACHABLE (" + trouble + ")");
+            std::string error = entry.error;
+            text += fmt::format("  {} {}\n", entry.instance.empty() ? entry.address : entry.instance,
+                                error.empty() ? entry.state : "UNREACHABLE (" + error + ")");
             try {
-                if (trouble.empty())
-                    for (const auto& port : ports_of(seen.object.in())) {
+                if (error.empty())
+                    for (const auto& port : ports_of(entry.object.in())) {
                         ports.push_back({{"name", port.name},
                                          {"kind", port.kind},
                                          {"type", port.type},
@@ -76,24 +76,24 @@ int rtm_tree(const PeerOptions& options) {
                         for (const auto& other : port.connected_with) text += "      <-> " + other + "\n";
                     }
             } catch (const CORBA::SystemException& e) {
-                trouble = e._name(); // it has gone just now
+                error = e._name(); // it has gone just now
             }
-            components.push_back({{"instance", seen.instance},
-                                  {"address", seen.address},
-                                  {"state", seen.state},
-                                  {"trouble", trouble},
+            components.push_back({{"instance", entry.instance},
+                                  {"address", entry.address},
+                                  {"state", entry.state},
+                                  {"trouble", error},
                                   {"ports", ports}});
         }
-        json.push_back({{"kind", place.kind},
-                        {"address", place.address},
-                        {"trouble", place.trouble},
+        json.push_back({{"kind", source.kind},
+                        {"address", source.address},
+                        {"trouble", source.error},
                         {"components", components}});
     }
     if (options.json)
         print_json(json);
     else
         print_text(text);
-    require_answers(peers, places);
+    require_reachable(client, sources);
     return 0;
 }
 

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/component_folder.hpp"
+#include "apps/tandem/output/format.hpp"
+
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& file, const std::string& text) {
+    std::ofstream stream(file);
+    stream << text << std::flush;
+    if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
+}
+
+const std::set<std::string_view> cpp_keywords{
+    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char8_t",
+    "char16_t",    "char32_t", "class",      "co_await",  "co_return", "co_yield",     "compl",
+    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+    "static_cast", "std",      "struct",     "switch",    "template",  "this",         "thread_local",
+    "throw",       "true",     "try",        "typedef",   "typeid",    "typename",     "union",
+    "unsigned",    "using",    "virtual",    "void",      "volatile",  "wchar_t",      "while",
+    "xor",         "xor_eq",   "NULL",       "EOF"};
+
+} // namespace
+
+void require_component_name(const std::string& name) {
+    const auto letter = [](unsigned char c) { return c < 128 && (std::isalpha(c) || c == '_'); };
+    bool valid = !name.empty() && name.size() <= 100 && letter(static_cast<unsigned char>(name[0]));
+    for (const unsigned char c : name) valid = valid && (letter(c) || (c < 128 && std::isdigit(c)));
+    if (!valid)
+        throw std::runtime_error("'" + replace_nonprintable(name) +
+                                 "' cannot be the name of a component, expected letters, "
+                                 "digits and _ as for a C++ class, e.g. LaserFilter");
+    if (cpp_keywords.count(name) != 0)
+        throw std::runtime_error("'" + name + "' cannot be the name of a component, it is a word of C++");
+}
+
+void create_component_folder(const fs::path& folder, const TemplateFiles& files) {
+    std::error_code error;
+    const std::string header = folder.filename().string() + ".h";
+    if (fs::exists("/usr/include/" + header,
+                   error)) // the folder will be the first to be searched for headers
+        throw std::runtime_error(
+            "'" + folder.filename().string() +
+            "' cannot be the name of a component, its header would be taken for the system's <" + header +
+            ">");
+    if (fs::exists(folder, error))
+        throw std::runtime_error(folder.string() + " exists; choose another name, or remove it first");
+    if (!fs::create_directory(folder, error))
+        throw std::runtime_error("folder " + folder.string() + " cannot be made: " + error.message());
+    try {
+        for (const auto& [file, text] : files) write_file(folder / file, text);
+    } catch (const std::runtime_error&) {
+        fs::remove_all(folder, error); // half a component is of no use
+        throw;
+    }
+}
+
+std::string expand_template(std::string text, const std::string& name) {
+    const std::string mark = "@NAME@";
+    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += name.size())
+        text.replace(at, mark.size(), name);
+    return text;
+}
+
+} // namespace tandem::command

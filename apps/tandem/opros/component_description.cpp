@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/opros/component_description.hpp"
+
+#include <Component.h>
+#include <InputDataPortInterface.h>
+#include <InputEventPortInterface.h>
+#include <ProvidedServicePort.h>
+
+namespace tandem::command {
+namespace {
+
+using nlohmann::json;
+
+json describe_methods(ServicePortInterface& port) {
+    json methods = json::array();
+    for (auto each = port.getFirst(); each != port.getEnd(); ++each)
+        methods.push_back(
+            {{"name", each->first},
+             {"signature", each->second->signature()},
+             {"call", each->second->getCallType() == METHOD_NONBLOCKING ? "nonblocking" : "blocking"}});
+    return methods;
+}
+
+json describe_typed_port(Port& port, const char* kind, bool input) {
+    const opros_any sample = port.sample();
+    json out{{"kind", kind}, {"direction", input ? "input" : "output"}};
+    out["type"] = sample.empty() ? json() : json(sample.type());
+    return out;
+}
+
+json describe_port(Port& port, PortType kind) {
+    if (kind == OPROS_DATA)
+        return describe_typed_port(port, "data", dynamic_cast<InputDataPortInterface*>(&port));
+    if (kind == OPROS_EVENT)
+        return describe_typed_port(port, "event", dynamic_cast<InputEventPortInterface*>(&port));
+    json out{{"kind", "service"},
+             {"direction", dynamic_cast<ProvidedServicePort*>(&port) ? "provided" : "required"}};
+    if (auto* service = dynamic_cast<ServicePortInterface*>(&port))
+        out["methods"] = describe_methods(*service);
+    return out;
+}
+
+} // namespace
+
+json describe_component(Component& component) {
+    json ports = json::array();
+    for (const PortType kind : {OPROS_DATA, OPROS_EVENT, OPROS_SERVICE})
+        for (const std::string& name : component.getPortNames(kind)) {
+            json port = describe_port(*component.getPort(name), kind);
+            port["name"] = name;
+            ports.push_back(std::move(port));
+        }
+    return {{"properties", component.getPropertyMap()}, {"ports", std::move(ports)}};
+}
+
+} // namespace tandem::command

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/opros/port_format.hpp"
+
+#include "apps/tandem/output/format.hpp"
+
+namespace tandem::command {
+
+using nlohmann::json;
+
+std::string format_ports(const json& ports) {
+    Table table({"kind", "direction", "name", "type"});
+    for (const json& port : ports) {
+        const bool service = port["kind"] == "service";
+        const std::string type = service                  ? ""
+                                 : port["type"].is_null() ? "any"
+                                                          : port["type"].get<std::string>();
+        table.add_row({port["kind"], port["direction"], port["name"], type});
+        if (!service || !port.contains("methods")) continue;
+        for (const json& method : port["methods"])
+            table.add_row({"", "", "",
+                           method["name"].get<std::string>() + ": " + method["signature"].get<std::string>() +
+                               (method["call"] == "nonblocking" ? ", nonblocking" : "")});
+    }
+    return table.empty() ? "no ports\n" : table.text();
+}
+
+} // namespace tandem::command

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/opros/port_mismatches.hpp"
+
+#include <algorithm>
+
+namespace tandem::command {
+namespace {
+
+using nlohmann::json;
+
+struct ProfilePort {
+    const engine::SourceLocation& location;
+    std::string kind, name, direction, type; ///< type: empty if it says nothing
+};
+
+std::vector<ProfilePort> profile_ports(const engine::ComponentProfile& profile) {
+    std::vector<ProfilePort> all;
+    for (const auto& port : profile.data_ports)
+        all.push_back({port.location, "data", port.name, port.is_input ? "input" : "output", port.data_type});
+    for (const auto& port : profile.event_ports)
+        all.push_back(
+            {port.location, "event", port.name, port.is_input ? "input" : "output", port.data_type});
+    for (const auto& port : profile.service_ports) // the type is a file's name there, of no use here
+        all.push_back({port.location, "service", port.name, port.is_provided ? "provided" : "required", ""});
+    return all;
+}
+
+// `vector< unsigned char >` and std::vector<unsigned char> are the same.
+std::string normalized_type(std::string type) {
+    type.erase(std::remove_if(type.begin(), type.end(), [](unsigned char c) { return std::isspace(c); }),
+               type.end());
+    for (auto at = type.find("std::"); at != std::string::npos; at = type.find("std::")) type.erase(at, 5);
+    return type;
+}
+
+const json* find(const json& ports, const std::string& kind, const std::string& name) {
+    const json* found = nullptr; // of another kind
+    for (const json& port : ports) {
+        if (port["name"] != name) continue;
+        if (port["kind"] == kind) return &port;
+        found = &port;
+    }
+    return found;
+}
+
+std::string names(const json& ports, const std::string& kind) {
+    std::string text;
+    for (const json& port : ports)
+        if (port["kind"] == kind) text += (text.empty() ? "" : ", ") + port["name"].get<std::string>();
+    return text.empty() ? "none" : text;
+}
+
+/// Empty if it fits.
+std::string mismatch(const ProfilePort& profile_port, const json& ports, bool initialized) {
+    const std::string what = profile_port.kind + " port '" + profile_port.name + "' ";
+    const json* real = find(ports, profile_port.kind, profile_port.name);
+    if (!real)
+        return what + "is not in the component, its " + profile_port.kind +
+               " ports are: " + names(ports, profile_port.kind) +
+               (initialized ? "" : " (and those that onInitialize makes, see --initialize)");
+    const std::string kind = (*real)["kind"], direction = (*real)["direction"];
+    if (kind != profile_port.kind) return what + "is of kind " + kind + " in the component";
+    if (direction != profile_port.direction)
+        return what + "is " + direction + " in the component, not " + profile_port.direction;
+    if (profile_port.type.empty() || !real->contains("type") || (*real)["type"].is_null()) return "";
+    const std::string type = (*real)["type"];
+    if (normalized_type(type) == normalized_type(profile_port.type)) return "";
+    return what + "is " + type + " in the component, not " + profile_port.type;
+}
+
+} // namespace
+
+std::vector<std::string> find_port_mismatches(const engine::ComponentProfile& profile, const json& ports,
+                                              bool initialized) {
+    std::vector<std::string> errors = profile.port_errors;
+    for (const ProfilePort& profile_port : profile_ports(profile))
+        if (const std::string text = mismatch(profile_port, ports, initialized); !text.empty())
+            errors.push_back(profile_port.location.text() + ": " + text);
+    return errors;
+}
+
+} // namespace tandem::command

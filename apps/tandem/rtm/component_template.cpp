@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/component_template.hpp"
+
+namespace tandem::command {
+namespace {
+
+constexpr char header[] = R"(#ifndef @NAME@_H
+#define @NAME@_H
+
+#include <rtm/DataFlowComponentBase.h>
+#include <rtm/DataInPort.h>
+#include <rtm/DataOutPort.h>
+#include <rtm/Manager.h>
+#include <rtm/idl/BasicDataTypeSkel.h>
+
+// Multiplies what arrives at `in` by the configuration parameter `gain` and sends it on through `out`.
+class @NAME@ : public RTC::DataFlowComponentBase {
+ public:
+  explicit @NAME@(RTC::Manager* manager);
+  ~@NAME@() override;
+
+  RTC::ReturnCode_t onInitialize() override; // ports and parameters are made known here
+  RTC::ReturnCode_t onActivated(RTC::UniqueId ec_id) override;
+  RTC::ReturnCode_t onExecute(RTC::UniqueId ec_id) override; // once per period while it is active
+  RTC::ReturnCode_t onDeactivated(RTC::UniqueId ec_id) override;
+  // Further: onFinalize, onStartup, onShutdown, onAborting, onError, onReset, onStateUpdate, onRateChanged.
+
+ private:
+  RTC::TimedDouble m_in, m_out;
+  RTC::InPort<RTC::TimedDouble> m_inIn;
+  RTC::OutPort<RTC::TimedDouble> m_outOut;
+  double m_gain;
+};
+
+extern "C" void @NAME@Init(RTC::Manager* manager);
+
+#endif
+)";
+
+constexpr char source[] = R"(#include "@NAME@.h"
+
+#include <iostream>
+
+static const char* const specification[] = {
+  "implementation_id", "@NAME@",
+  "type_name", "@NAME@",
+  "description", "Multiplies a number",
+  "version", "1.0.0",
+  "vendor", "me",
+  "category", "Example",
+  "activity_type", "PERIODIC",
+  "kind", "DataFlowComponent",
+  "max_instance", "0", // any number of them
+  "language", "C++",
+  "lang_type", "compile",
+  "conf.default.gain", "2",
+  ""
+};
+
+@NAME@::@NAME@(RTC::Manager* manager)
+  : RTC::DataFlowComponentBase(manager), m_inIn("in", m_in), m_outOut("out", m_out), m_gain(1) {}
+
+@NAME@::~@NAME@() {}
+
+RTC::ReturnCode_t @NAME@::onInitialize() {
+  addInPort("in", m_inIn);
+  addOutPort("out", m_outOut);
+  bindParameter("gain", m_gain, "2");
+  return RTC::RTC_OK;
+}
+
+RTC::ReturnCode_t @NAME@::onActivated(RTC::UniqueId) {
+  std::cout << getInstanceName() << ": activated, gain " << m_gain << std::endl;
+  return RTC::RTC_OK;
+}
+
+RTC::ReturnCode_t @NAME@::onExecute(RTC::UniqueId) {
+  if (m_inIn.isNew()) {
+    m_inIn.read();
+    m_out.tm = m_in.tm;
+    m_out.data = m_gain * m_in.data;
+    m_outOut.write();
+  }
+  return RTC::RTC_OK;
+}
+
+RTC::ReturnCode_t @NAME@::onDeactivated(RTC::UniqueId) { return RTC::RTC_OK; }
+
+extern "C" void @NAME@Init(RTC::Manager* manager) {
+  coil::Properties profile(specification);
+  manager->registerFactory(profile, RTC::Create<@NAME@>, RTC::Delete<@NAME@>);
+}
+)";
+
+constexpr char build[] =
+    R"(# Here and with OpenRTM-aist: cmake -S . -B build -DOpenRTM_DIR=PREFIX/lib/cmake/OpenRTM && cmake --build build
+cmake_minimum_required(VERSION 3.16)
+project(@NAME@ CXX)
+find_package(OpenRTM REQUIRED)
+
+set(CMAKE_CXX_STANDARD 14)
+add_library(@NAME@ MODULE @NAME@.cpp)
+target_include_directories(@NAME@ PRIVATE ${OPENRTM_INCLUDE_DIRS})
+target_compile_options(@NAME@ PRIVATE ${OPENRTM_CFLAGS})
+target_link_directories(@NAME@ PRIVATE ${OPENRTM_LIBRARY_DIRS})
+target_link_libraries(@NAME@ PRIVATE ${OPENRTM_LIBRARIES})
+# Beside rtc.conf, where it is looked for.
+set_target_properties(@NAME@ PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
+)";
+
+constexpr char conf[] = R"(manager.modules.load_path: .
+manager.modules.preload: @NAME@.so
+manager.components.precreate: @NAME@
+# from?port=to; here what leaves comes back
+manager.components.preconnect: @NAME@0.out?port=@NAME@0.in
+manager.components.preactivation: @NAME@0
+manager.shutdown_auto: NO
+exec_cxt.periodic.rate: 10
+)";
+
+} // namespace
+
+TemplateFiles rt_component_template(const std::string& name) {
+    return {{name + ".h", expand_template(header, name)},
+            {name + ".cpp", expand_template(source, name)},
+            {"CMakeLists.txt", expand_template(build, name)},
+            {"rtc.conf", expand_template(conf, name)}};
+}
+
+} // namespace tandem::command

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running/component_source.hpp"
+#include "host/rtm/runtime/naming/remote_names.hpp"
+
+namespace tandem::command {
+namespace {
+
+ComponentEntry query_component(const std::string& address, CORBA::Object_ptr object,
+                               unsigned long timeout_ms) {
+    ComponentEntry entry;
+    entry.address = address;
+    try {
+        omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout_ms));
+        entry.object = RTC::RTObject::_narrow(object);
+        if (CORBA::is_nil(entry.object.in())) {
+            entry.error = "it is no RT-Component";
+            return entry;
+        }
+        RTC::ComponentProfile_var profile = entry.object->get_component_profile();
+        entry.instance = profile->instance_name;
+        entry.type = profile->type_name;
+        entry.category = profile->category;
+        entry.ports = profile->port_profiles.length();
+        entry.state = component_state(entry.object.in());
+    } catch (const CORBA::Exception& e) {
+        entry.error = RTC::describe_exception(e);
+    }
+    return entry;
+}
+
+// Contexts may contain each other: `depth` bounds it.
+void list_context(CosNaming::NamingContext_ptr context, const std::string& path, int depth,
+                  unsigned long timeout_ms, std::vector<ComponentEntry>& out) {
+    CosNaming::BindingList_var list;
+    CosNaming::BindingIterator_var more;
+    context->list(10000, list.out(), more.out());
+    if (!CORBA::is_nil(more.in())) more->destroy();
+    for (CORBA::ULong i = 0; i < list->length(); ++i) {
+        const CosNaming::NameComponent& last = list[i].binding_name[0];
+        const std::string kind(last.kind);
+        const std::string name =
+            path + "/" + static_cast<const char*>(last.id) + (kind.empty() ? "" : "." + kind);
+        if (list[i].binding_type == CosNaming::nobject && kind != "rtc") continue;
+        CORBA::Object_var object = context->resolve(list[i].binding_name);
+        if (list[i].binding_type == CosNaming::nobject) {
+            out.push_back(query_component(name, object.in(), timeout_ms));
+        } else if (depth > 0) {
+            CosNaming::NamingContext_var next = CosNaming::NamingContext::_narrow(object.in());
+            if (!CORBA::is_nil(next.in())) list_context(next.in(), name, depth - 1, timeout_ms, out);
+        }
+    }
+}
+
+template <class Look>
+ComponentSource query_source(const char* kind, const std::string& address, Look look) {
+    ComponentSource source{kind, address, "", {}};
+    try {
+        look(source);
+    } catch (const RTC::RemoteUnavailable& e) {
+        source.error = e.what();
+    } catch (const CORBA::Exception& e) {
+        source.error = std::string(kind) + " " + address + ": " + RTC::describe_exception(e);
+    }
+    return source;
+}
+
+} // namespace
+
+std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
+    std::vector<ComponentSource> sources;
+    for (const auto& address : client.name_servers())
+        sources.push_back(query_source("name server", address, [&](ComponentSource& p) {
+            CosNaming::NamingContext_var root =
+                RTC::resolve_name_server(client.orb(), address, client.timeout_ms());
+            list_context(root.in(), "rtcname://" + address, 6, client.timeout_ms(), p.components);
+        }));
+    for (const auto& address : client.managers())
+        sources.push_back(query_source("manager", address, [&](ComponentSource& p) {
+            RTM::Manager_var manager = RTC::resolve_manager(client.orb(), address, client.timeout_ms());
+            RTC::RTCList_var components = manager->get_components();
+            for (CORBA::ULong i = 0; i < components->length(); ++i) {
+                p.components.push_back(query_component("", components[i], client.timeout_ms()));
+                p.components.back().address = "rtcloc://" + address + "/" + p.components.back().instance;
+            }
+        }));
+    return sources;
+}
+
+void require_reachable(const RtmClient& client, const std::vector<ComponentSource>& sources) {
+    std::string errors;
+    bool answered = false;
+    for (const auto& source : sources) {
+        answered = answered || source.error.empty();
+        if (!source.error.empty()) errors += (errors.empty() ? "" : "; ") + source.error;
+    }
+    if (!answered && client.managers().empty()) errors += "; none of your processes here is a manager";
+    if (!answered) errors += "; start rtm_host or omniNames, or name one with --nameserver or --manager";
+    if (!errors.empty() && (client.has_explicit_sources() || !answered)) throw std::runtime_error(errors);
+}
+
+} // namespace tandem::command

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/running/rtm_client.hpp"
+#include "apps/tandem/rtm/running/local_managers.hpp"
+#include "host/rtm/runtime/manager/manager_options.hpp"
+#include "host/rtm/runtime/naming/remote_names.hpp"
+
+#include <coil/stringutil.h>
+#include <fmt/format.h>
+#include <rtm/CORBA_RTCUtil.h>
+
+#include <cstdlib>
+
+namespace tandem::command {
+namespace {
+
+coil::vstring orb_arguments(unsigned long timeout_ms) {
+    return {"tandem",
+            "-ORBclientCallTimeOutPeriod",
+            std::to_string(timeout_ms),
+            "-ORBendPoint",
+            "giop:tcp:127.0.0.1:",
+            "-ORBgiopMaxMsgSize",
+            "67108864",
+            "-ORBtraceLevel",
+            "0"};
+}
+
+CORBA::ORB_ptr manager_orb(unsigned long timeout_ms) {
+    coil::Argv argv(coil::vstring{"tandem", "-f", "/dev/null", "-o", "logger.enable:NO", "-o",
+                                  "naming.enable:NO", "-o", "manager.corba_servant:NO", "-o",
+                                  "corba.endpoints:127.0.0.1:", "-o",
+                                  "corba.args:-ORBclientCallTimeOutPeriod " + std::to_string(timeout_ms)});
+    return RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), {}).getORB();
+}
+
+std::vector<std::string> default_name_servers() {
+    const char* names = std::getenv("RTCSH_NAMESERVERS");
+    const auto list = coil::split(names ? names : "", ";", true);
+    return list.empty() ? std::vector<std::string>{"localhost"} : list;
+}
+
+} // namespace
+
+RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
+    : timeout_ms_(static_cast<unsigned long>(options.timeout_s * 1000)), with_manager_(with_manager),
+      has_explicit_sources_(!options.name_servers.empty() || !options.managers.empty()),
+      name_servers_(has_explicit_sources_ ? options.name_servers : default_name_servers()),
+      managers_(options.managers) {
+    path_server_ = RTC::with_default_port(
+        name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
+    if (with_manager) {
+        orb_ = manager_orb(timeout_ms_);
+    } else {
+        coil::Argv argv(orb_arguments(timeout_ms_));
+        int argc = static_cast<int>(argv.size());
+        orb_ = CORBA::ORB_init(argc, argv.get(), "omniORB4");
+    }
+    for (auto& server : name_servers_) server = RTC::with_default_port(server, 2809);
+    for (auto& manager : managers_) manager = RTC::with_default_port(manager, 2810);
+    if (!has_explicit_sources_) managers_ = find_local_managers(orb_.in());
+}
+
+RtmClient::~RtmClient() {
+    try {
+        if (with_manager_)
+            RTC::Manager::instance().shutdown();
+        else
+            orb_->destroy();
+    } catch (const CORBA::Exception&) {
+        // it has ended before
+    }
+}
+
+RemoteComponent RtmClient::find(const std::string& name) const {
+    auto found = [&](const std::string& address) {
+        RemoteComponent component{RTC::resolve_component(orb_.in(), address, name_servers_, timeout_ms_),
+                                  address, ""};
+        return call_remote(address, [&] {
+            RTC::ComponentProfile_var profile = component.object->get_component_profile();
+            component.instance = profile->instance_name;
+            return component;
+        });
+    };
+    if (name.find("://") != std::string::npos) return found(name);
+    if (name.find('/') != std::string::npos) return found("rtcname://" + path_server_ + "/" + name);
+    const bool has_kind = name.size() > 4 && name.compare(name.size() - 4, 4, ".rtc") == 0;
+    const std::string plain = has_kind ? name.substr(0, name.size() - 4) : name;
+    std::vector<std::string> reasons;
+    auto attempt = [&](const std::string& address) -> std::optional<RemoteComponent> {
+        try {
+            return found(address);
+        } catch (const RTC::RemoteUnavailable& e) {
+            reasons.push_back(e.what());
+            return std::nullopt;
+        }
+    };
+    for (const auto& manager : managers_)
+        if (auto component = attempt("rtcloc://" + manager + "/" + plain)) return *component;
+    for (const auto& server : name_servers_)
+        if (auto component = attempt("rtcname://" + server + "/*/" + plain)) return *component;
+    throw std::runtime_error(
+        fmt::format("there is no component {} ({}); see tandem rtm list", name, fmt::join(reasons, "; ")));
+}
+
+RemotePort get_port(const RemoteComponent& component, const std::string& port) {
+    return call_remote(component.address, [&] {
+        RemotePort found;
+        found.object = CORBA_RTCUtil::get_port_by_name(component.object.in(), port);
+        if (CORBA::is_nil(found.object.in()))
+            throw std::runtime_error(
+                fmt::format("{} has no port {} (it has: {})", component.instance, port,
+                            fmt::join(CORBA_RTCUtil::get_port_names(component.object.in()), ", ")));
+        found.profile = found.object->get_port_profile();
+        found.name = found.profile->name;
+        return found;
+    });
+}
+
+RemotePort find_port(const RtmClient& client, const std::string& name) {
+    // rtcname://host:2809/a.host_cxt/Name0.rtc:out, Name0:out, Name0.out
+    const std::size_t last = name.rfind('/') == std::string::npos ? 0 : name.rfind('/');
+    std::size_t at = name.find(':', last);
+    if (at == std::string::npos) at = name.rfind('.');
+    if (at == std::string::npos || at <= last || at + 1 == name.size())
+        throw std::runtime_error("`" + name + "` is no port; expected COMPONENT:PORT");
+    return get_port(client.find(name.substr(0, at)), name.substr(at + 1));
+}
+
+std::vector<RTC::ExecutionContext_var> execution_contexts(RTC::RTObject_ptr component) {
+    std::vector<RTC::ExecutionContext_var> all;
+    RTC::ExecutionContextList_var own = component->get_owned_contexts();
+    RTC::ExecutionContextList_var others = component->get_participating_contexts();
+    for (auto* list : {&own, &others})
+        for (CORBA::ULong i = 0; i < (*list)->length(); ++i)
+            all.emplace_back(RTC::ExecutionContext::_duplicate((*list)[i]));
+    if (all.empty()) throw std::runtime_error("the component takes part in no execution context");
+    return all;
+}
+
+std::string component_state(RTC::RTObject_ptr component) {
+    static const char* const names[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
+    std::string state = "NONE";
+    RTC::ExecutionContextList_var own = component->get_owned_contexts();
+    RTC::ExecutionContextList_var others = component->get_participating_contexts();
+    for (auto* list : {&own, &others})
+        for (CORBA::ULong i = 0; i < (*list)->length(); ++i) {
+            const std::string one = names[(*list)[i]->get_component_state(component)];
+            if (state == "NONE" || state == "CREATED" || one == "ERROR" || one == "ACTIVE") state = one;
+            if (state == "ERROR") return state;
+        }
+    return state;
+}
+
+std::string active_configuration_set(SDOPackage::Configuration_ptr configuration) {
+    try {
+        SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
+        return static_cast<const char*>(set->id);
+    } catch (const SDOPackage::NotAvailable&) { // what OpenRTM-aist says before the first activation
+        return "";
+    }
+}
+
+std::string text_of(RTC::ReturnCode_t code) {
+    static const char* const texts[] = {"OK",
+                                        "it reports an error",
+                                        "it refuses the request",
+                                        "it does not support that",
+                                        "it is out of resources",
+                                        "it is not in the right state for that"};
+    return code <= RTC::PRECONDITION_NOT_MET ? texts[code] : "code " + std::to_string(static_cast<int>(code));
+}
+
+void throw_corba_error(const std::string& address, const CORBA::Exception& e) {
+    throw std::runtime_error(address + ": " + RTC::describe_exception(e));
+}
+
+} // namespace tandem::command

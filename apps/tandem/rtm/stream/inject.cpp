@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/rtm/stream/cdr_json.hpp"
+#include "apps/tandem/rtm/stream/type_codes.hpp"
+#include "apps/tandem/rtm/stream/untyped_ports.hpp"
+
+#include <fmt/format.h>
+#include <iostream>
+#include <thread>
+
+namespace tandem::command {
+namespace {
+
+// What is no JSON is taken as a string: `hello` need not be quoted.
+Json parsed(const std::string& text) {
+    const Json value = Json::parse(text, nullptr, false);
+    return value.is_discarded() ? Json(text) : value;
+}
+
+RTC::ByteData message(CORBA::TypeCode_ptr type, const std::string& text, bool little_endian) {
+    try {
+        return json_to_cdr(type, parsed(text), little_endian);
+    } catch (const DataConversionError& e) {
+        throw std::runtime_error("`" + text + "`: " + e.what());
+    }
+}
+
+} // namespace
+
+int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& options) {
+    for (const auto& library : options.types) load_type_library(library);
+    interrupted();
+    const RtmClient client(client_options, true);
+    const RemotePort remote_port = find_port(client, options.port);
+    const std::string type = data_type(remote_port, "DataInPort");
+    CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
+    if (CORBA::is_nil(code.in()))
+        throw std::runtime_error(
+            fmt::format("{} carries {}, which is not known here; name the component's library with --types",
+                        remote_port.name, type));
+    UntypedOutPort port("out", type.c_str());
+    const PortConnection connection(remote_port, port, options.properties, "tandem-inject");
+    unsigned long sent = 0;
+    auto send = [&](const std::string& text) {
+        if (sent > 0 && options.rate > 0)
+            std::this_thread::sleep_for(std::chrono::duration<double>(1 / options.rate));
+        port.send(message(code.in(), text, port.littleEndian()));
+        ++sent;
+    };
+    const unsigned long rounds = options.count == 0 ? 1 : options.count;
+    for (const auto& value : options.values)
+        message(code.in(), value == "-" ? "{}" : value, true); // all are sound
+    for (unsigned long round = 0; round < rounds && !interrupted(); ++round)
+        for (const auto& value : options.values) {
+            if (value != "-") {
+                send(value);
+                continue;
+            }
+            for (std::string line; !interrupted() && std::getline(std::cin, line);)
+                if (!line.empty()) send(line);
+        }
+    if (client_options.json) print_json({{"port", remote_port.name}, {"type", type}, {"sent", sent}});
+    return 0;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/stream/type_codes.hpp"
+
+#include <coil/stringutil.h>
+#include <dlfcn.h>
+
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+// {RTC, TimedLong} -> _ZN3RTC13_tc_TimedLongE: what omniidl's stubs call it.
+std::string symbol(const coil::vstring& names) {
+    std::string mangled = "_ZN";
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string name = (i + 1 == names.size() ? "_tc_" : "") + names[i];
+        mangled += std::to_string(name.size()) + name;
+    }
+    return names.size() == 1 ? "_tc_" + names[0] : mangled + "E";
+}
+
+} // namespace
+
+void load_type_library(const std::filesystem::path& library) {
+    if (dlopen(library.c_str(), RTLD_LAZY | RTLD_GLOBAL) == nullptr) throw std::runtime_error(dlerror());
+}
+
+CORBA::TypeCode_ptr find_type_code(const std::string& repository_id) {
+    if (repository_id.compare(0, 4, "IDL:") != 0) return CORBA::TypeCode::_nil();
+    coil::vstring names = coil::split(repository_id.substr(4, repository_id.rfind(':') - 4), "/", true);
+    while (!names.empty()) {
+        // The address of the constant, not its value: that is set when the library is initialised.
+        if (const void* constant = dlsym(RTLD_DEFAULT, symbol(names).c_str()))
+            return *static_cast<const CORBA::TypeCode_ptr*>(constant);
+        if (names.front().find('.') == std::string::npos) break;
+        names.erase(names.begin()); // a prefix such as omg.org is not in the C++ name
+    }
+    return CORBA::TypeCode::_nil();
+}
+
+} // namespace tandem::command

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/shm/segment_format.hpp"
+
+#include "apps/tandem/output/format.hpp"
+#include "shm/os/clock.hpp"
+#include "shm/os/error.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::command {
+
+const char* to_string(shm::Readability readability) {
+    switch (readability) {
+    case shm::Readability::readable:
+        return "readable";
+    case shm::Readability::foreign:
+        return "foreign";
+    case shm::Readability::other_layout:
+        return "other layout";
+    case shm::Readability::damaged:
+        break;
+    }
+    return "damaged";
+}
+
+const char* to_string(shm::PeerState state) {
+    switch (state) {
+    case shm::PeerState::absent:
+        return "absent";
+    case shm::PeerState::alive:
+        return "alive";
+    case shm::PeerState::late:
+        return "late";
+    case shm::PeerState::dead:
+        break;
+    }
+    return "dead";
+}
+
+std::string format_side(const shm::ObservedSegment& segment, shm::Side which) {
+    const shm::ObservedSide& side = segment.side(which);
+    if (segment.readability == shm::Readability::foreign) return "-";
+    if (segment.readability != shm::Readability::readable) return side.held ? "held" : "-";
+    if (side.state == shm::PeerState::absent) return "absent";
+    return fmt::format("{}, pid {}", to_string(side.state), side.pid);
+}
+
+namespace {
+
+nlohmann::json age_json(std::uint64_t since_ns) {
+    const std::uint64_t now = shm::now_ns();
+    if (since_ns == 0 || since_ns > now) return nullptr;
+    return now - since_ns;
+}
+
+nlohmann::json side_json(const shm::ObservedSegment& segment, shm::Side which) {
+    const shm::ObservedSide& side = segment.side(which);
+    nlohmann::json json{{"held", side.held}};
+    if (segment.readability != shm::Readability::readable) return json;
+    json["state"] = to_string(side.state);
+    json["arena_bytes"] = segment.arena_bytes[shm::index_of(which)];
+    if (side.state == shm::PeerState::absent) return json;
+    json["pid"] = side.pid;
+    json["joined_ns_ago"] = age_json(side.joined_ns);
+    json["heartbeat_ns_ago"] = age_json(side.heartbeat_ns);
+    json["published"] = side.published;
+    return json;
+}
+
+} // namespace
+
+nlohmann::json to_json(const shm::ObservedSegment& segment) {
+    nlohmann::json json{{"link", segment.link},
+                        {"generation", segment.generation},
+                        {"path", segment.path},
+                        {"bytes", segment.file_bytes},
+                        {"memory_bytes", segment.memory_bytes},
+                        {"owner", user_name(segment.owner)},
+                        {"mode", fmt::format("{:04o}", segment.mode)},
+                        {"state", to_string(segment.readability)}};
+    if (!segment.reason.empty()) json["reason"] = segment.reason;
+    if (segment.readability == shm::Readability::foreign) return json;
+    json["changing_hands"] = segment.changing_hands;
+    json["sides"] = {{"first", side_json(segment, shm::Side::first)},
+                     {"second", side_json(segment, shm::Side::second)}};
+    if (segment.readability != shm::Readability::readable) return json;
+    json["layout_version"] = segment.layout_version;
+    json["contract"] = fmt::format("{:#x}", segment.contract); // JSON numbers are exact up to 2^53 only
+    json["created_ns_ago"] = age_json(segment.created_ns);
+    json["superseded_by"] =
+        segment.superseded_by != 0 ? nlohmann::json(segment.superseded_by) : nlohmann::json();
+    return json;
+}
+
+shm::Observation observe_or_throw(const std::string& link, std::uint64_t generation) {
+    if (auto observation = shm::observe(link, generation)) return std::move(*observation);
+    throw shm::Error(generation == 0
+                         ? "link '" + link +
+                               "': no segment in /dev/shm; 'tandem shm list' shows those that exist"
+                         : shm::segment_path(link, generation) +
+                               ": no such segment; 'tandem shm list' shows those that exist");
+}
+
+int report_if_unreadable(const shm::ObservedSegment& segment) {
+    if (segment.readability == shm::Readability::readable) return 0;
+    const char* remedy = segment.readability == shm::Readability::foreign ? "look at it as that user"
+                         : segment.readability == shm::Readability::other_layout
+                             ? "use the tandem program of the build that made it"
+                             : "stop who holds it; 'tandem shm clean' removes it when nobody does";
+    fmt::print(stderr, "tandem: {}: {} ({}), a readable segment was expected; {}\n", segment.path,
+               to_string(segment.readability), segment.reason, remedy);
+    return 1;
+}
+
+} // namespace tandem::command
