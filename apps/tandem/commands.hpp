@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The groups of sub-commands of the program `tandem`. Each adds itself to the command line and, when it was
-// chosen, says what is to be run; main.cpp runs it and turns exceptions into one line and exit code 1.
+// The groups of sub-commands of the program `tandem`. Each function adds its group to the command line. A
+// sub-command that the user has chosen stores in `selected` what is to be run; main.cpp runs it after parsing and
+// turns an exception into one line on standard error and exit code 1.
 #pragma once
 #include <CLI/CLI.hpp>
 
@@ -8,10 +9,12 @@
 
 namespace tandem::command {
 
-using Action = std::function<int()>; ///< Returns the exit code.
+using Action = std::function<int()>; ///< Returns the program's exit code.
 
 void add_opros_commands(CLI::App& tandem, Action& selected);
 void add_rtm_commands(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);
+void add_doctor_command(CLI::App& tandem, Action& selected);
+void add_completion_command(CLI::App& tandem, Action& selected);
 
 } // namespace tandem::command

@@ -11,24 +11,28 @@
 #include <exception>
 
 int main(int argc, char** argv) {
+    // This program is also the child process in which it tries out component libraries: then this call ends it.
     tandem::plugin::serve_probe(argc, argv, tandem::command::opros_probe_tasks());
-    CLI::App tandem{"Looks at, and looks after, a system of Tandem hosts on this machine.", "tandem"};
-    tandem.require_subcommand(1);
-    tandem.set_version_flag("--version", std::string("tandem ") + tandem::version);
-    tandem.footer("tandem COMMAND --help says more about a command.");
+    CLI::App app{"Inspects, builds and controls what runs on Tandem hosts on this machine.", "tandem"};
+    app.require_subcommand(1);
+    app.set_version_flag("--version", std::string("tandem ") + tandem::version);
+    app.footer("tandem COMMAND --help says more about a command. New here? Start with tandem doctor.");
     tandem::command::Action selected;
-    tandem::command::add_opros_commands(tandem, selected);
-    tandem::command::add_rtm_commands(tandem, selected);
-    tandem::command::add_shm_commands(tandem, selected);
+    tandem::command::add_doctor_command(app, selected);
+    tandem::command::add_opros_commands(app, selected);
+    tandem::command::add_rtm_commands(app, selected);
+    tandem::command::add_shm_commands(app, selected);
+    tandem::command::add_completion_command(app, selected);
     try {
-        tandem.parse(argc, argv);
-    } catch (const CLI::ParseError& end) {
-        return tandem.exit(end);
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& end) { // also --help and --version, with exit code 0
+        return app.exit(end);
     }
     try {
         return selected();
-    } catch (const std::exception& failure) {
-        fmt::print(stderr, "tandem: {}\n", tandem::command::replace_control_characters(failure.what()));
+    } catch (const std::exception& error) {
+        // Messages may quote file names and component texts: control characters must not reach the terminal.
+        fmt::print(stderr, "tandem: {}\n", tandem::command::replace_control_characters(error.what()));
         return 1;
     }
 }

@@ -21,6 +21,7 @@ void write_file(const fs::path& file, const std::string& text) {
     if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
 }
 
+// Keywords of C++20 and macros that every source sees; std, because no class may have its name.
 const std::set<std::string_view> cpp_keywords{
     "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
     "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char8_t",
@@ -53,9 +54,9 @@ void require_component_name(const std::string& name) {
 
 void create_component_folder(const fs::path& folder, const TemplateFiles& files) {
     std::error_code error;
+    // The component's folder is searched for headers before /usr/include: <string.h> would find a component named string.
     const std::string header = folder.filename().string() + ".h";
-    if (fs::exists("/usr/include/" + header,
-                   error)) // the folder will be the first to be searched for headers
+    if (fs::exists("/usr/include/" + header, error))
         throw std::runtime_error(
             "'" + folder.filename().string() +
             "' cannot be the name of a component, its header would be taken for the system's <" + header +
@@ -63,11 +64,12 @@ void create_component_folder(const fs::path& folder, const TemplateFiles& files)
     if (fs::exists(folder, error))
         throw std::runtime_error(folder.string() + " exists; choose another name, or remove it first");
     if (!fs::create_directory(folder, error))
-        throw std::runtime_error("folder " + folder.string() + " cannot be made: " + error.message());
+        throw std::runtime_error("folder " + folder.string() + " cannot be created: " + error.message());
     try {
         for (const auto& [file, text] : files) write_file(folder / file, text);
     } catch (const std::runtime_error&) {
-        fs::remove_all(folder, error); // half a component is of no use
+        fs::remove_all(
+            folder, error); // half a component cannot be built, and its folder would block a second attempt
         throw;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tandem opros new` and `tandem rtm new` have in common.
+// Creating the folder of a new component: what `tandem opros new` and `tandem rtm new` have in common.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,14 @@ namespace tandem::command {
 
 using TemplateFiles = std::vector<std::pair<std::string, std::string>>; ///< file name, content
 
-/// Throws std::runtime_error if the name cannot be that of a class, a library and files.
+/// Throws std::runtime_error unless the name can be that of a C++ class, a library and files.
 void require_component_name(const std::string& name);
 
-/// Makes the folder with these files, or nothing. Throws std::runtime_error if it exists or cannot be made.
+/// Creates the folder with these files; on an error nothing is left behind. Throws std::runtime_error if the folder exists
+/// or cannot be created, or if its header would hide one of the system.
 void create_component_folder(const std::filesystem::path& folder, const TemplateFiles& files);
 
-/// `text` with each @NAME@ replaced.
+/// The text with each @NAME@ replaced by the name.
 std::string expand_template(std::string text, const std::string& name);
 
 } // namespace tandem::command

@@ -2,7 +2,7 @@
 #include "apps/tandem/build/plugin_build.hpp"
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/package_folder.hpp"
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "host/process/run_command.hpp"
 
 #include <cstdlib>
@@ -15,16 +15,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Removed at the end, unless the user has named it.
+/// The folder in which CMake works: temporary and removed with this object, unless the user has named one.
 class BuildFolder {
   public:
     explicit BuildFolder(const fs::path& wanted) : temporary_(wanted.empty()) {
         if (temporary_) {
             std::error_code error;
             std::string name = (fs::temp_directory_path(error) / "tandem-build-XXXXXX").string();
-            if (error) throw std::runtime_error("TMPDIR names no folder to build in: " + error.message());
+            if (error)
+                throw std::runtime_error("TMPDIR does not name a folder to build in: " + error.message());
             if (!mkdtemp(name.data()))
-                throw std::runtime_error("no temporary folder " + name + " can be made");
+                throw std::runtime_error("temporary folder " + name + " cannot be created");
             path_ = name;
         } else {
             fs::create_directories(wanted);
@@ -45,10 +46,11 @@ class BuildFolder {
 };
 
 std::string cmake_quote(const std::string& text) {
-    // Bracket arguments are taken as they are.
+    // CMake expands nothing inside of a bracket argument.
     return "[==[" + text + "]==]";
 }
 
+// A keyword of the CMake function with its values; "" without values.
 std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
     if (values.empty()) return "";
     std::string text = std::string("\n  ") + keyword;
@@ -56,6 +58,7 @@ std::string cmake_argument(const char* keyword, const std::vector<std::string>& 
     return text;
 }
 
+// The CMakeLists.txt. Paths are absolute, because it lies in the build folder.
 std::string cmake_project(const std::string& model, const std::string& name,
                           const PluginBuildOptions& options, const fs::path& output) {
     std::vector<std::string> include_dirs;
@@ -70,9 +73,10 @@ std::string cmake_project(const std::string& model, const std::string& name,
            fmt::format("\n  CXX_STANDARD {})\n", options.standard);
 }
 
-// What the compiler says belongs to the user, all of it; the first error is repeated in our own line.
-void run(const std::vector<std::string>& command, double timeout_s, const std::string& name,
-         const std::string& what) {
+// Runs one step of CMake. On failure all of its output is printed, and its first error is repeated in the exception, where
+// it is the last line on the terminal.
+void run_cmake(const std::vector<std::string>& command, double timeout_s, const std::string& name,
+               const std::string& what) {
     process::CommandOptions options;
     options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout_s * 1000));
     options.merge_errors = true;
@@ -95,7 +99,7 @@ void run(const std::vector<std::string>& command, double timeout_s, const std::s
                              " (the compiler's output is above)");
 }
 
-// A list of CMake's would fall apart there.
+// CMake separates the elements of a list by ';', and knows no way to quote it that survives every function.
 void require_no_semicolon(const fs::path& path) {
     const std::string whole = path.empty() ? "" : fs::absolute(path).lexically_normal().string();
     if (whole.find(';') != std::string::npos)
@@ -104,7 +108,8 @@ void require_no_semicolon(const fs::path& path) {
                                  "without one");
 }
 
-// The library replaces the old one when it is whole: a running host may have that one mapped.
+// Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a copy that
+// fails half-way must not leave half a library.
 void replace_library(const fs::path& cmake_output, const fs::path& library) {
     const fs::path fresh = library.parent_path() / ("." + library.filename().string() + ".new");
     std::error_code error, ignored;
@@ -117,21 +122,23 @@ void replace_library(const fs::path& cmake_output, const fs::path& library) {
 
 } // namespace
 
-void add_build_options(CLI::App* command, PluginBuildOptions& options, const char* where) {
+void add_build_options(CLI::App* command, PluginBuildOptions& options, const char* output_help) {
     const auto repeated = [&](const char* flag, std::vector<std::string>& values, const char* what) {
-        command->add_option(flag, values, what)->allow_extra_args(false);
+        return command->add_option(flag, values, what)->allow_extra_args(false);
     };
     command->add_option("DIR", options.folder, "folder of the component")->required();
-    repeated("-I,--include", options.include_dirs, "folder with headers of neighbours (repeatable)");
+    repeated("-I,--include", options.include_dirs, "folder with headers of other components (repeatable)")
+        ->type_name("DIR");
     repeated("-D,--define", options.definitions, "preprocessor definition (repeatable)");
     repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
     command->add_option("--standard", options.standard, "C++ standard (14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
     command->add_option("--timeout", options.timeout_s, "seconds that the compilation may take (600)")
         ->check(CLI::Range(0.1, 86400.));
-    command->add_option("--output", options.output, where);
-    command->add_option("--build-dir", options.build,
-                        "folder to keep, so that the next build takes less time");
+    command->add_option("--output", options.output, output_help)->type_name("DIR");
+    command
+        ->add_option("--build-dir", options.build, "folder to keep, so that the next build takes less time")
+        ->type_name("DIR");
 }
 
 void require_folder(const fs::path& folder) {
@@ -140,6 +147,7 @@ void require_folder(const fs::path& folder) {
                                  " is not a folder; name the one with the component's sources");
 }
 
+// CMake configures anew each time: a second build in a kept folder compiles only what has changed.
 fs::path build_plugin(const std::string& model, const std::string& name, const PluginBuildOptions& options,
                       const fs::path& default_folder) {
     for (const auto& dir : options.include_dirs) require_folder(dir);
@@ -151,10 +159,10 @@ fs::path build_plugin(const std::string& model, const std::string& name, const P
     const fs::path cmake_output = build.path() / "made";
     std::ofstream(build.path() / "CMakeLists.txt") << cmake_project(model, name, options, cmake_output);
     const std::string bin = (build.path() / "bin").string();
-    run({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-         "-DTandem_DIR=" + cmake_package_folder().string()},
-        options.timeout_s, name, "cannot be set up");
-    run({"cmake", "--build", bin, "--parallel"}, options.timeout_s, name, "does not compile");
+    run_cmake({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+               "-DTandem_DIR=" + cmake_package_folder().string()},
+              options.timeout_s, name, "cannot be set up");
+    run_cmake({"cmake", "--build", bin, "--parallel"}, options.timeout_s, name, "does not compile");
     fs::create_directories(output);
     const fs::path library = output / (name + ".so");
     replace_library(cmake_output / library.filename(), library);

@@ -4,15 +4,16 @@
 
 namespace tandem::doctor {
 
-/// ok: as it should be. warn: works, but slower or less predictable. bad: Tandem will not run, or not for
+/// ok: as it should be. warning: works, but slower or less predictable. error: Tandem will not run, or not for
 /// long.
 enum class CheckStatus { ok, warning, error };
 
+/// What one check has found on a machine.
 struct CheckResult {
-    std::string name; ///< what was looked at
+    std::string name; ///< of the check, the same on every machine
     CheckStatus status;
-    std::string value;  ///< the value
-    std::string advice; ///< what to do about it, one line; empty if ok
+    std::string value;  ///< what was found, in one line
+    std::string advice; ///< what to do about it, in one line: why, a colon, how; empty if ok
 };
 
 inline CheckResult ok(std::string name, std::string value) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function for each thing that is checked.
+// The checks of `tandem doctor`, one function each. A check reads the Machine that it is given and nothing else, never
+// throws for what it finds there, and has the same name on every machine. A new one is declared here, defined in the file
+// of its group and listed in run_checks.cpp.
 #pragma once
 #include "apps/tandem/doctor/check_result.hpp"
 #include "apps/tandem/doctor/machine.hpp"
@@ -8,13 +10,13 @@
 
 namespace tandem::doctor {
 
-// shm_checks.cpp: where segments live
+// shm_checks.cpp: the file system that holds the segments
 CheckResult check_shm_mount(const Machine& machine);
 CheckResult check_shm_space(const Machine& machine);
 CheckResult check_huge_pages(const Machine& machine);
 CheckResult check_remove_ipc(const Machine& machine); // remove_ipc.cpp
 
-// permission_checks.cpp: limits, and what they permit
+// permission_checks.cpp: resource limits, and what the kernel permits this user
 CheckResult check_memlock_limit(const Machine& machine);
 CheckResult check_memory_locking(const Machine& machine);
 CheckResult check_rtprio_limit(const Machine& machine);
@@ -23,7 +25,7 @@ CheckResult check_realtime_throttling(const Machine& machine);
 CheckResult check_open_files(const Machine& machine);
 CheckResult check_inotify(const Machine& machine);
 
-// timing_checks.cpp: what lies between a wake-up and its thread
+// timing_checks.cpp: what delays a thread after it has been woken up, and how exact clocks are
 CheckResult check_core_count(const Machine& machine);
 CheckResult check_isolated_cores(const Machine& machine);
 CheckResult check_nohz_full(const Machine& machine);
@@ -34,6 +36,6 @@ CheckResult check_clock_source(const Machine& machine);
 CheckResult check_timer_slack(const Machine& machine);
 CheckResult check_hypervisor(const Machine& machine);
 
-std::vector<CheckResult> run_checks(const Machine& machine); ///< all of them, in this order
+std::vector<CheckResult> run_checks(const Machine& machine); ///< all of the above, in this order
 
 } // namespace tandem::doctor

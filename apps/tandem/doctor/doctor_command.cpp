@@ -1,51 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
+// `tandem doctor`: runs all checks on this machine and prints their results as a table or as JSON.
+#include "apps/tandem/commands.hpp"
 #include "apps/tandem/doctor/checks.hpp"
-#include "apps/tandem/output/format.hpp"
-#include "apps/tandem/shm/shm_commands.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
 
 namespace tandem::command {
 namespace {
 
 using doctor::CheckStatus;
 
-const char* to_string(CheckStatus status) {
-    return status == CheckStatus::ok ? "ok" : status == CheckStatus::warning ? "warn" : "bad";
+const char* status_text(CheckStatus status) {
+    return status == CheckStatus::ok ? "ok" : status == CheckStatus::warning ? "warning" : "error";
 }
 
+// The advice follows the table: its lines are too long for a column.
 std::string format_results(const std::vector<doctor::CheckResult>& results) {
-    Table table({"", "", ""});
-    for (const auto& result : results) table.add_row({to_string(result.status), result.name, result.value});
-    std::string text = table.text();
+    Table table({"status", "check", "found"});
+    for (const auto& result : results) table.add_row({status_text(result.status), result.name, result.value});
     std::string advice;
     for (const auto& result : results)
         if (result.status != CheckStatus::ok) advice += fmt::format("  {}: {}\n", result.name, result.advice);
-    return text.substr(text.find('\n') + 1) + (advice.empty() ? "" : "\nWhat to do:\n" + advice);
+    return table.text() + (advice.empty() ? "" : "\nWhat to do:\n" + advice);
 }
 
-nlohmann::json to_json(const std::vector<doctor::CheckResult>& results) {
-    auto list = nlohmann::json::array();
+nlohmann::json results_json(const std::vector<doctor::CheckResult>& results) {
+    auto checks = nlohmann::json::array();
     for (const auto& result : results) {
-        list.push_back(
-            {{"name", result.name}, {"verdict", to_string(result.status)}, {"seen", result.value}});
-        if (!result.advice.empty()) list.back()["advice"] = result.advice;
+        checks.push_back(
+            {{"name", result.name}, {"status", status_text(result.status)}, {"value", result.value}});
+        if (!result.advice.empty()) checks.back()["advice"] = result.advice;
     }
-    return {{"findings", list}};
+    return {{"checks", checks}};
 }
 
-} // namespace
-
-int shm_doctor(bool json) {
+int run_doctor(bool json) {
     const auto results = doctor::run_checks(doctor::probe_this_machine());
     if (json)
-        print_json(to_json(results));
+        print_json(results_json(results));
     else
         print_text(format_results(results));
     const bool any_error = std::any_of(results.begin(), results.end(), [](const auto& result) {
         return result.status == CheckStatus::error;
     });
     return any_error ? 1 : 0;
+}
+
+} // namespace
+
+void add_doctor_command(CLI::App& tandem, Action& selected) {
+    CLI::App* command = tandem.add_subcommand(
+        "doctor",
+        "Checks this machine's limits, permissions and timing, and says what to do about each shortcoming");
+    command->footer(
+        "  ok       as it should be\n"
+        "  warning  works, but slower, less predictable, or not under every circumstance\n"
+        "  error    Tandem will not run, or not for long\n"
+        "Run it as the user who runs the hosts: permissions are tried out in a child process; nothing is\n"
+        "changed. Exit code 1 if there is an error, otherwise 0.");
+    auto json = std::make_shared<bool>(false);
+    command->add_flag("--json", *json, "print JSON instead of text");
+    command->callback([json, &selected] { selected = [json] { return run_doctor(*json); }; });
 }
 
 } // namespace tandem::command

@@ -22,7 +22,8 @@ std::uint64_t soft_limit(__rlimit_resource_t resource) {
     return limit.rlim_cur == RLIM_INFINITY ? unlimited : limit.rlim_cur;
 }
 
-/// The errno that an attempt in a child process ends with.
+// The errno with which an attempt fails in a child process, 0 if it succeeds. A child, because locked memory or a
+// real-time priority must not stay with the caller.
 template <class Attempt>
 int errno_of_attempt(Attempt attempt) {
     const pid_t child = fork();
@@ -31,15 +32,19 @@ int errno_of_attempt(Attempt attempt) {
     int status = 0;
     while (waitpid(child, &status, 0) < 0)
         if (errno != EINTR) return errno;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : ENOMEM; // killed: there was not that much memory
+    // Only locking memory can get the child killed: by the kernel, when there is not that much.
+    return WIFEXITED(status) ? WEXITSTATUS(status) : ENOMEM;
 }
 
+// mlockall() alone succeeds under a limit that the next allocation exceeds: with MCL_FUTURE that allocation fails, so
+// one is tried, too.
 bool lock_memory() {
-    constexpr std::size_t more = std::size_t{64} << 20;
+    constexpr std::size_t bytes = std::size_t{64} << 20;
     return mlockall(MCL_CURRENT | MCL_FUTURE) == 0 &&
-           mmap(nullptr, more, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) != MAP_FAILED;
+           mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) != MAP_FAILED;
 }
 
+// 50 is the middle of the priorities, where profiles put their components.
 bool set_sched_fifo() {
     sched_param parameters{};
     parameters.sched_priority = 50;
@@ -48,6 +53,7 @@ bool set_sched_fifo() {
 
 bool create_inotify_instance() { return inotify_init1(IN_CLOEXEC) >= 0; }
 
+// A mask of more than 1024 cores does not fit into cpu_set_t (EINVAL): then all cores count.
 unsigned count_usable_cores() {
     cpu_set_t set;
     CPU_ZERO(&set);
@@ -58,10 +64,11 @@ unsigned count_usable_cores() {
 } // namespace
 
 bool Machine::exists(const std::string& absolute) const {
-    std::error_code unknown;
-    return std::filesystem::exists(path(absolute), unknown);
+    std::error_code ignored; // no permission to look: as if it were not there
+    return std::filesystem::exists(path(absolute), ignored);
 }
 
+// Files of /proc report a size of 0: they are read until they end.
 std::optional<std::string> Machine::content(const std::string& absolute) const {
     std::ifstream file(path(absolute), std::ios::binary);
     if (!file) return std::nullopt;
@@ -92,6 +99,7 @@ Machine probe_this_machine() {
     probed.lock_error = errno_of_attempt(lock_memory);
     probed.fifo_error = errno_of_attempt(set_sched_fifo);
     probed.inotify_error = errno_of_attempt(create_inotify_instance);
+    // access() only: opening the device for writing would already hold the latency down.
     probed.dma_latency_error = faccessat(AT_FDCWD, "/dev/cpu_dma_latency", W_OK, AT_EACCESS) == 0 ? 0 : errno;
     probed.timer_slack_ns =
         static_cast<std::uint64_t>(std::max(0, prctl(PR_GET_TIMERSLACK, 0UL, 0UL, 0UL, 0UL)));

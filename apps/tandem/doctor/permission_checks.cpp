@@ -8,13 +8,14 @@
 namespace tandem::doctor {
 namespace {
 
-std::string reason_of(int code) { return std::generic_category().message(code); }
+std::string error_text(int code) { return std::generic_category().message(code); }
 
 std::string limit_text(std::uint64_t limit, bool bytes) {
     if (limit == unlimited) return "unlimited";
     return bytes ? command::format_bytes(limit) : std::to_string(limit);
 }
 
+/// The number in the first line of a file; empty if there is none.
 std::optional<long> number_in(const Machine& machine, const std::string& file) {
     const auto text = machine.first_line(file);
     long value = 0;
@@ -33,14 +34,16 @@ constexpr auto raise_rtprio =
 CheckResult check_memlock_limit(const Machine& machine) {
     const std::string name = "RLIMIT_MEMLOCK", value = limit_text(machine.probed.memlock_limit, true);
     if (machine.probed.memlock_limit == unlimited) return ok(name, value);
+    // A process with CAP_IPC_LOCK is above the limit.
     if (machine.probed.lock_error == 0) return ok(name, value + ", does not bind this user");
     return warning(name, value, std::string("hosts cannot lock their memory: ") + raise_memlock);
 }
 
+// Tried, not read from a limit: capabilities and containers decide as well.
 CheckResult check_memory_locking(const Machine& machine) {
     const std::string name = "mlockall";
     if (machine.probed.lock_error == 0) return ok(name, "permitted");
-    return warning(name, "refused (" + reason_of(machine.probed.lock_error) + ")",
+    return warning(name, "refused (" + error_text(machine.probed.lock_error) + ")",
                    std::string("memory may be swapped out, a page fault costs milliseconds: ") +
                        raise_memlock);
 }
@@ -48,6 +51,7 @@ CheckResult check_memory_locking(const Machine& machine) {
 CheckResult check_rtprio_limit(const Machine& machine) {
     const std::string name = "RLIMIT_RTPRIO", value = limit_text(machine.probed.rtprio_limit, false);
     if (machine.probed.rtprio_limit >= 50) return ok(name, value);
+    // A process with CAP_SYS_NICE is above the limit.
     if (machine.probed.fifo_error == 0) return ok(name, value + ", does not bind this user");
     return warning(name, value, std::string("hosts cannot have real-time priorities: ") + raise_rtprio);
 }
@@ -55,11 +59,12 @@ CheckResult check_rtprio_limit(const Machine& machine) {
 CheckResult check_sched_fifo(const Machine& machine) {
     const std::string name = "SCHED_FIFO";
     if (machine.probed.fifo_error == 0) return ok(name, "permitted");
-    return warning(name, "refused (" + reason_of(machine.probed.fifo_error) + ")",
+    return warning(name, "refused (" + error_text(machine.probed.fifo_error) + ")",
                    std::string("any other process may delay a tick: ") + raise_rtprio +
                        "; in a container docker run --cap-add SYS_NICE");
 }
 
+// The kernel stops SCHED_FIFO threads that use more than runtime out of each period, by default 95 %.
 CheckResult check_realtime_throttling(const Machine& machine) {
     const std::string name = "real-time throttling";
     const auto runtime = number_in(machine, "/proc/sys/kernel/sched_rt_runtime_us");
@@ -73,6 +78,7 @@ CheckResult check_realtime_throttling(const Machine& machine) {
 }
 
 CheckResult check_open_files(const Machine& machine) {
+    // A host keeps a few files open for itself, and several for each link and each CORBA connection.
     constexpr std::uint64_t few = 64, enough = 512;
     const std::string name = "RLIMIT_NOFILE", value = limit_text(machine.probed.files_limit, false);
     const std::string remedy = "ulimit -n 1024, or LimitNOFILE=1024 in the unit";
@@ -82,20 +88,22 @@ CheckResult check_open_files(const Machine& machine) {
     return ok(name, value);
 }
 
+// A link watches /dev/shm for new generations with one inotify instance on each side.
 CheckResult check_inotify(const Machine& machine) {
+    // Per user, and desktop programs take many: Linux' default is 128.
     constexpr long enough = 64;
     const std::string name = "inotify", remedy = "sysctl fs.inotify.max_user_instances=512";
     if (machine.probed.inotify_error != 0)
-        return error(name, "none left (" + reason_of(machine.probed.inotify_error) + ")",
-                     "each end of a link needs one: " + remedy);
+        return error(name, "none left (" + error_text(machine.probed.inotify_error) + ")",
+                     "each side of a link needs one: " + remedy);
     const auto instances = number_in(machine, "/proc/sys/fs/inotify/max_user_instances");
     const auto watches = number_in(machine, "/proc/sys/fs/inotify/max_user_watches");
     if (!instances || !watches)
-        return warning(name, "limits unknown", "each end of a link needs one instance; is /proc mounted?");
+        return warning(name, "limits unknown", "each side of a link needs one instance; is /proc mounted?");
     const std::string value =
         std::to_string(*instances) + " instances, " + std::to_string(*watches) + " watches per user";
     if (*instances < enough || *watches < enough)
-        return warning(name, value, "each end of a link needs one: " + remedy);
+        return warning(name, value, "each side of a link needs one: " + remedy);
     return ok(name, value);
 }
 

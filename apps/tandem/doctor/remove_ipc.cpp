@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // systemd-logind removes what a user has in /dev/shm when that user's last session ends, unless RemoveIPC=no.
-// The setting is looked up as logind does: one main file, then all drop-ins by name; a file in an earlier
+// The setting is looked up as logind does (logind.conf(5)): one main file, then all drop-ins by name; a file in an earlier
 // folder hides those of the same name in later ones; the last assignment counts.
 #include "apps/tandem/doctor/checks.hpp"
 
@@ -13,9 +13,9 @@ namespace {
 
 constexpr const char* folders[] = {"/etc/systemd", "/run/systemd", "/usr/local/lib/systemd",
                                    "/usr/lib/systemd"};
-constexpr uid_t max_system_uid = 999;
+constexpr uid_t max_system_uid = 999; // Debian's SYS_UID_MAX
 
-/// The files in the order in which they count.
+/// The configuration files that exist, those that win last.
 std::vector<std::string> logind_files(const Machine& machine) {
     std::vector<std::string> found;
     for (const std::string folder : folders)
@@ -34,7 +34,8 @@ std::vector<std::string> logind_files(const Machine& machine) {
     return found;
 }
 
-/// The value that a file assigns in its section [Login]; empty if none.
+/// What a file assigns to RemoveIPC in its section [Login], "" for an assignment that resets it to the default; empty if
+/// the file does not name it.
 std::optional<std::string> assigned_value(const std::string& content) {
     std::optional<std::string> setting;
     std::string section;
@@ -50,6 +51,7 @@ std::optional<std::string> assigned_value(const std::string& content) {
     return setting;
 }
 
+// The words that systemd's parse_boolean() takes for false.
 bool is_no(std::string setting) {
     std::transform(setting.begin(), setting.end(), setting.begin(),
                    [](unsigned char c) { return std::tolower(c); });
@@ -70,6 +72,7 @@ CheckResult check_remove_ipc(const Machine& machine) {
         }
     const std::string value = setting + " (" + from + ")";
     if (is_no(setting)) return ok(name, value);
+    // logind removes nothing of root and of other system users.
     if (machine.probed.user <= max_system_uid)
         return ok(name, value + ", not for a system user like this one");
     return warning(

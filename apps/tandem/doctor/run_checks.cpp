@@ -3,6 +3,9 @@
 
 namespace tandem::doctor {
 
+// In the order of checks.hpp, which is the order of the output: from what Tandem cannot run without to what makes it
+// faster.
+
 std::vector<CheckResult> run_checks(const Machine& machine) {
     constexpr CheckResult (*checks[])(const Machine&) = {
         check_shm_mount,           check_shm_space,      check_huge_pages,   check_remove_ipc,

@@ -7,8 +7,9 @@
 namespace tandem::doctor {
 namespace {
 
+/// One line of /proc/self/mounts.
 struct Mount {
-    std::string type, options;
+    std::string type, options; ///< "tmpfs", "rw,nosuid,size=1g"
 
     /// The value of an option ("" if it has none); empty if it is not there.
     std::optional<std::string> option(const std::string& name) const {
@@ -20,7 +21,7 @@ struct Mount {
     }
 };
 
-/// The mount that is seen at /dev/shm: of several on top of each other the last.
+/// The mount at /dev/shm. Of several on top of each other the last one is seen.
 std::optional<Mount> shm_mount(const Machine& machine) {
     std::optional<Mount> found;
     std::istringstream lines(machine.content("/proc/self/mounts").value_or(""));
@@ -35,6 +36,7 @@ std::optional<Mount> shm_mount(const Machine& machine) {
 
 } // namespace
 
+// A file system on a disk would write the messages back to it, and cannot be told from a tmpfs by shm_open().
 CheckResult check_shm_mount(const Machine& machine) {
     const std::string name = "/dev/shm mount", remedy = "mount -t tmpfs -o size=50%,mode=1777 tmpfs /dev/shm";
     const auto mount = shm_mount(machine);
@@ -45,6 +47,7 @@ CheckResult check_shm_mount(const Machine& machine) {
 }
 
 CheckResult check_shm_space(const Machine& machine) {
+    // 16 MiB hold a few links with small messages; images take 8 MiB for each one in transit.
     constexpr std::uint64_t mib = 1 << 20, one_link = 16 * mib, comfortable = 256 * mib;
     const std::uint64_t free = machine.probed.shm_free;
     const std::string name = "/dev/shm space",
@@ -60,9 +63,9 @@ CheckResult check_shm_space(const Machine& machine) {
     return ok(name, value);
 }
 
-// Segments are reserved in full by posix_fallocate(): that makes huge pages under huge=within_size and
-// always, and small ones under huge=advise. shmem_enabled rules over other shared memory, except for deny and
-// force.
+// Segments are reserved in full by posix_fallocate(), which allocates huge pages under huge=within_size and
+// huge=always, but small ones under huge=advise. The kernel's shmem_enabled is for shared memory without a mount
+// point; of its values only deny and force also overrule the mount.
 CheckResult check_huge_pages(const Machine& machine) {
     const std::string name = "huge pages in /dev/shm";
     const auto choices = machine.first_line("/sys/kernel/mm/transparent_hugepage/shmem_enabled");

@@ -11,6 +11,7 @@
 namespace tandem::doctor {
 namespace {
 
+// Whether a text has the word between blanks: "PREEMPT" is not in "PREEMPT_DYNAMIC".
 bool contains_word(const std::string& text, const std::string& word) {
     std::istringstream words(text);
     for (std::string one; words >> one;)
@@ -18,13 +19,13 @@ bool contains_word(const std::string& text, const std::string& word) {
     return false;
 }
 
-/// A list of cores as the kernel writes it; "" for none.
+/// A list of cores as the kernel writes it ("2-3"); "" for none, for which some kernels write "(null)".
 std::string core_list(const Machine& machine, const std::string& file) {
     const std::string list = machine.first_line(file).value_or("");
     return list == "(null)" ? "" : list;
 }
 
-/// The value of key=value on the kernel's command line.
+/// The value of key=value on the kernel's command line, the last one if there are several; "" if there is none.
 std::string boot_option(const Machine& machine, const std::string& key) {
     std::istringstream words(machine.first_line("/proc/cmdline").value_or(""));
     std::string value;
@@ -33,6 +34,7 @@ std::string boot_option(const Machine& machine, const std::string& key) {
     return value;
 }
 
+/// The frequency governors of all cores; empty on a machine, mostly a virtual one, that does not scale frequencies.
 std::set<std::string> governors(const Machine& machine) {
     std::set<std::string> found;
     std::error_code absent;
@@ -49,6 +51,7 @@ std::set<std::string> governors(const Machine& machine) {
 
 } // namespace
 
+// Two hosts that spin on one core keep each other from running until the scheduler's tick.
 CheckResult check_core_count(const Machine& machine) {
     const std::string name = "cores", value = std::to_string(machine.probed.cores) + " for this process";
     if (machine.probed.cores >= 2) return ok(name, value);
@@ -74,6 +77,7 @@ CheckResult check_nohz_full(const Machine& machine) {
         "the kernel's tick interrupts a spinning thread: boot with nohz_full=LIST, the isolated cores");
 }
 
+// One core with another governor is enough: nobody knows which core a thread will be on.
 CheckResult check_governor(const Machine& machine) {
     const std::string name = "frequency governor";
     const auto found = governors(machine);
@@ -84,6 +88,7 @@ CheckResult check_governor(const Machine& machine) {
     return warning(name, value, "a core that has idled starts slowly: cpupower frequency-set -g performance");
 }
 
+// Holding this device open with 0 keeps cores out of deep idle states (the kernel's PM QoS): see host/rt.
 CheckResult check_dma_latency(const Machine& machine) {
     const std::string name = "/dev/cpu_dma_latency";
     switch (machine.probed.dma_latency_error) {
@@ -101,6 +106,8 @@ CheckResult check_dma_latency(const Machine& machine) {
     }
 }
 
+// A PREEMPT_DYNAMIC kernel is all three modes in one: the mode is chosen at boot and shown in debugfs, which only root
+// may read; without that the kernel's command line is the next best source.
 CheckResult check_preemption(const Machine& machine) {
     const std::string name = "kernel preemption",
                       remedy = "install a PREEMPT_RT kernel, or boot with preempt=full";
@@ -115,11 +122,13 @@ CheckResult check_preemption(const Machine& machine) {
     return warning(name, mode.empty() ? "chosen at boot, the choice is not visible" : mode, remedy);
 }
 
+// Tandem reads the clock for every message.
 CheckResult check_clock_source(const Machine& machine) {
     const std::string name = "clock source";
     const std::string value =
         machine.first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource")
             .value_or("unknown");
+    // Clock sources that the vDSO reads in user space.
     constexpr const char* without_system_call[] = {"tsc", "kvm-clock", "hyperv_clocksource_tsc_page",
                                                    "arch_sys_counter"};
     const bool fast = std::any_of(std::begin(without_system_call), std::end(without_system_call),
@@ -130,14 +139,16 @@ CheckResult check_clock_source(const Machine& machine) {
                    "processor's TSC is invariant");
 }
 
+// The kernel may delay a timer by the slack, to serve several with one interrupt.
 CheckResult check_timer_slack(const Machine& machine) {
-    constexpr std::uint64_t usual = 50'000;
+    constexpr std::uint64_t usual = 50'000; // the kernel's default; inherited by child processes
     const std::string name = "timer slack", value = command::format_duration(machine.probed.timer_slack_ns);
     if (machine.probed.timer_slack_ns <= usual) return ok(name, value + ", 1 ns in threads that tick");
     return warning(name, value,
                    "sleeping threads wake late: start the hosts from a process with the usual 50 us");
 }
 
+// A hypervisor sets the CPUID bit "hypervisor" for its guests; DMI tells its vendor and product, if it is readable.
 CheckResult check_hypervisor(const Machine& machine) {
     const std::string name = "hypervisor", cpu = machine.content("/proc/cpuinfo").value_or("");
     const auto flags = cpu.find("\nflags");

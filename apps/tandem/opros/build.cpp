@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds a component from its folder, under the name that its profile gives.
+// tandem opros build: builds a component from its folder, under the library name in its profile.
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
 #include "host/plugin/find_library.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The component profiles in the folder itself and where OPRoS's own tools put them. Other profiles are passed over.
 std::vector<engine::ComponentProfile> find_component_profiles(const fs::path& folder) {
     std::vector<engine::ComponentProfile> found;
     for (const char* subfolder : {"", "profile", "profiles"}) {
@@ -24,13 +26,14 @@ std::vector<engine::ComponentProfile> find_component_profiles(const fs::path& fo
             try {
                 found.push_back(engine::read_component_profile(entry.path()));
             } catch (const engine::SetupError&) {
-                continue; // of a service, a data type, an application
+                continue; // the profile of a service, a data type or an application
             }
         }
     }
     return found;
 }
 
+// The profile of --profile, otherwise the only one in the folder.
 engine::ComponentProfile select_profile(const OprosBuildOptions& options) {
     if (!options.profile.empty()) return engine::read_component_profile(options.folder / options.profile);
     const auto all = find_component_profiles(options.folder);
@@ -46,7 +49,7 @@ engine::ComponentProfile select_profile(const OprosBuildOptions& options) {
                              "; name one with --profile FILE");
 }
 
-// X.dll, libX.so -> X, under which the host finds it again.
+// The library's name without prefix and suffix: X.dll and libX.so become X. The host finds X.so under each of them.
 std::string library_stem(const engine::ComponentProfile& profile) {
     const auto file = fs::path(profile.library_name).filename().string();
     auto stem = fs::path(plugin::library_file_names(file).back()).stem().stem().string();
@@ -62,6 +65,7 @@ std::string library_stem(const engine::ComponentProfile& profile) {
 
 } // namespace
 
+// Prints the path of the library and nothing else, for scripts.
 int opros_build(const OprosBuildOptions& options) {
     require_folder(options.folder);
     const auto profile = select_profile(options);

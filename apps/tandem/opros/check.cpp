@@ -3,7 +3,7 @@
 #include "apps/tandem/opros/port_mismatches.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/type_profile_errors.hpp"
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
@@ -16,10 +16,10 @@ namespace {
 
 using engine::ApplicationProfile;
 
-/// What has been found so far: one line each.
+/// The errors found so far, one line each.
 class ErrorList {
   public:
-    /// Whether the step went without an error; its line is kept otherwise.
+    /// Runs a step. True if it did not throw; otherwise what it threw has been added to the list.
     bool run_step(const std::function<void()>& step) {
         try {
             step();
@@ -32,7 +32,7 @@ class ErrorList {
     std::vector<std::string> lines;
 };
 
-/// Where its profile does not fit it. Throws when there is no component to run.
+/// Where a component does not fit its profile. Throws if there is no component that could be connected.
 std::vector<std::string> check_component(const ApplicationProfile& application,
                                          const engine::Subcomponent& entry, const InspectOptions& options) {
     auto dirs = options.plugin_dirs;
@@ -53,34 +53,37 @@ std::vector<std::string> check_component(const ApplicationProfile& application,
     }
 }
 
+/// "1 error", "2 errors"
 std::string count_text(std::size_t count, const char* what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
+// The last line of the text is a summary, also of an application without errors.
 int print_report(const ApplicationProfile& application, const ErrorList& errors, bool as_json) {
     const int code = errors.lines.empty() ? 0 : 1;
     if (as_json) {
         print_json({{"application", application.name},
                     {"components", application.subcomponents.size()},
                     {"connections", application.connections.size()},
-                    {"faults", errors.lines}});
+                    {"errors", errors.lines}});
         return code;
     }
     for (const std::string& line : errors.lines) print_text(line + "\n");
     print_text(application.name + ": " +
                (errors.lines.empty() ? count_text(application.subcomponents.size(), "component") + " and " +
                                            count_text(application.connections.size(), "connection") + " fit"
-                                     : count_text(errors.lines.size(), "fault")) +
+                                     : count_text(errors.lines.size(), "error")) +
                "\n");
     return code;
 }
 
 } // namespace
 
+// Goes on after an error, so that one run reports all of them.
 int opros_check(const InspectOptions& options) {
     auto application = engine::read_application_profile(options.file);
     ErrorList errors;
-    // A profile that is missing is told below, one for each component.
+    // A missing profile is not an error here: check_component() reports each one below.
     if (engine::has_composites(application, options.plugin_dirs))
         application = engine::flatten_composites(application, options.plugin_dirs);
     for (const auto& connection : application.connections)
@@ -93,6 +96,7 @@ int opros_check(const InspectOptions& options) {
     for (const auto& entry : application.subcomponents)
         if (!errors.run_step([&] { add(check_component(application, entry, options)); }))
             excluded.push_back(entry.name);
+    // Components that cannot be run are left out, so that the connections of the others are still checked.
     errors.run_step([&] { engine::start_order(application); });
     errors.run_step([&] { add(check_connections_in_child(excluded, options)); });
     return print_report(application, errors, options.json);

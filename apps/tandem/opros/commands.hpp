@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sub-commands of `tandem opros`. Each returns the exit code, and throws std::runtime_error with one
-// line.
+// The sub-commands of `tandem opros`, a source file each. Each prints its result, returns the exit code, and throws
+// std::runtime_error with one line.
 #pragma once
 
 #include "apps/tandem/build/plugin_build.hpp"
@@ -12,24 +12,28 @@
 
 namespace tandem::command {
 
+/// Of info and check.
 struct InspectOptions {
     std::filesystem::path file;
     std::vector<std::filesystem::path> plugin_dirs;
-    bool initialize = false; ///< ports that onInitialize makes are wanted, too: it is run, in a child process
-    double timeout_s = 10;   ///< bound for the component's code
+    bool initialize = false; ///< run onInitialize in a child process, for ports that are created there
+    double timeout_s = 10;   ///< time limit for the component's code
     bool json = false;
 };
+/// Prints what a component library or a profile of any kind contains.
 int opros_info(const InspectOptions& options);
+/// Checks an application against its components: prints one line for each error; 1 if there is any.
 int opros_check(const InspectOptions& options);
 
+/// Creates the folder parent/name with a component that builds.
 int opros_new(const std::string& name, const std::filesystem::path& parent);
 
 struct OprosBuildOptions : PluginBuildOptions {
-    std::string profile; ///< which one, when the folder has several
+    std::string profile; ///< component profile to use, if the folder has several
 };
 int opros_build(const OprosBuildOptions& options);
 
-/// What a child process of this program does for info and check.
+/// What a child process of this program does for info and check, see probe_tasks.hpp.
 plugin::ProbeTasks opros_probe_tasks();
 
 } // namespace tandem::command

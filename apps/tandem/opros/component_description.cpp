@@ -11,6 +11,7 @@ namespace {
 
 using nlohmann::json;
 
+// The signature is that of the C++ function, as the component was compiled with it.
 json describe_methods(ServicePortInterface& port) {
     json methods = json::array();
     for (auto each = port.getFirst(); each != port.getEnd(); ++each)
@@ -21,6 +22,7 @@ json describe_methods(ServicePortInterface& port) {
     return methods;
 }
 
+// A port's type is the type of its sample value, which is empty in ports that carry any type.
 json describe_typed_port(Port& port, const char* kind, bool input) {
     const opros_any sample = port.sample();
     json out{{"kind", kind}, {"direction", input ? "input" : "output"}};
@@ -28,6 +30,7 @@ json describe_typed_port(Port& port, const char* kind, bool input) {
     return out;
 }
 
+// The API tells the kind of a port, but not its direction: that is in its class.
 json describe_port(Port& port, PortType kind) {
     if (kind == OPROS_DATA)
         return describe_typed_port(port, "data", dynamic_cast<InputDataPortInterface*>(&port));

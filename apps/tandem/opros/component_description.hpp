@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a component shows of itself, as JSON: made in the child process that runs it, read by its parent.
+// A component as JSON: written by the child process in which it runs, read by the parent process and by users of
+// `tandem opros info --json`.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,8 +10,8 @@ class Component;
 namespace tandem::command {
 
 /// {"properties": {name: value}, "ports": [{"name", "kind": data|event|service, "direction":
-/// input|output|provided|required, "type", "methods": [{"name", "signature", "call"}]}]}; "type" is null when
-/// the port takes or learns any, "methods" is there for services only.
+/// input|output|provided|required, "type", "methods": [{"name", "signature", "call"}]}]}; "type" is null if
+/// the port carries any type, "methods" exists for services only. Runs the component's code. [child process]
 nlohmann::json describe_component(Component& component);
 
 } // namespace tandem::command

@@ -4,6 +4,7 @@
 namespace tandem::command {
 namespace {
 
+// @NAME@ stands for the component's name, see expand_template().
 constexpr char header[] = R"(#ifndef @NAME@_H_
 #define @NAME@_H_
 

@@ -21,6 +21,7 @@ std::string to_string(engine::ExecutionType execution) {
     return "unknown";
 }
 
+// In milliseconds, as in the profile.
 std::string format_executor(const engine::ComponentProfile& profile) {
     std::string text = to_string(profile.execution_type);
     const auto ms = [](std::chrono::nanoseconds time) {

@@ -7,9 +7,9 @@
 
 namespace tandem::command {
 
-/// "periodic", "passive", ...
+/// The word of the profile: "periodic", "passive", ...
 std::string to_string(engine::ExecutionType execution);
-/// "periodic, 10 ms, priority 7"
+/// "periodic, every 10 ms, priority 7"; what is zero or the default is left out.
 std::string format_executor(const engine::ComponentProfile& profile);
 
 } // namespace tandem::command

@@ -5,6 +5,8 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/profile_description.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/plugin/find_library.hpp"
 
@@ -18,32 +20,35 @@ namespace {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
+/// The library of a component and, if there is one, its profile.
 struct InspectedComponent {
     fs::path library;
     std::optional<engine::ComponentProfile> profile;
 };
 
-bool names(const engine::ComponentProfile& profile, const fs::path& library) {
+// Whether the profile names this library, in any of the spellings that the host accepts.
+bool refers_to(const engine::ComponentProfile& profile, const fs::path& library) {
     const auto candidates = plugin::library_file_names(profile.library_name);
     return std::find(candidates.begin(), candidates.end(), library.filename().string()) != candidates.end();
 }
 
-// The component profile in the library's folder that names it, if there is one.
+// The component profile in the library's folder that names the library, if there is one.
 std::optional<engine::ComponentProfile> find_profile_beside(const fs::path& library) {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(fs::absolute(library).parent_path(), ignored)) {
         if (entry.path().extension() != ".xml") continue;
         try {
             auto profile = engine::read_component_profile(entry.path());
-            if (names(profile, library)) return profile;
+            if (refers_to(profile, library)) return profile;
         } catch (const engine::SetupError&) {
-            continue; // of another kind, or another component's: not what was asked about
+            continue; // another kind of profile, or one with errors: not what was asked about
         }
     }
     return std::nullopt;
 }
 
-InspectedComponent find(const InspectOptions& options) {
+// FILE is either a profile, whose library is searched for, or a library, whose profile may lie beside it.
+InspectedComponent find_component(const InspectOptions& options) {
     if (options.file.empty())
         throw std::runtime_error("FILE is empty, expected a component library or profile");
     if (options.file.extension() != ".xml") return {options.file, find_profile_beside(options.file)};
@@ -51,6 +56,7 @@ InspectedComponent find(const InspectOptions& options) {
     return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile)};
 }
 
+// Of the profile: a library alone does not know how it is to be run.
 json describe_executor(const engine::ComponentProfile& profile) {
     return {{"type", to_string(profile.execution_type)},
             {"period_ms", static_cast<double>(profile.period.count()) / 1e6},
@@ -58,6 +64,7 @@ json describe_executor(const engine::ComponentProfile& profile) {
             {"priority", profile.priority}};
 }
 
+// Loads the library in a child process, after a look at its file: that tells of wrong kinds without running anything.
 json inspect(const InspectedComponent& found, const InspectOptions& options) {
     engine::require_opros_component(found.library);
     json info =
@@ -70,6 +77,7 @@ json inspect(const InspectedComponent& found, const InspectOptions& options) {
     return info;
 }
 
+// The text is made from the JSON, so that both say the same.
 std::string format_component(const json& info, const InspectedComponent& found,
                              const InspectOptions& options) {
     std::string text =
@@ -82,7 +90,7 @@ std::string format_component(const json& info, const InspectedComponent& found,
     text += "\n" + format_ports(info["ports"]);
     if (info["ports"].empty() && !options.initialize)
         text +=
-            "ports that onInitialize makes are shown with --initialize, which runs it in a child process\n";
+            "ports that onInitialize creates are shown with --initialize, which runs it in a child process\n";
     if (!info["properties"].empty()) {
         Table table({"property", "value"});
         for (const auto& [name, value] : info["properties"].items())
@@ -94,6 +102,7 @@ std::string format_component(const json& info, const InspectedComponent& found,
 
 } // namespace
 
+// The kind of profile decides: only a component has a library to load.
 int opros_info(const InspectOptions& options) {
     if (options.file.extension() == ".xml")
         if (const auto kind = engine::read_profile_kind(options.file);
@@ -102,7 +111,7 @@ int opros_info(const InspectOptions& options) {
             options.json ? print_json(info) : print_text(format_profile(info));
             return 0;
         }
-    const InspectedComponent found = find(options);
+    const InspectedComponent found = find_component(options);
     const json info = inspect(found, options);
     if (options.json)
         print_json(info);

@@ -2,7 +2,7 @@
 #include "apps/tandem/build/component_folder.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/opros/component_template.hpp"
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 namespace tandem::command {
 namespace {
 
-// What the skeleton uses of the API, or defines: a class of the same name would be another one.
+// Names of the API that the template uses, or functions that it defines: a class of that name would clash with them.
 constexpr std::array<const char*, 8> api_names{"Component",        "Event",        "InputDataPort",
                                                "OutputDataPort",   "getComponent", "getVersion",
                                                "releaseComponent", "ReturnType"};

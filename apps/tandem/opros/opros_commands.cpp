@@ -9,7 +9,7 @@
 namespace tandem::command {
 namespace {
 
-CLI::App* add(CLI::App& parent, const char* name, const char* brief, const char* details) {
+CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details) {
     CLI::App* command = parent.add_subcommand(name, brief);
     command->footer(details);
     return command;
@@ -18,14 +18,16 @@ CLI::App* add(CLI::App& parent, const char* name, const char* brief, const char*
 void add_inspect_options(CLI::App* command, InspectOptions& options, const char* what) {
     command->add_option("FILE", options.file, what)->required();
     command->add_option("--plugin-path", options.plugin_dirs, "folder with component libraries (repeatable)")
+        ->type_name("DIR")
         ->allow_extra_args(false);
     command->add_flag("--initialize", options.initialize,
-                      "run onInitialize, in a child process: some components make their ports there");
+                      "run onInitialize, in a child process: some components create their ports there");
     command->add_option("--timeout", options.timeout_s, "seconds that the component's code may take (10)")
         ->check(CLI::Range(0.1, 3600.));
     command->add_flag("--json", options.json, "print JSON instead of text");
 }
 
+// Folders of the command line come first, as in opros_host.
 void append_default_dirs(InspectOptions& options) {
     const auto dirs = engine::default_plugin_dirs();
     options.plugin_dirs.insert(options.plugin_dirs.end(), dirs.begin(), dirs.end());
@@ -33,12 +35,12 @@ void append_default_dirs(InspectOptions& options) {
 
 void add_info_and_check(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<InspectOptions>();
-    CLI::App* info = add(
-        opros, "info", "What a component is: ports with types, services, properties, executor",
-        "A component is made in a child process, which is given up if it crashes or hangs.\n"
+    CLI::App* info = add_command(
+        opros, "info", "Shows a component: ports with types, services, properties, executor",
+        "A component is created in a child process, so that its crash or hang is reported as an error.\n"
         "Of a composite: its components and the ports that it exports; of an application: its components\n"
         "and connections; of a service type or data type: its methods or fields.\n"
-        "Exit code 1 if it cannot be made, or FILE is neither a library nor a profile.");
+        "Exit code 1 if it cannot be created, or FILE is neither a library nor a profile.");
     add_inspect_options(info, *options, "component library (X.so) or profile (X.xml)");
     info->callback([=, &selected] {
         selected = [options] {
@@ -46,9 +48,10 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
             return opros_info(*options);
         };
     });
-    CLI::App* check = add(opros, "check", "Whether an application's parts are there and fit together",
-                          "Every fault is a line: file, line, what does not fit, what was expected.\n"
-                          "Exit code 1 if there is a fault.");
+    CLI::App* check =
+        add_command(opros, "check", "Checks that the parts of an application exist and fit together",
+                    "Every error is one line: file, line, what does not fit, what was expected.\n"
+                    "Exit code 1 if there is an error.");
     add_inspect_options(check, *options, "application profile (XML)");
     check->callback([=, &selected] {
         selected = [options] {
@@ -64,25 +67,26 @@ void add_new(CLI::App& opros, Action& selected) {
         std::filesystem::path parent = ".";
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        add(opros, "new", "Writes a component that builds and runs as it stands",
-            "Makes the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
-            "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.");
+    CLI::App* command = add_command(
+        opros, "new", "Writes a component that builds and runs without changes",
+        "Creates the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
+        "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.");
     command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
-    command->add_option("--in", options->parent, "folder in which to make it (.)");
+    command->add_option("--in", options->parent, "folder in which to create it (.)")->type_name("DIR");
     command->callback(
         [=, &selected] { selected = [options] { return opros_new(options->name, options->parent); }; });
 }
 
 void add_build(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosBuildOptions>();
-    CLI::App* command =
-        add(opros, "build", "Builds a component from nothing but its folder",
-            "Takes the sources in DIR and DIR/src, and the component profile in DIR or DIR/profile, which\n"
-            "gives the plugin its name; the plugin comes to lie beside the profile. Nothing else is\n"
-            "changed. Exit code 1 if it cannot be built.");
+    CLI::App* command = add_command(
+        opros, "build", "Builds a component from nothing but its folder",
+        "Takes the sources in DIR and DIR/src, and the component profile in DIR or DIR/profile, which\n"
+        "gives the plugin its name; the plugin is put beside the profile. Nothing else is\n"
+        "changed. Exit code 1 if it cannot be built.");
     add_build_options(command, *options, "folder for plugin and profiles instead of the profile's");
-    command->add_option("--profile", options->profile, "component profile in DIR, when there are several");
+    command->add_option("--profile", options->profile, "component profile in DIR, when there are several")
+        ->type_name("FILE");
     command->callback([=, &selected] { selected = [options] { return opros_build(*options); }; });
 }
 
@@ -90,7 +94,7 @@ void add_build(CLI::App& opros, Action& selected) {
 
 void add_opros_commands(CLI::App& tandem, Action& selected) {
     CLI::App* opros =
-        tandem.add_subcommand("opros", "OPRoS components: look at them, check them, make and build them");
+        tandem.add_subcommand("opros", "OPRoS components: inspect, check, create and build them");
     opros->require_subcommand(1);
     add_info_and_check(*opros, selected);
     add_new(*opros, selected);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/port_format.hpp"
 
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/table.hpp"
 
 namespace tandem::command {
 

@@ -8,11 +8,13 @@ namespace {
 
 using nlohmann::json;
 
+/// A port as the profile lists it.
 struct ProfilePort {
     const engine::SourceLocation& location;
-    std::string kind, name, direction, type; ///< type: empty if it says nothing
+    std::string kind, name, direction, type; ///< type: "" if the profile gives none
 };
 
+// Ports of all three kinds in one list.
 std::vector<ProfilePort> profile_ports(const engine::ComponentProfile& profile) {
     std::vector<ProfilePort> all;
     for (const auto& port : profile.data_ports)
@@ -20,12 +22,12 @@ std::vector<ProfilePort> profile_ports(const engine::ComponentProfile& profile) 
     for (const auto& port : profile.event_ports)
         all.push_back(
             {port.location, "event", port.name, port.is_input ? "input" : "output", port.data_type});
-    for (const auto& port : profile.service_ports) // the type is a file's name there, of no use here
+    for (const auto& port : profile.service_ports) // the <type> of a service names a file
         all.push_back({port.location, "service", port.name, port.is_provided ? "provided" : "required", ""});
     return all;
 }
 
-// `vector< unsigned char >` and std::vector<unsigned char> are the same.
+// Profiles spell types freely: `vector< unsigned char >` is std::vector<unsigned char>. White space and std:: go.
 std::string normalized_type(std::string type) {
     type.erase(std::remove_if(type.begin(), type.end(), [](unsigned char c) { return std::isspace(c); }),
                type.end());
@@ -33,8 +35,9 @@ std::string normalized_type(std::string type) {
     return type;
 }
 
-const json* find(const json& ports, const std::string& kind, const std::string& name) {
-    const json* found = nullptr; // of another kind
+// The port of this name, of this kind if there is one, otherwise of another; nullptr if there is none.
+const json* find_port(const json& ports, const std::string& kind, const std::string& name) {
+    const json* found = nullptr;
     for (const json& port : ports) {
         if (port["name"] != name) continue;
         if (port["kind"] == kind) return &port;
@@ -43,21 +46,22 @@ const json* find(const json& ports, const std::string& kind, const std::string& 
     return found;
 }
 
-std::string names(const json& ports, const std::string& kind) {
+// The names of all ports of a kind, for messages.
+std::string join_names(const json& ports, const std::string& kind) {
     std::string text;
     for (const json& port : ports)
         if (port["kind"] == kind) text += (text.empty() ? "" : ", ") + port["name"].get<std::string>();
     return text.empty() ? "none" : text;
 }
 
-/// Empty if it fits.
-std::string mismatch(const ProfilePort& profile_port, const json& ports, bool initialized) {
+/// What does not fit a listed port; "" if it fits.
+std::string describe_mismatch(const ProfilePort& profile_port, const json& ports, bool initialized) {
     const std::string what = profile_port.kind + " port '" + profile_port.name + "' ";
-    const json* real = find(ports, profile_port.kind, profile_port.name);
+    const json* real = find_port(ports, profile_port.kind, profile_port.name);
     if (!real)
         return what + "is not in the component, its " + profile_port.kind +
-               " ports are: " + names(ports, profile_port.kind) +
-               (initialized ? "" : " (and those that onInitialize makes, see --initialize)");
+               " ports are: " + join_names(ports, profile_port.kind) +
+               (initialized ? "" : " (and those that onInitialize creates, see --initialize)");
     const std::string kind = (*real)["kind"], direction = (*real)["direction"];
     if (kind != profile_port.kind) return what + "is of kind " + kind + " in the component";
     if (direction != profile_port.direction)
@@ -74,7 +78,7 @@ std::vector<std::string> find_port_mismatches(const engine::ComponentProfile& pr
                                               bool initialized) {
     std::vector<std::string> errors = profile.port_errors;
     for (const ProfilePort& profile_port : profile_ports(profile))
-        if (const std::string text = mismatch(profile_port, ports, initialized); !text.empty())
+        if (const std::string text = describe_mismatch(profile_port, ports, initialized); !text.empty())
             errors.push_back(profile_port.location.text() + ": " + text);
     return errors;
 }

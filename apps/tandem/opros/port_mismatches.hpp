@@ -10,8 +10,9 @@
 
 namespace tandem::command {
 
-/// Where the ports that a profile lists are not those of the component (`ports` of describe()): one line
-/// each, with file and line. `initialized`: also those that onInitialize makes are there.
+/// Compares the ports that a profile lists with those of the component (`ports` of describe_component()). Returns one
+/// line for each port that the component does not have or has with another kind, direction or type, with the profile's
+/// file and line. `initialized`: onInitialize has been run, so that the component has all its ports.
 std::vector<std::string> find_port_mismatches(const engine::ComponentProfile& profile,
                                               const nlohmann::json& ports, bool initialized);
 

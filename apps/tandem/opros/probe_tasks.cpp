@@ -18,6 +18,7 @@ namespace {
 
 using nlohmann::json;
 
+// The child is this program itself, see serve_probe() in main.cpp.
 plugin::ProbeOptions make_probe(const InspectOptions& options, const char* subject) {
     plugin::ProbeOptions probe;
     probe.timeout = std::chrono::milliseconds(static_cast<long>(options.timeout_s * 1000));
@@ -25,6 +26,7 @@ plugin::ProbeOptions make_probe(const InspectOptions& options, const char* subje
     return probe;
 }
 
+// The argument of both tasks is one JSON text, so that names may contain any character.
 json make_request(const InspectOptions& options) {
     json request{{"initialize", options.initialize}, {"plugin_dirs", json::array()}};
     for (const auto& dir : options.plugin_dirs) request["plugin_dirs"].push_back(dir.string());
@@ -37,10 +39,11 @@ std::vector<std::filesystem::path> plugin_dirs(const json& request) {
     return dirs;
 }
 
+// What opros_host does before it connects ports.
 void initialize(Component& component, const std::string& name, plugin::ProbeReport& report) {
     report.begin_stage("onInitialize() of " + name);
-    dlerror(); // device components ask it after their dlsym(), and would take what others have left for
-               // theirs
+    // Device components ask dlerror() after their dlsym(); an error that others have left would be taken for theirs.
+    dlerror();
     if (component.initialize() != OPROS_SUCCESS)
         throw engine::SetupError("onInitialize() of " + name + " failed with code " +
                                  std::to_string(component.getErrorInfo()));
@@ -56,14 +59,15 @@ json describe_in_child(const std::filesystem::path& library, const std::filesyst
         plugin::run_probe(make_probe(options, "library"), describe_task, library, {request.dump()}));
 }
 
-std::vector<std::string> check_connections_in_child(const std::vector<std::string>& without,
+std::vector<std::string> check_connections_in_child(const std::vector<std::string>& excluded,
                                                     const InspectOptions& options) {
     json request = make_request(options);
-    request["without"] = without;
+    request["excluded"] = excluded;
     return json::parse(
         plugin::run_probe(make_probe(options, "application"), connect_task, options.file, {request.dump()}));
 }
 
+// Each stage is named before code of the component runs: if the child dies, the parent's message says in which.
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
     report.begin_stage("its static constructors");
@@ -86,17 +90,18 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     report.finish(description.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
+// Components are only created and connected, as opros_host would, and never started.
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
-    const auto without = request["without"].get<std::vector<std::string>>();
+    const auto excluded = request["excluded"].get<std::vector<std::string>>();
     const auto dirs = plugin_dirs(request);
     auto profile = engine::read_application_profile(task.library);
     if (engine::has_composites(profile, dirs)) profile = engine::flatten_composites(profile, dirs);
     std::vector<std::string> errors;
     std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
     for (const auto& entry : profile.subcomponents) {
-        if (std::find(without.begin(), without.end(), entry.name) != without.end()) continue;
-        report.begin_stage("the making of component " + entry.name);
+        if (std::find(excluded.begin(), excluded.end(), entry.name) != excluded.end()) continue;
+        report.begin_stage("the constructor of component " + entry.name);
         auto search = dirs;
         search.insert(search.begin(), profile.location.file.parent_path());
         auto component = std::make_unique<engine::ComponentHost>(
@@ -109,7 +114,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     }
     std::vector<std::unique_ptr<engine::Connection>> connections;
     for (const auto& connection : profile.connections) {
-        if (!connection.error.empty()) continue; // told by whoever read the profile
+        if (!connection.error.empty()) continue; // opros_check() reports it
         const auto source = components.find(connection.source.component),
                    target = components.find(connection.target.component);
         if (source == components.end() || target == components.end()) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of what a child process of `tandem` does with components, and how the parent asks for it.
+// Running code of components in a child process of `tandem` (see host/plugin), so that its crash or hang is an error
+// message. Each task has a function for the parent, which starts the child and returns its answer, and one for the child.
 #pragma once
 
 #include "apps/tandem/opros/commands.hpp"
@@ -10,19 +11,22 @@
 
 namespace tandem::command {
 
-/// Argument: a component profile's file if properties shall be set, and --initialize. Result: describe().
+/// Task of one component library. Argument: JSON with "profile" (file, or "" to set no properties), "initialize" and
+/// "plugin_dirs". Result: describe_component().
 constexpr char describe_task[] = "describe-opros";
-/// The library is the application's profile. Arguments: JSON with "plugin_dirs", "initialize", and "without",
-/// the components to be left out. Result: a list of lines, what does not fit.
+/// Task of an application, whose profile takes the place of the library. Argument: JSON with "plugin_dirs", "initialize"
+/// and "excluded", the names of components to leave out. Result: a list of errors.
 constexpr char connect_task[] = "connect-opros";
 
-/// What the component in this library shows, made in a child process. Throws plugin::Error.
+/// Describes the component in this library. Throws plugin::Error.
 nlohmann::json describe_in_child(const std::filesystem::path& library, const std::filesystem::path& profile,
                                  const InspectOptions& options);
+/// Creates the components of the application and connects them; returns an error for each connection that is refused.
 /// Throws plugin::Error.
-std::vector<std::string> check_connections_in_child(const std::vector<std::string>& without,
+std::vector<std::string> check_connections_in_child(const std::vector<std::string>& excluded,
                                                     const InspectOptions& options);
 
+/// The tasks themselves. [child process]
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report);
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report);
 

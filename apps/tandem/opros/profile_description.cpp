@@ -4,6 +4,7 @@
 #include "apps/tandem/opros/port_format.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/table.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/type_profile.hpp"
@@ -17,6 +18,7 @@ namespace {
 using engine::ApplicationProfile;
 using nlohmann::json;
 
+// The components of a composite or an application, with the profile as it is referred to.
 json describe_components(const ApplicationProfile& profile) {
     json components = json::array();
     for (const auto& entry : profile.subcomponents)
@@ -24,6 +26,7 @@ json describe_components(const ApplicationProfile& profile) {
     return components;
 }
 
+// The words of profiles and of `opros info` for components.
 const char* port_kind(PortType type) {
     if (type == OPROS_DATA) return "data";
     return type == OPROS_EVENT ? "event" : "service";
@@ -40,7 +43,7 @@ json describe_application(const ApplicationProfile& profile) {
             {"connections", connections}};
 }
 
-/// The ports that a composite exports, as the code of its components has them, whatever its depth.
+/// The ports that a composite exports, with the types of the components that have them, however deep these are nested.
 class ExportedPorts {
   public:
     ExportedPorts(const ApplicationProfile& composite, const InspectOptions& options)
@@ -54,7 +57,8 @@ class ExportedPorts {
 
   private:
     json described_port(const engine::ExportedPort& exported) {
-        ApplicationProfile one = composite_; // with a connection that goes where the port leads
+        // A connection of the port with itself is resolved down to a component like any other connection.
+        ApplicationProfile one = composite_;
         one.connections = {{exported.location, exported.type, exported.port, exported.port, ""}};
         const auto flat = engine::flatten_composites(one, options_.plugin_dirs);
         const engine::ConnectionProfile& resolved = flat.connections.front();
@@ -72,6 +76,7 @@ class ExportedPorts {
                                                         resolved.source.port + "'");
     }
 
+    // Each component is described once, however many of its ports are exported.
     const json& ports_of(const engine::Subcomponent& entry) {
         const auto [known, is_new] = ports_.try_emplace(entry.name);
         if (is_new) {
@@ -97,6 +102,7 @@ json describe_composite(const ApplicationProfile& profile, const InspectOptions&
             {"ports", ExportedPorts(profile, options).all()}};
 }
 
+// A signature as C++ would have it: "bool (double t)".
 json describe_service_types(const std::filesystem::path& file) {
     json types = json::array();
     for (const auto& type : engine::read_service_type_profile(file)) {
@@ -126,10 +132,12 @@ json describe_data_types(const std::filesystem::path& file) {
     return {{"kind", "data type"}, {"types", types}};
 }
 
+// A member as one line of text: profiles may contain any character.
 std::string string_at(const json& object, const char* key) {
     return replace_control_characters(object.at(key).get<std::string>());
 }
 
+// A composite exports ports, an application has connections.
 std::string format_assembly(const json& info) {
     Table components({"component", "profile"});
     for (const json& each : info["components"])
@@ -142,6 +150,7 @@ std::string format_assembly(const json& info) {
     return text + "\n" + (connections.empty() ? "no connections\n" : connections.text());
 }
 
+// Service types have methods, data types have fields: both are a table of three columns.
 std::string format_types(const json& info) {
     std::string text;
     for (const json& type : info["types"]) {

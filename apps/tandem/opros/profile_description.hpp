@@ -9,9 +9,11 @@
 
 namespace tandem::command {
 
-/// What a profile says that is no component's: a composite (with the ports that it exports, as its
-/// components' code has them), an application, a service type or a data type. Throws engine::SetupError.
+/// A profile as JSON that is not of a component: of a composite (with the ports that it exports, typed as in the code of
+/// its components, which is run in a child process), an application, a service type or a data type. Throws
+/// engine::SetupError.
 nlohmann::json describe_profile(engine::ProfileKind kind, const InspectOptions& options);
+/// The same as text.
 std::string format_profile(const nlohmann::json& info);
 
 } // namespace tandem::command

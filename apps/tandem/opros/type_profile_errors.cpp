@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the profile, or where the reference says from there on.
+/// Reads the file that is referred to, relative to the profile's folder, and adds the error if it cannot be parsed.
 void check(const fs::path& folder, const std::string& reference,
            const std::function<void(const fs::path&)>& read, std::vector<std::string>& errors) {
     std::error_code ignored;

@@ -8,9 +8,8 @@
 
 namespace tandem::command {
 
-/// What is wrong in the profiles of service and data types that a component's profile refers to, one line for
-/// each file. Those that are not there are no fault: nothing needs them to run, and real ones are often left
-/// behind.
+/// Errors in the profiles of service and data types that a component's profile refers to, one line for each file. A file
+/// that does not exist is not an error: nothing needs it at run time, and components are often shipped without.
 std::vector<std::string> find_type_profile_errors(const engine::ComponentProfile& profile);
 
 } // namespace tandem::command

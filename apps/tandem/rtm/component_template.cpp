@@ -4,6 +4,7 @@
 namespace tandem::command {
 namespace {
 
+// @NAME@ stands for the component's name, see expand_template(). The style is that of RTCBuilder's output.
 constexpr char header[] = R"(#ifndef @NAME@_H
 #define @NAME@_H
 

@@ -11,7 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Comments become blanks; what is in string literals does not matter to what is looked for.
+// Replaces comments by blanks. String literals are not recognized: a definition of a module function inside of one is not
+// to be expected.
 std::string strip_comments(std::string text) {
     enum { code, line, block } in = code;
     for (std::size_t i = 0; i + 1 < text.size(); ++i) {
@@ -29,7 +30,7 @@ std::string strip_comments(std::string text) {
     return text;
 }
 
-// Words and signs, one after the other.
+// Identifiers and numbers as words, every other character but white space as a token of its own.
 std::vector<std::string> tokenize(const std::string& text) {
     std::vector<std::string> found;
     for (std::size_t i = 0; i < text.size();) {
@@ -46,6 +47,7 @@ std::vector<std::string> tokenize(const std::string& text) {
     return found;
 }
 
+// Whether the tokens from `at` on are the wanted ones.
 bool matches_at(const std::vector<std::string>& all, std::size_t at,
                 std::initializer_list<const char*> wanted) {
     if (at + wanted.size() > all.size()) return false;
@@ -54,6 +56,8 @@ bool matches_at(const std::vector<std::string>& all, std::size_t at,
     return true;
 }
 
+// Adds the modules that a source defines. A source with a main() is the component's own program, which tandem rtm build
+// leaves out.
 void add_names(const fs::path& file, std::set<std::string>& names) {
     std::ifstream stream(file);
     std::ostringstream text;

@@ -7,7 +7,7 @@
 
 namespace tandem::command {
 
-/// The modules that sources in the folder, its src/ and include/ define: X for each function
+/// Names of the modules that sources in the folder, its src/ and include/ define: X for each function
 /// XInit(RTC::Manager*). Sources with a main() do not count, nor do comments.
 std::set<std::string> find_module_names(const std::filesystem::path& folder);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/component_folder.hpp"
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/commands.hpp"
 #include "apps/tandem/rtm/component_template.hpp"
 
@@ -8,6 +8,7 @@
 
 namespace tandem::command {
 
+// The output names the next two commands, ready to be copied.
 int rtm_new(const std::string& name, const std::filesystem::path& parent) {
     require_component_name(name);
     const auto folder = parent / name;

@@ -9,7 +9,7 @@
 namespace tandem::command {
 namespace {
 
-CLI::App* add(CLI::App& parent, const char* name, const char* brief, const char* details) {
+CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details) {
     CLI::App* command = parent.add_subcommand(name, brief);
     command->footer(details);
     return command;
@@ -21,23 +21,23 @@ void add_new(CLI::App& rtm, Action& selected) {
         std::filesystem::path parent = ".";
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = add(
-        rtm, "new", "Writes an RT-Component that builds and runs as it stands",
-        "Makes the folder NAME with NAME.h, NAME.cpp, rtc.conf, and a CMakeLists.txt that builds it with\n"
+    CLI::App* command = add_command(
+        rtm, "new", "Writes an RT-Component that builds and runs without changes",
+        "Creates the folder NAME with NAME.h, NAME.cpp, rtc.conf, and a CMakeLists.txt that builds it with\n"
         "find_package(OpenRTM), here and elsewhere. Exit code 1 if the folder exists.");
     command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
-    command->add_option("--in", options->parent, "folder in which to make it (.)");
+    command->add_option("--in", options->parent, "folder in which to create it (.)")->type_name("DIR");
     command->callback(
         [=, &selected] { selected = [options] { return rtm_new(options->name, options->parent); }; });
 }
 
 void add_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
-    CLI::App* command = add(
+    CLI::App* command = add_command(
         rtm, "build", "Builds an RT-Component from nothing but its folder",
         "Takes the sources in DIR and DIR/src without those that have a main(), the IDL files in DIR and\n"
         "DIR/idl, and the headers there and in DIR/include. The function NAMEInit(RTC::Manager*) gives\n"
-        "the plugin its name; it comes to lie in DIR. Nothing else is changed. Exit code 1 if it cannot\n"
+        "the plugin its name; it is put into DIR. Nothing else is changed. Exit code 1 if it cannot\n"
         "be built.");
     add_build_options(command, *options, "folder for the plugin instead of DIR");
     command->add_option("--name", options->name, "name of the module, when DIR has several");
@@ -48,7 +48,7 @@ void add_build(CLI::App& rtm, Action& selected) {
 
 void add_rtm_commands(CLI::App& tandem, Action& selected) {
     CLI::App* rtm = tandem.add_subcommand(
-        "rtm", "RT-Components: make and build them, look at and control those that run");
+        "rtm", "RT-Components: create and build them, inspect and control those that run");
     rtm->require_subcommand(1);
     add_new(*rtm, selected);
     add_build(*rtm, selected);

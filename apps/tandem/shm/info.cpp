@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
 #include "apps/tandem/shm/segment_format.hpp"
 #include "apps/tandem/shm/shm_commands.hpp"
 
@@ -10,6 +12,7 @@ namespace {
 
 using shm::Side;
 
+// A segment that cannot be read has no header to show: only what the file system knows of it.
 std::string format_segment(const shm::ObservedSegment& segment) {
     std::string text = fmt::format("{}: {} of memory (file {}), owner {}, mode {:04o}", segment.path,
                                    format_bytes(segment.memory_bytes), format_bytes(segment.file_bytes),
@@ -19,10 +22,11 @@ std::string format_segment(const shm::ObservedSegment& segment) {
                         format_age(segment.created_ns));
     if (segment.superseded_by != 0)
         text += fmt::format(", superseded by generation {}", segment.superseded_by);
-    if (segment.changing_hands) text += ", somebody is joining or leaving";
+    if (segment.changing_hands) text += ", a process is joining or leaving";
     return text + "\n";
 }
 
+// "-" for the times of a side that has not joined: its fields are those of the last generation or zero.
 std::string format_sides(const shm::ObservedSegment& segment) {
     Table table({"side", "state", ">joined", ">heartbeat", ">arena", "objects"});
     for (const Side which : {Side::first, Side::second}) {
@@ -36,23 +40,27 @@ std::string format_sides(const shm::ObservedSegment& segment) {
     return table.text();
 }
 
+// The fields of a damaged object mean nothing: only the reason is shown.
 std::string describe(const shm::ObservedRing& ring) {
     if (!ring.damage.empty()) return "damaged: " + ring.damage;
     std::string text = fmt::format("{} writes, {} in records of up to {}", name_of(ring.writer),
                                    format_bytes(ring.capacity), format_bytes(ring.max_record));
+    // Payloads longer than max_record travel in chunks that are lent to the writer.
     if (ring.chunks != 0)
         text += fmt::format(", {} chunks of {}", ring.chunks, format_bytes(ring.chunk_bytes));
     return text;
 }
 
+// A closed queue refuses calls: the side that serves it has left.
 std::string describe(const shm::ObservedCallQueue& queue) {
     if (!queue.damage.empty()) return "damaged: " + queue.damage;
     return fmt::format("{} calls, {} slots of {}{}", name_of(queue.callers), queue.slots,
                        format_bytes(queue.max_bytes), queue.closed ? ", closed" : "");
 }
 
+// One table for all kinds: a segment has few objects, and their kinds have few fields in common.
 std::string format_objects(const shm::Observation& observation) {
-    Table table({"object", "kind", "in", "of"});
+    Table table({"object", "kind", "owner", "description"});
     for (const auto& ring : observation.rings)
         table.add_row({replace_nonprintable(ring.name), "ring", name_of(ring.owner), describe(ring)});
     for (const auto& queue : observation.call_queues)
@@ -66,6 +74,7 @@ std::string format_objects(const shm::Observation& observation) {
     return text;
 }
 
+/// What rings, call queues and blobs have in common.
 nlohmann::json common_json(const shm::ObservedObject& object, const char* kind) {
     nlohmann::json json{
         {"name", object.name}, {"kind", kind}, {"owner", name_of(object.owner)}, {"bytes", object.bytes}};
@@ -73,6 +82,7 @@ nlohmann::json common_json(const shm::ObservedObject& object, const char* kind) 
     return json;
 }
 
+// Numbers as they are in the segment: bytes and ns. A damaged object has its name, its kind and the reason only.
 nlohmann::json objects_json(const shm::Observation& observation) {
     auto list = nlohmann::json::array();
     for (const auto& ring : observation.rings) {
@@ -100,6 +110,7 @@ nlohmann::json objects_json(const shm::Observation& observation) {
 
 } // namespace
 
+// Also a segment that cannot be read is shown, as far as it is known; the exit code tells.
 int shm_info(const std::string& link, std::uint64_t generation, bool json) {
     const auto observation = observe_or_throw(link, generation);
     if (json) {

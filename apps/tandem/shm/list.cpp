@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
 #include "apps/tandem/shm/segment_format.hpp"
 #include "apps/tandem/shm/shm_commands.hpp"
 
@@ -8,6 +10,7 @@
 namespace tandem::command {
 namespace {
 
+/// Why a segment cannot be read, or that a newer generation has replaced it; "" for a sound one.
 std::string segment_note(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::foreign) return segment.reason;
     if (segment.readability != shm::Readability::readable)
@@ -19,6 +22,7 @@ std::string segment_note(const shm::ObservedSegment& segment) {
 } // namespace
 
 int shm_list(bool json) {
+    // Observing locks nothing: a segment may come or go meanwhile, each entry is of its own moment.
     const auto segments = shm::observe_segments();
     if (json) {
         auto list = nlohmann::json::array();
@@ -26,6 +30,7 @@ int shm_list(bool json) {
         print_json({{"segments", list}});
         return 0;
     }
+    // Names are read from shared memory or from file names: they may hold any byte.
     Table table({"link", ">gen", ">memory", "owner", "first", "second", ">age", "note"});
     for (const auto& segment : segments)
         table.add_row(

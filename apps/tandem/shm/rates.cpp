@@ -2,6 +2,7 @@
 #include "apps/tandem/shm/rates.hpp"
 
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/table.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,8 @@
 namespace tandem::command {
 namespace {
 
-/// The object of that name and owner in the earlier observation; nullptr if it was not there, or damaged.
+/// The object of that name and side in the previous observation; nullptr if there was none, or if one of the two is
+/// damaged. Names are unique within a side only.
 template <class View>
 const View* find_in(const std::vector<View>& before, const View& now) {
     const auto found = std::find_if(before.begin(), before.end(), [&](const View& view) {
@@ -19,8 +21,10 @@ const View* find_in(const std::vector<View>& before, const View& now) {
     return found != before.end() && now.damage.empty() ? &*found : nullptr;
 }
 
+// Calls that the caller got no answer for, for whatever reason.
 std::uint64_t failed(const shm::CallCounters& c) { return c.overloads + c.timeouts + c.cancels; }
 
+// The generation alone does not tell: a link that was removed begins at 1 again.
 bool same_segment(const shm::ObservedSegment& a, const shm::ObservedSegment& b) {
     return a.readability == shm::Readability::readable && b.readability == shm::Readability::readable &&
            a.generation == b.generation && a.created_ns == b.created_ns;
@@ -31,7 +35,7 @@ bool same_segment(const shm::ObservedSegment& a, const shm::ObservedSegment& b) 
 std::optional<Rates> compute_rates(const shm::Observation& before, const shm::Observation& after,
                                    std::uint64_t elapsed_ns) {
     if (!same_segment(before.segment, after.segment) || elapsed_ns == 0) return std::nullopt;
-    // Through a signed difference: a counter that somebody damaged may run backwards.
+    // The signed difference: a counter that the other process has damaged may run backwards.
     const auto rate = [&](std::uint64_t from, std::uint64_t to) {
         return static_cast<double>(static_cast<std::int64_t>(to - from)) * 1e9 /
                static_cast<double>(elapsed_ns);
@@ -53,7 +57,9 @@ std::optional<Rates> compute_rates(const shm::Observation& before, const shm::Ob
     return rates;
 }
 
+// Megabytes, not MiB: rates are compared with those of networks and disks.
 std::string format_rates(const Rates& rates) {
+    // One decimal below 100, so that slow rings do not show as 0.
     const auto number = [](double value) { return fmt::format("{:.{}f}", value, value < 100 ? 1 : 0); };
     Table rings({"ring", "writer", ">sent/s", ">received/s", ">dropped/s", ">MB/s", ">waiting"});
     for (const auto& r : rates.rings)
@@ -67,6 +73,7 @@ std::string format_rates(const Rates& rates) {
     return (rings.empty() ? "" : rings.text()) + (calls.empty() ? "" : calls.text());
 }
 
+// The units are in the keys.
 nlohmann::json to_json(const Rates& rates) {
     auto rings = nlohmann::json::array(), calls = nlohmann::json::array();
     for (const auto& r : rates.rings)

@@ -9,6 +9,7 @@
 
 namespace tandem::command {
 
+// Every switch ends with a value for numbers that are none of the enumeration's: they come from shared memory.
 const char* to_string(shm::Readability readability) {
     switch (readability) {
     case shm::Readability::readable:
@@ -37,6 +38,7 @@ const char* to_string(shm::PeerState state) {
     return "dead";
 }
 
+// The pid is that of the process's own pid namespace: in a container it is not the one that the host's ps shows.
 std::string format_side(const shm::ObservedSegment& segment, shm::Side which) {
     const shm::ObservedSide& side = segment.side(which);
     if (segment.readability == shm::Readability::foreign) return "-";
@@ -47,12 +49,14 @@ std::string format_side(const shm::ObservedSegment& segment, shm::Side which) {
 
 namespace {
 
+/// Age of a time stamp in ns; null if it is 0 or in the future, which a damaged segment may claim.
 nlohmann::json age_json(std::uint64_t since_ns) {
     const std::uint64_t now = shm::now_ns();
     if (since_ns == 0 || since_ns > now) return nullptr;
     return now - since_ns;
 }
 
+// The keys of a side that has not joined would have no meaning and are left out.
 nlohmann::json side_json(const shm::ObservedSegment& segment, shm::Side which) {
     const shm::ObservedSide& side = segment.side(which);
     nlohmann::json json{{"held", side.held}};
@@ -79,8 +83,8 @@ nlohmann::json to_json(const shm::ObservedSegment& segment) {
                         {"mode", fmt::format("{:04o}", segment.mode)},
                         {"state", to_string(segment.readability)}};
     if (!segment.reason.empty()) json["reason"] = segment.reason;
-    if (segment.readability == shm::Readability::foreign) return json;
-    json["changing_hands"] = segment.changing_hands;
+    if (segment.readability == shm::Readability::foreign) return json; // never opened: nothing more is known
+    json["joining_or_leaving"] = segment.changing_hands;
     json["sides"] = {{"first", side_json(segment, shm::Side::first)},
                      {"second", side_json(segment, shm::Side::second)}};
     if (segment.readability != shm::Readability::readable) return json;
@@ -92,6 +96,7 @@ nlohmann::json to_json(const shm::ObservedSegment& segment) {
     return json;
 }
 
+// The message names the command that lists what exists, since a link's name is easily misspelt.
 shm::Observation observe_or_throw(const std::string& link, std::uint64_t generation) {
     if (auto observation = shm::observe(link, generation)) return std::move(*observation);
     throw shm::Error(generation == 0
@@ -101,12 +106,13 @@ shm::Observation observe_or_throw(const std::string& link, std::uint64_t generat
                                ": no such segment; 'tandem shm list' shows those that exist");
 }
 
+// Standard error, so that the JSON on standard output stays whole.
 int report_if_unreadable(const shm::ObservedSegment& segment) {
     if (segment.readability == shm::Readability::readable) return 0;
-    const char* remedy = segment.readability == shm::Readability::foreign ? "look at it as that user"
+    const char* remedy = segment.readability == shm::Readability::foreign ? "run this command as that user"
                          : segment.readability == shm::Readability::other_layout
                              ? "use the tandem program of the build that made it"
-                             : "stop who holds it; 'tandem shm clean' removes it when nobody does";
+                             : "stop the process that holds it, then 'tandem shm clean' removes it";
     fmt::print(stderr, "tandem: {}: {} ({}), a readable segment was expected; {}\n", segment.path,
                to_string(segment.readability), segment.reason, remedy);
     return 1;

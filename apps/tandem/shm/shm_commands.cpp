@@ -8,30 +8,32 @@
 namespace tandem::command {
 namespace {
 
+/// The texts of a command in --help: one line in the list of commands, and the page below its options.
 struct CommandHelp {
     const char *brief, *details;
 };
 
 constexpr CommandHelp shm_help{
-    "Segments of shared memory: look at them while their hosts run, clean up, check the machine",
-    "A segment is the file in /dev/shm through which the two hosts of a link talk. Looking changes, wakes "
-    "and\n"
-    "locks nothing: it may be done at any time, on a running robot too."};
+    "Segments of shared memory: inspect them while their hosts run, remove what dead hosts have left",
+    "A segment is the file in /dev/shm through which the two hosts of a link talk. Inspecting one writes, "
+    "wakes\n"
+    "and locks nothing: it may be done at any time, on a running robot too."};
 constexpr CommandHelp list_help{
     "All segments: link, generation, size, owner, both sides, age",
     "The two sides of a segment are\n"
     "  absent   has not joined this generation yet\n"
-    "  alive    is there, and its heartbeat is fresh\n"
-    "  late     is there, but its heartbeat is older than 100 ms: stopped, or starved of processor time\n"
-    "  dead     has left or died; the pid says who it was\n"
-    "  held     (of a segment that cannot be read) somebody alive has it\n"
-    "Segments of other users are named and not opened, damaged ones are named with the reason. Exit code 0."};
+    "  alive    has joined, and its heartbeat is fresh\n"
+    "  late     has joined, but its heartbeat is older than 100 ms: stopped, or starved of processor time\n"
+    "  dead     has left or died; the pid is that of its process\n"
+    "  held     (of a segment that cannot be read) a running process has joined it\n"
+    "Segments of other users are listed and not opened, damaged ones are listed with the reason. Exit code "
+    "0."};
 constexpr CommandHelp info_help{
     "One segment: header, sides, and every ring, call queue and blob in it",
     "States of a side: see tandem shm list --help. Exit code 1 if there is no such "
     "segment or it cannot be read."};
 constexpr CommandHelp stats_help{
-    "Counters of every ring and call queue, or with --watch what happens per second",
+    "Counters of every ring and call queue, or with --watch their rates per second",
     "For a ring, since the segment was made,\n"
     "  sent = received + refused + overwritten + skipped + waiting\n"
     "  refused      the writer found no room, or the record was too long\n"
@@ -51,39 +53,34 @@ constexpr CommandHelp stats_help{
     "bucket, at most a quarter too long.\n"
     "The counters are read one after the other while the system runs: the sum is exact at rest only.\n"
     "Exit code 1 if there is no such segment or it cannot be read."};
-constexpr CommandHelp clean_help{"Removes segments that nobody alive holds",
+constexpr CommandHelp clean_help{"Removes segments that no running process holds",
                                  "Says what it removed, what it left, and why. Damaged segments are removed, "
                                  "too; never one that a living\n"
                                  "process holds, nor one of another user. Exit code 0."};
 
-constexpr CommandHelp doctor_help{
-    "Checks this machine's limits, permissions and timing, and says what to do about each shortcoming",
-    "  ok     as it should be\n"
-    "  warn   works, but slower, less predictable, or not under every circumstance\n"
-    "  bad    Tandem will not run, or not for long\n"
-    "Run it as the user who runs the hosts: permissions are tried out in a child process; nothing is "
-    "changed.\n"
-    "Exit code 1 if anything is bad, otherwise 0."};
-
+/// Options of list, info and clean: only one of them is chosen, so they may share one object.
 struct Common {
     std::string link;
     std::uint64_t generation = 0;
     bool json = false;
 };
 
+// Options are kept alive by the callbacks that refer to them: parsing runs after these functions have returned.
 CLI::App* add_command(CLI::App& parent, const char* name, const CommandHelp& help) {
     CLI::App* command = parent.add_subcommand(name, help.brief);
     command->footer(help.details);
     return command;
 }
 
+// The same words in every command.
 void add_json_flag(CLI::App* command, bool& json) {
     command->add_flag("--json", json, "print JSON instead of text");
 }
 
+// LINK is not completed and not checked here: shm::observe() knows what a link's name may be.
 void add_segment_options(CLI::App* command, std::string& link, std::uint64_t& generation) {
     command->add_option("LINK", link, "name of the link")->required();
-    command->add_option("--generation", generation, "look at this generation instead of the newest")
+    command->add_option("--generation", generation, "show this generation instead of the newest")
         ->check(CLI::PositiveNumber);
 }
 
@@ -94,11 +91,11 @@ void add_stats_command(CLI::App* shm, Action& selected) {
     add_json_flag(stats, options->json);
     stats
         ->add_option("--watch", options->period_s,
-                     "look every so many seconds and show rates; follows the link through its "
-                     "generations; with --json one line per look")
+                     "repeat every so many seconds and show rates; follows the link through its "
+                     "generations; with --json one line each time")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.01, 86400.0));
-    stats->add_option("--count", options->count, "end --watch after so many looks")->needs("--watch");
+    stats->add_option("--count", options->count, "end --watch after so many times")->needs("--watch");
     stats->callback([=, &selected] { selected = [options] { return shm_stats(*options); }; });
 }
 
@@ -127,10 +124,6 @@ void add_shm_commands(CLI::App& tandem, Action& selected) {
     add_json_flag(clean, common->json);
     clean->callback(
         [=, &selected] { selected = [common] { return shm_clean(common->link, common->json); }; });
-
-    CLI::App* doctor = add_command(*shm, "doctor", doctor_help);
-    add_json_flag(doctor, common->json);
-    doctor->callback([=, &selected] { selected = [common] { return shm_doctor(common->json); }; });
 }
 
 } // namespace tandem::command

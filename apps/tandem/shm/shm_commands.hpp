@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sub-commands of `tandem shm`. Each returns the program's exit code; the texts of --help in
-// shm_commands.cpp are their manual.
+// The sub-commands of `tandem shm`, a source file each. Each prints its result and returns the program's exit code;
+// shm::Error and std::runtime_error are errors of one line. The texts of --help in shm_commands.cpp are their manual.
 #pragma once
 #include <cstdint>
 #include <string>
 
 namespace tandem::command {
 
-int shm_list(bool json);
+int shm_list(bool json); ///< all segments of the machine
+/// Header, sides and objects of one segment; generation 0 is the newest. 1 if it cannot be read.
 int shm_info(const std::string& link, std::uint64_t generation, bool json);
 
 struct StatsOptions {
     std::string link;
     std::uint64_t generation = 0; ///< 0: the newest
     bool json = false;
-    double period_s = 0;     ///< seconds from look to look; 0: one look
-    std::uint64_t count = 0; ///< of looks; 0: until interrupted
+    double period_s = 0;     ///< time between two observations; 0: a single one
+    std::uint64_t count = 0; ///< observations with period_s > 0; 0: until interrupted
 };
+/// Counters, or from the second observation on their rates. 1 if the segment cannot be read.
 int shm_stats(const StatsOptions& options);
-int shm_clean(const std::string& link, bool json); ///< "": all links
-int shm_doctor(bool json);
+/// Removes dead segments of a link, or with "" of all links.
+int shm_clean(const std::string& link, bool json);
 
 } // namespace tandem::command

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
 #include "apps/tandem/shm/rates.hpp"
 #include "apps/tandem/shm/segment_format.hpp"
 #include "apps/tandem/shm/shm_commands.hpp"
@@ -15,16 +17,19 @@ namespace {
 
 using shm::Side;
 
+// The line above the tables: which segment, and who is there.
 std::string format_headline(const shm::ObservedSegment& segment) {
     return fmt::format("{}: first {}; second {}\n", segment.path, format_side(segment, Side::first),
                        format_side(segment, Side::second));
 }
 
+// The percentiles of the tables, and their keys in JSON.
 constexpr double percentile_shares[] = {0.5, 0.9, 0.99, 0.999, 1};
 constexpr const char* percentile_keys[] = {"p50_ns", "p90_ns", "p99_ns", "p99_9_ns", "max_ns"};
 
 std::string cell(std::uint64_t value) { return std::to_string(value); }
 
+// A damaged object keeps its line, so that nobody looks for it in vain.
 std::string format_rings(const shm::Observation& observation) {
     Table table({"ring", "writer", ">sent", ">received", ">refused", ">overwritten", ">skipped", ">waiting",
                  ">bytes sent", ">bytes received"});
@@ -40,6 +45,7 @@ std::string format_rings(const shm::Observation& observation) {
     return table.empty() ? "" : table.text();
 }
 
+// The columns are explained in stats_help (shm_commands.cpp).
 std::string format_call_queues(const shm::Observation& observation) {
     Table table({"call queue", "callers", ">calls", ">taken", ">answered", ">expired", ">overload",
                  ">time-out", ">cancelled", ">in use", ">slots"});
@@ -55,6 +61,7 @@ std::string format_call_queues(const shm::Observation& observation) {
     return table.empty() ? "" : table.text();
 }
 
+// A row of percentiles; none without samples.
 void add_time_row(Table& table, const std::string& of, shm::Side side, const char* what,
                   const shm::HistogramCounts& times) {
     if (times.total() == 0) return;
@@ -63,6 +70,7 @@ void add_time_row(Table& table, const std::string& of, shm::Side side, const cha
     table.add_row(std::move(row));
 }
 
+// The ages of records are measured when they are read, round trips by the caller, service times by the server.
 std::string format_times(const shm::Observation& observation) {
     Table table({"time", "of", "what", ">samples", ">p50 <=", ">p90 <=", ">p99 <=", ">p99.9 <=", ">max <="});
     for (const auto& ring : observation.rings)
@@ -75,6 +83,7 @@ std::string format_times(const shm::Observation& observation) {
     return table.empty() ? "" : table.text();
 }
 
+// "" for a segment that cannot be read: report_if_unreadable() says why.
 std::string format_observation(const shm::Observation& observation) {
     if (observation.segment.readability != shm::Readability::readable) return "";
     std::string text = format_headline(observation.segment);
@@ -86,7 +95,7 @@ std::string format_observation(const shm::Observation& observation) {
     return text;
 }
 
-/// Percentiles are upper bounds; of no samples null.
+/// Percentiles are the upper ends of histogram buckets; null without samples.
 nlohmann::json histogram_json(const shm::HistogramCounts& times) {
     nlohmann::json json{{"samples", times.total()}};
     for (std::size_t i = 0; i < std::size(percentile_shares); ++i)
@@ -95,6 +104,7 @@ nlohmann::json histogram_json(const shm::HistogramCounts& times) {
     return json;
 }
 
+// sent = received + dropped + waiting holds once the system is at rest: the counters are read one after the other.
 nlohmann::json ring_json(const shm::ObservedRing& ring) {
     const auto& c = ring.counters;
     if (!ring.damage.empty()) return {{"name", ring.name}, {"damage", ring.damage}};
@@ -129,8 +139,9 @@ nlohmann::json call_queue_json(const shm::ObservedCallQueue& queue) {
             {"service", histogram_json(queue.service)}};
 }
 
+// observed_ns is CLOCK_MONOTONIC: with it a reader of several lines can compute rates of its own.
 nlohmann::json observation_json(const shm::Observation& observation) {
-    nlohmann::json json{{"seen_ns", shm::now_ns()}, {"segment", to_json(observation.segment)}};
+    nlohmann::json json{{"observed_ns", shm::now_ns()}, {"segment", to_json(observation.segment)}};
     if (observation.segment.readability != shm::Readability::readable) return json;
     json["rings"] = nlohmann::json::array();
     json["call_queues"] = nlohmann::json::array();
@@ -140,12 +151,14 @@ nlohmann::json observation_json(const shm::Observation& observation) {
     return json;
 }
 
-/// One look of --watch: what happened since the last look at the same segment.
+/// One observation of --watch: the rates since the previous one, or the counters if there are no rates (the first time, or
+/// after a new generation). No segment is not an error here: the hosts may be restarting.
 void print_observation(const StatsOptions& options, const std::optional<shm::Observation>& observation,
                        const std::optional<Rates>& rates) {
     if (options.json) {
-        nlohmann::json json = observation ? observation_json(*observation)
-                                          : nlohmann::json{{"seen_ns", shm::now_ns()}, {"segment", nullptr}};
+        nlohmann::json json = observation
+                                  ? observation_json(*observation)
+                                  : nlohmann::json{{"observed_ns", shm::now_ns()}, {"segment", nullptr}};
         if (rates) json["rates"] = to_json(*rates);
         print_json(json, true);
         return;
@@ -159,6 +172,8 @@ void print_observation(const StatsOptions& options, const std::optional<shm::Obs
     if (observation) report_if_unreadable(observation->segment);
 }
 
+// The first observation is made at once. Sleeps until absolute times, so that the period does not drift by the time that
+// an observation takes.
 int watch_segment(const StatsOptions& options) {
     shm::check_link_name(options.link);
     const auto period = std::chrono::nanoseconds(static_cast<std::int64_t>(options.period_s * 1e9));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every verdict of the doctor, on file trees and kernel answers made for it.
+// Every result of every check, on file trees and answers of system calls made for it.
 #include "apps/tandem/doctor/checks.hpp"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ using namespace tandem::doctor;
 
 namespace {
 
-/// A machine of files in a folder of its own, on which nothing is wrong until a test makes it so.
+/// A machine of files in a temporary folder, on which all checks are ok until a test changes it.
 class FakeMachine {
   public:
     FakeMachine() {
@@ -64,7 +64,7 @@ class FakeMachine {
     Machine machine;
 };
 
-/// A warn or bad finding must say what to do, in one line; an ok one has nothing to say.
+/// Checks a result: its status, a part of its value, and that it has advice, in one line, exactly if it is not ok.
 bool is(const CheckResult& result, CheckStatus status, const std::string& value) {
     INFO(result.name << ": " << result.value << " - " << result.advice);
     CHECK(result.status == status);
@@ -76,7 +76,7 @@ bool is(const CheckResult& result, CheckStatus status, const std::string& value)
 
 } // namespace
 
-TEST_CASE_METHOD(FakeMachine, "a machine on which all is well gets nothing but ok") {
+TEST_CASE_METHOD(FakeMachine, "every check is ok on a machine that is set up for Tandem") {
     const auto results = run_checks(machine);
     CHECK(results.size() == 20);
     std::set<std::string> names;
@@ -214,7 +214,7 @@ TEST_CASE_METHOD(FakeMachine, "a link needs an inotify instance") {
     is(check_inotify(machine), CheckStatus::error, "Too many open files");
 }
 
-TEST_CASE_METHOD(FakeMachine, "two hosts want two cores and cores of their own") {
+TEST_CASE_METHOD(FakeMachine, "two hosts need two cores, best isolated ones") {
     is(check_core_count(machine), CheckStatus::ok, "4");
     machine.probed.cores = 1;
     is(check_core_count(machine), CheckStatus::warning, "1");
@@ -274,7 +274,7 @@ TEST_CASE_METHOD(FakeMachine, "a large timer slack is a warning") {
     is(check_timer_slack(machine), CheckStatus::warning, "40 ms");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a guest is told so and of whom") {
+TEST_CASE_METHOD(FakeMachine, "a virtual machine is a warning that names its vendor") {
     is(check_hypervisor(machine), CheckStatus::ok, "none");
     file("/proc/cpuinfo", "processor\t: 0\nflags\t\t: fpu hypervisor tsc\nbugs\t: x\n");
     is(check_hypervisor(machine), CheckStatus::warning, "yes");

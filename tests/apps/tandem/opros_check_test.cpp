@@ -24,7 +24,7 @@ TEST_CASE("tandem opros check finds nothing in an application that fits") {
     CHECK(result.says("app: 2 components and 2 connections fit"));
 }
 
-TEST_CASE("tandem opros check tells every fault of an application in a line of its own") {
+TEST_CASE("tandem opros check prints one line for each error of an application") {
     const Folder folder;
     folder.component("M", "maker");
     folder.component("P", "printer");
@@ -58,12 +58,12 @@ TEST_CASE("tandem opros check tells every fault of an application in a line of i
     CHECK(result.says("app.xml:8: component 'M' has no port 'nope'"));
     CHECK(result.says("app.xml:9: type mismatch"));
     CHECK(result.says("app.xml:10: "));
-    CHECK(result.says("app: 10 faults\n"));
+    CHECK(result.says("app: 10 errors\n"));
     CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 11);
     const auto json =
         tandem_program({"opros", "check", folder.path() / "app.xml", "--plugin-path", FIXTURES, "--json"});
     CHECK(json.exit_code == 1);
-    CHECK(json.json()["faults"].size() == 10);
+    CHECK(json.json()["errors"].size() == 10);
 }
 
 TEST_CASE("tandem opros check reads the type profiles that a component refers to, if they are there") {
@@ -85,10 +85,10 @@ TEST_CASE("tandem opros check reads the type profiles that a component refers to
     CHECK(result.exit_code == 1);
     CHECK(result.says("Math.xml:3: "));
     CHECK(result.says("Points.xml:1: <data_type> lacks its <struct>\n"));
-    CHECK(result.says("app: 2 faults\n"));
+    CHECK(result.says("app: 2 errors\n"));
 }
 
-TEST_CASE("tandem opros check tells a connection that is listed again and again in one line") {
+TEST_CASE("tandem opros check reports a connection that is listed many times in one line") {
     const Folder folder;
     folder.component("M", "maker");
     folder.component("P", "printer");
@@ -99,10 +99,10 @@ TEST_CASE("tandem opros check tells a connection that is listed again and again 
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
     CHECK(result.says("app.xml:8: connection M.numbers -> P.numbers is listed 6000 times, first at "));
-    CHECK(result.says("app: 1 fault\n"));
+    CHECK(result.says("app: 1 error\n"));
 }
 
-TEST_CASE("tandem opros check tells a wrong connection that is listed again and again in one line") {
+TEST_CASE("tandem opros check reports a wrong connection that is listed many times in one line") {
     const Folder folder;
     folder.component("M", "maker");
     std::string connections;
@@ -115,7 +115,7 @@ TEST_CASE("tandem opros check tells a wrong connection that is listed again and 
     CHECK(result.says(
         "app.xml:7: unknown component 'Q', expected one of M, in a connection that is listed 3000 times\n"));
     CHECK(result.says("app.xml:8: port_type is 'mail'"));
-    CHECK(result.says("app: 2 faults\n"));
+    CHECK(result.says("app: 2 errors\n"));
 }
 
 TEST_CASE("tandem opros check refuses a file that is no application in one line") {
@@ -158,5 +158,5 @@ TEST_CASE("tandem opros check compares the ports that a profile lists with those
     CHECK(unfit.says(
         "P.xml:9: service port 'maths' is not in the component, its service ports are: math (and"));
     CHECK(unfit.says("P.xml:10: <data_port> 'numbers' has the <usage> 'input1', expected input or output\n"));
-    CHECK(unfit.says("app: 5 faults\n"));
+    CHECK(unfit.says("app: 5 errors\n"));
 }

@@ -15,7 +15,7 @@ nlohmann::json port(const nlohmann::json& info, const std::string& name) {
 }
 } // namespace
 
-TEST_CASE("tandem opros info tells ports and services and executor and properties of a component") {
+TEST_CASE("tandem opros info shows ports, services, executor and properties of a component") {
     const auto result = tandem_program({"opros", "info", PLUGINS "/opros/HWComp.xml", "--json"});
     REQUIRE(result.exit_code == 0);
     const auto info = result.json();
@@ -63,7 +63,7 @@ TEST_CASE("tandem opros info says in one line why it cannot show a component") {
     CHECK_THAT(refused({ZOO "/opros/static_constructor_aborts.so"}), Catch::Contains("static constructors"));
 }
 
-TEST_CASE("tandem opros info runs onInitialize only when it is told to") {
+TEST_CASE("tandem opros info runs onInitialize only with --initialize") {
     const Folder folder;
     folder.component("M", FIXTURES "/libmaker.so", "<type>passive</type>",
                      "<property name=\"trouble\">initialize throws</property>");
@@ -104,7 +104,7 @@ TEST_CASE("tandem opros info finds device libraries where the host finds them") 
     CHECK(info["properties"].size() == 3); // in its three spellings; where the profile lies is not told
 }
 
-TEST_CASE("tandem opros info tells what composites and applications are made of and what types say") {
+TEST_CASE("tandem opros info shows the parts of composites and applications and the members of types") {
     const Folder folder;
     folder.component("M", "maker");
     const auto composite = [&](const std::string& name, const std::string& of, const std::string& port,

@@ -19,7 +19,7 @@ TEST_CASE("tandem opros new writes a component and what to do next") {
         CHECK(std::filesystem::file_size(folder.path() / "Arm_2" / file) > 50);
 }
 
-TEST_CASE("tandem opros new refuses in one line what it cannot make and touches nothing") {
+TEST_CASE("tandem opros new refuses an impossible name in one line and creates nothing") {
     const Folder folder;
     folder.write("There/mine.txt", "mine");
     const auto refused = [&](const std::string& name, const std::string& parent) {
@@ -37,7 +37,7 @@ TEST_CASE("tandem opros new refuses in one line what it cannot make and touches 
     CHECK_THAT(refused("getComponent", folder.path()), Catch::Contains("the OPRoS API"));
     CHECK_THAT(refused("NULL", folder.path()), Catch::Contains("a word of C++"));
     CHECK_THAT(refused("string", folder.path()), Catch::Contains("the system's <string.h>"));
-    CHECK_THAT(refused("Arm", folder.path() / "nowhere"), Catch::Contains("cannot be made"));
+    CHECK_THAT(refused("Arm", folder.path() / "nowhere"), Catch::Contains("cannot be created"));
     const auto left = std::filesystem::directory_iterator(folder.path());
     CHECK(std::distance(begin(left), end(left)) == 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program `tandem` as a user runs it: as a child, its output caught.
+// The program `tandem` as a user runs it: a child process whose output and exit code the test gets.
 #pragma once
 #include "tests/shm/fixture.hpp"
 
@@ -50,7 +50,7 @@ inline Result shm_program(std::vector<std::string> arguments) {
     return tandem_program(std::move(arguments));
 }
 
-/// The one of that link in the output of `shm list --json`; null if it is not there.
+/// The segment of a link in the output of `shm list --json`; null if it is not listed.
 inline nlohmann::json listed(const std::string& link) {
     const auto result = shm_program({"list", "--json"});
     REQUIRE(result.exit_code == 0);

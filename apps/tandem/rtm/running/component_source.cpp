@@ -13,7 +13,7 @@ ComponentEntry query_component(const std::string& address, CORBA::Object_ptr obj
         omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout_ms));
         entry.object = RTC::RTObject::_narrow(object);
         if (CORBA::is_nil(entry.object.in())) {
-            entry.error = "it is no RT-Component";
+            entry.error = "it is not an RT-Component";
             return entry;
         }
         RTC::ComponentProfile_var profile = entry.object->get_component_profile();
@@ -28,13 +28,14 @@ ComponentEntry query_component(const std::string& address, CORBA::Object_ptr obj
     return entry;
 }
 
-// Contexts may contain each other: `depth` bounds it.
+// Adds the components below a naming context. Contexts may contain each other in a circle: `depth` bounds the recursion.
+// OpenRTM-aist binds components with the kind "rtc"; other objects are not components.
 void list_context(CosNaming::NamingContext_ptr context, const std::string& path, int depth,
                   unsigned long timeout_ms, std::vector<ComponentEntry>& out) {
     CosNaming::BindingList_var list;
     CosNaming::BindingIterator_var more;
     context->list(10000, list.out(), more.out());
-    if (!CORBA::is_nil(more.in())) more->destroy();
+    if (!CORBA::is_nil(more.in())) more->destroy(); // beyond 10000 names nobody reads the list
     for (CORBA::ULong i = 0; i < list->length(); ++i) {
         const CosNaming::NameComponent& last = list[i].binding_name[0];
         const std::string kind(last.kind);
@@ -51,11 +52,12 @@ void list_context(CosNaming::NamingContext_ptr context, const std::string& path,
     }
 }
 
-template <class Look>
-ComponentSource query_source(const char* kind, const std::string& address, Look look) {
+// Runs `query` and turns its failure into the source's error, so that the other sources are still asked.
+template <class Query>
+ComponentSource query_source(const char* kind, const std::string& address, Query query) {
     ComponentSource source{kind, address, "", {}};
     try {
-        look(source);
+        query(source);
     } catch (const RTC::RemoteUnavailable& e) {
         source.error = e.what();
     } catch (const CORBA::Exception& e) {
@@ -93,7 +95,8 @@ void require_reachable(const RtmClient& client, const std::vector<ComponentSourc
         answered = answered || source.error.empty();
         if (!source.error.empty()) errors += (errors.empty() ? "" : "; ") + source.error;
     }
-    if (!answered && client.managers().empty()) errors += "; none of your processes here is a manager";
+    if (!answered && client.managers().empty())
+        errors += "; no process of yours on this machine is a manager";
     if (!answered) errors += "; start rtm_host or omniNames, or name one with --nameserver or --manager";
     if (!errors.empty() && (client.has_explicit_sources() || !answered)) throw std::runtime_error(errors);
 }

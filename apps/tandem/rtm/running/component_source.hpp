@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
+// Listing all components that name servers and managers know.
 #pragma once
 #include "apps/tandem/rtm/running/rtm_client.hpp"
 
 namespace tandem::command {
 
-/// One component as list and tree show it.
+/// A component as a name server or a manager lists it, with what it answers itself.
 struct ComponentEntry {
     std::string address; ///< rtcname://... or rtcloc://...
     std::string instance, type, state, category;
     CORBA::ULong ports = 0;
     RTC::RTObject_var object;
-    std::string error; ///< why it does not answer; then only the address is known
+    std::string error; ///< why it does not answer, "" if it does; with an error only the address is known
 };
 
-/// One place where components are found, and what is there.
+/// A name server or a manager, and the components that it lists.
 struct ComponentSource {
     std::string kind;    ///< name server, manager
     std::string address; ///< host:port
-    std::string error;   ///< why it does not answer, with kind and address
+    std::string error;   ///< why it does not answer, with its kind and address; "" if it does
     std::vector<ComponentEntry> components;
 };
 
-/// All name servers and managers. A component that several know is shown with each; one that does not answer
-/// (a stale name) with its trouble.
+/// Asks all name servers and managers of the client. A component that several of them know is listed with each; one that
+/// does not answer (its process has died and left its name behind) is listed with its error. Does not throw for a source
+/// that does not answer.
 std::vector<ComponentSource> enumerate_components(const RtmClient& client);
 
-/// Throws std::runtime_error, one line, when none of the places answers, or not all that the user has named.
+/// Throws std::runtime_error, in one line, if no source has answered, or if one that the user has named has not.
 void require_reachable(const RtmClient& client, const std::vector<ComponentSource>& sources);
 
 } // namespace tandem::command

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 
@@ -10,25 +10,27 @@
 namespace tandem::command {
 namespace {
 
-std::string listed(const SDOPackage::NVList& values) {
+std::string join_names(const SDOPackage::NVList& values) {
     std::string names;
     for (CORBA::ULong i = 0; i < values.length(); ++i)
         names += (names.empty() ? "" : ", ") + std::string(values[i].name);
     return names.empty() ? "none" : names;
 }
 
+// Sets parameters of a configuration set. The whole set is read, changed and written back: OpenRTM has no operation for
+// one parameter. Only names that the set has are accepted, since a new one would have no effect.
 void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
                 const std::string& id) {
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(id.c_str());
     for (const auto& assignment : options.values) {
         const std::size_t equals = assignment.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw std::runtime_error("`" + assignment + "`: expected NAME=VALUE");
+            throw std::runtime_error("`" + assignment + "` is not a parameter; expected NAME=VALUE");
         const std::string name = assignment.substr(0, equals);
         const CORBA::Long index = NVUtil::find_index(set->configuration_data, name.c_str());
         if (index < 0)
             throw std::runtime_error(fmt::format("configuration set {} has no parameter {} (it has: {})", id,
-                                                 name, listed(set->configuration_data)));
+                                                 name, join_names(set->configuration_data)));
         set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
             assignment.substr(equals + 1).c_str();
     }
@@ -36,6 +38,7 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         throw std::runtime_error("the component refuses the values");
 }
 
+/// All configuration sets with their values; one of them is marked as active.
 nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
     const std::string active = active_configuration_set(configuration);
     SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
@@ -45,7 +48,7 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
         for (const auto& key : NVUtil::toProperties(sets[i].configuration_data).propertyNames())
             values[key] = NVUtil::toString(sets[i].configuration_data, key.c_str());
         const std::string id(sets[i].id);
-        if (id.compare(0, 2, "__") == 0) continue; // widgets and constraints, for editors
+        if (id.compare(0, 2, "__") == 0) continue; // __widget__, __constraints__: hints for graphical editors
         json.push_back({{"set", id}, {"active", id == active}, {"values", values}});
     }
     return json;
@@ -55,7 +58,7 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
 
 int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options) {
     const RtmClient client(client_options);
-    const RemoteComponent component = client.find(options.component);
+    const RemoteComponent component = client.find_component(options.component);
     try {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
         std::string id = options.set;

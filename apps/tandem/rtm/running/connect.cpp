@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 
@@ -14,31 +14,36 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
     for (const auto& argument : arguments) {
         const std::size_t equals = argument.find('=');
         if (equals == std::string::npos || equals == 0)
-            throw std::runtime_error("`" + argument + "` is no property; expected KEY=VALUE");
+            throw std::runtime_error("`" + argument + "` is not a property; expected KEY=VALUE");
         const std::string key = argument.substr(0, equals);
-        const bool whole = key.compare(0, 5, "port.") == 0 || key.compare(0, 9, "dataport.") == 0;
-        properties.setProperty(whole ? key : "dataport." + key, argument.substr(equals + 1));
+        // The keys of dataport.* are mostly given without the prefix, as in manager.components.preconnect.
+        const bool is_full_key = key.compare(0, 5, "port.") == 0 || key.compare(0, 9, "dataport.") == 0;
+        properties.setProperty(is_full_key ? key : "dataport." + key, argument.substr(equals + 1));
     }
     return properties;
 }
 
 namespace {
 
-std::string fact(const RemotePort& port, const char* key) {
+std::string port_property(const RemotePort& port, const char* key) {
     return NVUtil::toString(port.profile->properties, key);
 }
 
-// What the ports themselves would refuse without saying why; a serializer may make one type of another.
-void check(const RemotePort& a, const RemotePort& b, const RTC::ConnectorProfile& profile) {
-    const std::string ka = fact(a, "port.port_type"), kb = fact(b, "port.port_type");
-    const bool services = ka == "CorbaPort" && kb == "CorbaPort";
-    if (!services && (ka == kb || ka == "CorbaPort" || kb == "CorbaPort"))
+// Throws if the two ports cannot be connected: they themselves refuse with a return code that does not tell why. Types may
+// differ if the connection names a serializer that converts.
+void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::ConnectorProfile& profile) {
+    const std::string kind_a = port_property(a, "port.port_type"),
+                      kind_b = port_property(b, "port.port_type");
+    const bool services = kind_a == "CorbaPort" && kind_b == "CorbaPort";
+    if (!services && (kind_a == kind_b || kind_a == "CorbaPort" || kind_b == "CorbaPort"))
         throw std::runtime_error(
-            fmt::format("{} is a {}, {} is a {}: they cannot be connected", a.name, ka, b.name, kb));
-    const std::string ta = fact(a, "dataport.data_type"), tb = fact(b, "dataport.data_type");
-    if (!services && ta != tb && ta != "any" && tb != "any" && !RTC::uses_custom_serializer(profile))
-        throw std::runtime_error(
-            fmt::format("{} carries {}, {} carries {}: connect ports of one type", a.name, ta, b.name, tb));
+            fmt::format("{} is a {}, {} is a {}: they cannot be connected", a.name, kind_a, b.name, kind_b));
+    const std::string type_a = port_property(a, "dataport.data_type"),
+                      type_b = port_property(b, "dataport.data_type");
+    if (!services && type_a != type_b && type_a != "any" && type_b != "any" &&
+        !RTC::uses_custom_serializer(profile))
+        throw std::runtime_error(fmt::format("{} carries {}, {} carries {}: connect ports of one type",
+                                             a.name, type_a, b.name, type_b));
     if (CORBA_RTCUtil::already_connected(a.object.in(), b.object.in()))
         throw std::runtime_error(a.name + " and " + b.name + " are connected already");
 }
@@ -56,10 +61,10 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
             const std::string name = options.name.empty() ? first.name + "-" + other.name : options.name;
             RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
                 name, connection_properties(options.properties), first.object.in(), other.object.in());
-            check(first, other, profile.in());
+            require_compatible(first, other, profile.in());
             const RTC::ReturnCode_t code = first.object->connect(profile.inout());
             if (code != RTC::RTC_OK)
-                throw std::runtime_error(names + " are not connected: " + text_of(code) +
+                throw std::runtime_error(names + " cannot be connected: " + to_string(code) +
                                          "; their logs say more");
             const std::string id(profile->connector_id);
             json.push_back({{"ports", {first.name, other.name}}, {"name", name}, {"id", id}});

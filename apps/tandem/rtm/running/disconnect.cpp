@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
 namespace tandem::command {
 namespace {
 
-bool joins(const RTC::ConnectorProfile& connection, RTC::PortService_ptr port) {
+// Whether a port takes part in the connection.
+bool includes_port(const RTC::ConnectorProfile& connection, RTC::PortService_ptr port) {
     for (CORBA::ULong i = 0; i < connection.ports.length(); ++i)
         if (connection.ports[i]->_is_equivalent(port)) return true;
     return false;
@@ -18,26 +19,27 @@ int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptio
     const RemotePort first = find_port(client, options.ports.front());
     RemotePort second;
     if (options.ports.size() > 1) second = find_port(client, options.ports[1]);
-    nlohmann::json ended = nlohmann::json::array();
+    nlohmann::json disconnected = nlohmann::json::array();
     call_remote(first.name, [&] {
         RTC::ConnectorProfileList_var all = first.object->get_connector_profiles();
         for (CORBA::ULong i = 0; i < all->length(); ++i) {
             const std::string id(all[i].connector_id);
             if (!options.id.empty() && id != options.id) continue;
-            if (!CORBA::is_nil(second.object.in()) && !joins(all[i], second.object.in())) continue;
+            if (!CORBA::is_nil(second.object.in()) && !includes_port(all[i], second.object.in())) continue;
             const RTC::ReturnCode_t code = first.object->disconnect(id.c_str());
             if (code != RTC::RTC_OK)
-                throw std::runtime_error("connection " + id + " is not ended: " + text_of(code));
-            ended.push_back({{"id", id}, {"name", static_cast<const char*>(all[i].name)}});
+                throw std::runtime_error("connection " + id + " cannot be ended: " + to_string(code));
+            disconnected.push_back({{"id", id}, {"name", static_cast<const char*>(all[i].name)}});
         }
     });
-    if (ended.empty())
+    if (disconnected.empty())
         throw std::runtime_error(first.name + " has no such connection" +
                                  (second.name.empty() ? "" : " with " + second.name));
     if (client_options.json)
-        print_json(ended);
+        print_json(disconnected);
     else
-        for (const auto& one : ended) print_text("ended " + one["name"].get<std::string>() + "\n");
+        for (const auto& one : disconnected)
+            print_text("disconnected " + one["name"].get<std::string>() + "\n");
     return 0;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +10,7 @@ namespace {
 
 using nlohmann::json;
 
+// Only strings: OpenRTM-aist's properties have no other values.
 json properties_json(const SDOPackage::NVList& list) {
     json out = json::object();
     for (CORBA::ULong i = 0; i < list.length(); ++i) {
@@ -41,6 +42,7 @@ json ports_json(const RTC::PortProfileList& ports) {
     return list;
 }
 
+// The order of both arrays is that of the enumerations in RTC.idl.
 json contexts_json(RTC::RTObject_ptr component) {
     static const char* const kinds[] = {"periodic", "event driven", "other"};
     static const char* const states[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
@@ -54,6 +56,7 @@ json contexts_json(RTC::RTObject_ptr component) {
     return list;
 }
 
+// One remote call for the profile, one for each context: the answers may be of different moments.
 json info_json(const RemoteComponent& component) {
     RTC::ComponentProfile_var profile = component.object->get_component_profile();
     SDOPackage::Configuration_var configuration = component.object->get_configuration();
@@ -71,9 +74,12 @@ json info_json(const RemoteComponent& component) {
             {"properties", properties_json(profile->properties)}};
 }
 
-std::string word(const json& properties, const char* key) { return properties.value(key, std::string()); }
+std::string string_property(const json& properties, const char* key) {
+    return properties.value(key, std::string());
+}
 
-std::string text_of_info(const json& info) {
+// The text is made from the JSON, so that both say the same.
+std::string format_info(const json& info) {
     std::string text =
         fmt::format("{}  {}\n", info["instance"].get<std::string>(), info["address"].get<std::string>());
     for (const char* key : {"type", "description", "version", "vendor", "category", "state", "configuration"})
@@ -85,16 +91,16 @@ std::string text_of_info(const json& info) {
                             context["state"].get<std::string>());
     for (const auto& port : info["ports"]) {
         text += fmt::format("  port {}  {} {}\n", port["name"].get<std::string>(),
-                            word(port["properties"], "port.port_type"),
-                            word(port["properties"], "dataport.data_type"));
+                            string_property(port["properties"], "port.port_type"),
+                            string_property(port["properties"], "dataport.data_type"));
         for (const auto& one : port["interfaces"])
             text += fmt::format("    {} {} as {}\n", one["provided"].get<bool>() ? "provides" : "requires",
                                 one["type"].get<std::string>(), one["instance"].get<std::string>());
         for (const auto& one : port["connections"])
-            text +=
-                fmt::format("    connection {}  {} {} {}\n", one["id"].get<std::string>(),
-                            one["name"].get<std::string>(), word(one["properties"], "dataport.dataflow_type"),
-                            word(one["properties"], "dataport.interface_type"));
+            text += fmt::format("    connection {}  {} {} {}\n", one["id"].get<std::string>(),
+                                one["name"].get<std::string>(),
+                                string_property(one["properties"], "dataport.dataflow_type"),
+                                string_property(one["properties"], "dataport.interface_type"));
     }
     return text;
 }
@@ -103,12 +109,12 @@ std::string text_of_info(const json& info) {
 
 int rtm_info(const RtmClientOptions& options, const std::string& name) {
     const RtmClient client(options);
-    const RemoteComponent component = client.find(name);
+    const RemoteComponent component = client.find_component(name);
     const json info = call_remote(component.address, [&] { return info_json(component); });
     if (options.json)
         print_json(info);
     else
-        print_text(text_of_info(info));
+        print_text(format_info(info));
     return 0;
 }
 

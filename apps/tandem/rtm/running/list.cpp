@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
 #include "apps/tandem/rtm/running/component_source.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
@@ -7,6 +8,7 @@
 
 namespace tandem::command {
 
+// Prints what has answered before it reports what has not: a dead name server must not hide the components of others.
 int rtm_list(const RtmClientOptions& options) {
     const RtmClient client(options);
     const auto sources = enumerate_components(client);
@@ -20,7 +22,7 @@ int rtm_list(const RtmClientOptions& options) {
                             {"state", entry.error.empty() ? entry.state : "UNREACHABLE"},
                             {"ports", entry.ports},
                             {"address", entry.address},
-                            {"trouble", entry.error}});
+                            {"error", entry.error}});
             if (entry.error.empty())
                 table.add_row(
                     {entry.instance, entry.type, entry.state, std::to_string(entry.ports), entry.address});

@@ -14,8 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// socket inode -> address, of all listening TCP sockets (loopback or any address)
-std::map<std::string, std::string> listening() {
+// Inode of the socket -> IPv4 address and port, of all listening TCP sockets. A socket that listens on every interface is
+// reached by the loopback address. The format is that of proc_pid_net(5).
+std::map<std::string, std::string> listening_sockets() {
     std::map<std::string, std::string> sockets;
     std::ifstream table("/proc/net/tcp");
     std::string line;
@@ -26,7 +27,7 @@ std::map<std::string, std::string> listening() {
         words >> slot >> local >> remote >> state;
         for (int i = 0; i < 5; ++i) words >> word;
         words >> inode;
-        if (state != "0A" || local.size() < 13) continue;
+        if (state != "0A" /* TCP_LISTEN */ || local.size() < 13) continue;
         const std::string port = std::to_string(std::stoul(local.substr(9), nullptr, 16));
         unsigned char ip[4]; // written as one number of this machine's byte order
         for (int i = 0; i < 4; ++i)
@@ -42,7 +43,8 @@ std::map<std::string, std::string> listening() {
     return sockets;
 }
 
-bool has_orb(const fs::path& process) {
+// Whether the process has mapped omniORB; false also for a process whose maps this user may not read.
+bool has_omniorb(const fs::path& process) {
     std::ifstream maps(process / "maps");
     std::string line;
     while (std::getline(maps, line))
@@ -50,6 +52,7 @@ bool has_orb(const fs::path& process) {
     return false;
 }
 
+// Inodes of the sockets that a process has open.
 std::set<std::string> sockets_of(const fs::path& process) {
     std::set<std::string> inodes;
     std::error_code none;
@@ -65,26 +68,26 @@ std::set<std::string> sockets_of(const fs::path& process) {
 } // namespace
 
 std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb) {
-    const auto sockets = listening();
+    const auto sockets = listening_sockets();
     std::set<std::string> candidates;
     std::error_code none;
     for (fs::directory_iterator it("/proc", none), end; !none && it != end; it.increment(none)) {
         const std::string name = it->path().filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(getpid()))
             continue;
-        if (!has_orb(it->path())) continue; // also: not ours to read
+        if (!has_omniorb(it->path())) continue;
         for (const auto& inode : sockets_of(it->path())) {
             const auto found = sockets.find(inode);
             if (found != sockets.end()) candidates.insert(found->second);
         }
     }
     std::vector<std::string> managers;
-    for (const auto& address : candidates) {
+    for (const auto& address : candidates) { // half a second each: they are on this machine
         try {
             RTM::Manager_var manager = RTC::resolve_manager(orb, address, 500);
             managers.push_back(address);
         } catch (const RTC::RemoteUnavailable&) {
-            continue; // another CORBA server, a name server for one
+            continue; // another CORBA server, for instance a name server
         }
     }
     return managers;

@@ -7,8 +7,9 @@
 
 namespace tandem::command {
 
-/// Addresses `127.0.0.1:PORT` of the RTM managers in this user's processes on this machine: TCP ports on
-/// which processes with an ORB listen, and where a manager answers.
+/// HOST:PORT of the RTM managers in this user's processes on this machine: TCP ports on which a process with an ORB
+/// listens and a manager answers. Needs no name server and no well-known port. Other users' processes cannot be read in
+/// /proc and are left out.
 std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb);
 
 } // namespace tandem::command

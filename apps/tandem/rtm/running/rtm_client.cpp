@@ -13,6 +13,8 @@
 namespace tandem::command {
 namespace {
 
+// A client only: an end point on the loopback interface is enough, and omniORB's own log lines must not come between the
+// lines of the output. 64 MiB hold the largest images.
 coil::vstring orb_arguments(unsigned long timeout_ms) {
     return {"tandem",
             "-ORBclientCallTimeOutPeriod",
@@ -25,6 +27,7 @@ coil::vstring orb_arguments(unsigned long timeout_ms) {
             "0"};
 }
 
+// No rtc.conf, log, name server or servant: this manager is there for the ports of cat and inject and for nobody else.
 CORBA::ORB_ptr manager_orb(unsigned long timeout_ms) {
     coil::Argv argv(coil::vstring{"tandem", "-f", "/dev/null", "-o", "logger.enable:NO", "-o",
                                   "naming.enable:NO", "-o", "manager.corba_servant:NO", "-o",
@@ -67,11 +70,11 @@ RtmClient::~RtmClient() {
         else
             orb_->destroy();
     } catch (const CORBA::Exception&) {
-        // it has ended before
+        // The ORB has already been shut down, which is what was wanted.
     }
 }
 
-RemoteComponent RtmClient::find(const std::string& name) const {
+RemoteComponent RtmClient::find_component(const std::string& name) const {
     auto found = [&](const std::string& address) {
         RemoteComponent component{RTC::resolve_component(orb_.in(), address, name_servers_, timeout_ms_),
                                   address, ""};
@@ -117,13 +120,14 @@ RemotePort get_port(const RemoteComponent& component, const std::string& port) {
 }
 
 RemotePort find_port(const RtmClient& client, const std::string& name) {
-    // rtcname://host:2809/a.host_cxt/Name0.rtc:out, Name0:out, Name0.out
+    // rtcname://host:2809/a.host_cxt/Name0.rtc:out, Name0:out, Name0.out. The port follows the last ':' or '.' behind the
+    // last '/': before it these characters belong to addresses and to the kinds of names.
     const std::size_t last = name.rfind('/') == std::string::npos ? 0 : name.rfind('/');
     std::size_t at = name.find(':', last);
     if (at == std::string::npos) at = name.rfind('.');
     if (at == std::string::npos || at <= last || at + 1 == name.size())
-        throw std::runtime_error("`" + name + "` is no port; expected COMPONENT:PORT");
-    return get_port(client.find(name.substr(0, at)), name.substr(at + 1));
+        throw std::runtime_error("`" + name + "` is not a port; expected COMPONENT:PORT");
+    return get_port(client.find_component(name.substr(0, at)), name.substr(at + 1));
 }
 
 std::vector<RTC::ExecutionContext_var> execution_contexts(RTC::RTObject_ptr component) {
@@ -155,12 +159,12 @@ std::string active_configuration_set(SDOPackage::Configuration_ptr configuration
     try {
         SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
         return static_cast<const char*>(set->id);
-    } catch (const SDOPackage::NotAvailable&) { // what OpenRTM-aist says before the first activation
+    } catch (const SDOPackage::NotAvailable&) { // OpenRTM-aist's answer before the first activation
         return "";
     }
 }
 
-std::string text_of(RTC::ReturnCode_t code) {
+std::string to_string(RTC::ReturnCode_t code) {
     static const char* const texts[] = {"OK",
                                         "it reports an error",
                                         "it refuses the request",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the sub-commands for running RT-Components share: the ORB, the options, and finding components by
-// name.
+// What the sub-commands for running RT-Components share: their common options, the ORB, and access to components and
+// ports by name.
 #pragma once
 #include <coil/Properties.h>
 #include <nlohmann/json.hpp>
@@ -13,25 +13,26 @@
 
 namespace tandem::command {
 
-/// Of every sub-command.
+/// Options of every sub-command.
 struct RtmClientOptions {
     std::vector<std::string> name_servers; ///< HOST or HOST:PORT
     std::vector<std::string> managers;     ///< HOST:PORT
-    double timeout_s = 5;                  ///< bound of each call
+    double timeout_s = 5;                  ///< time limit of each remote call
     bool json = false;
 };
 
-/// A component that has answered, and the name it was found by.
+/// A component that has answered.
 struct RemoteComponent {
     RTC::RTObject_var object;
     std::string address;  ///< as a user can give it: rtcname://... or rtcloc://...
     std::string instance; ///< Name0
 };
 
-/// The ORB of this program, and where to look for components. Every call ends after options.seconds.
+/// The ORB of this program, and the name servers and managers to ask for components. Every remote call ends after
+/// options.timeout_s with CORBA::TIMEOUT. One at a time, since the ORB is the process's. [main-thread]
 class RtmClient {
   public:
-    /// `as_component`: with a manager, so that this program can have a component with ports of its own.
+    /// `with_manager`: starts RTC::Manager on the ORB, which ports of this program's own need.
     explicit RtmClient(const RtmClientOptions& options, bool with_manager = false);
     ~RtmClient();
     RtmClient(const RtmClient&) = delete;
@@ -39,49 +40,53 @@ class RtmClient {
 
     CORBA::ORB_ptr orb() const { return orb_.in(); }
     unsigned long timeout_ms() const { return timeout_ms_; }
-    /// Those of the options, else of $RTCSH_NAMESERVERS (as rtshell has it), else localhost.
+    /// HOST:PORT of the options, else of $RTCSH_NAMESERVERS (the variable of rtshell), else of localhost.
     const std::vector<std::string>& name_servers() const { return name_servers_; }
-    /// Those of the options, else all that this user's processes have on this machine.
+    /// HOST:PORT of the options, else of all managers in this user's processes on this machine.
     const std::vector<std::string>& managers() const { return managers_; }
-    /// Have the options said where to look? Then that is all that is looked at.
+    /// Whether the options name the sources: then no others are asked, and each must answer.
     bool has_explicit_sources() const { return has_explicit_sources_; }
 
     /// `rtcname://HOST:PORT/PATH.rtc`, `rtcloc://HOST:PORT/NAME`, a path in the first name server, or a name
-    /// for which the name servers and the managers are searched. Throws std::runtime_error.
-    RemoteComponent find(const std::string& name) const;
+    /// that is looked up in all managers, then in all name servers. Throws std::runtime_error.
+    RemoteComponent find_component(const std::string& name) const;
 
   private:
     CORBA::ORB_var orb_;
     unsigned long timeout_ms_;
     bool with_manager_, has_explicit_sources_;
-    std::string path_server_; // where paths without a server begin
+    std::string path_server_; // the name server of paths that name none
     std::vector<std::string> name_servers_, managers_;
 };
 
-/// A port by `COMPONENT:port` or `COMPONENT.port`.
+/// A port of a component, with its profile as it was when it was found.
 struct RemotePort {
     RTC::PortService_var object;
     RTC::PortProfile_var profile;
     std::string name; ///< Name0.port
 };
+/// The port `COMPONENT:PORT` or `COMPONENT.PORT`. Throws std::runtime_error.
 RemotePort find_port(const RtmClient& client, const std::string& name);
-/// Ports of a component, with or without `Name0.` before it.
+/// A port of a component, by its name with or without the component's (`Name0.`) before it. Throws
+/// std::runtime_error that lists the ports there are.
 RemotePort get_port(const RemoteComponent& component, const std::string& port);
 
-/// `CREATED`, `INACTIVE`, `ACTIVE`, `ERROR`; `NONE`: it takes part in no execution context.
+/// `CREATED`, `INACTIVE`, `ACTIVE` or `ERROR`; `NONE` if it takes part in no execution context. Of several contexts the
+/// state that matters most: ERROR, then ACTIVE. Throws CORBA::SystemException.
 std::string component_state(RTC::RTObject_ptr component);
-/// Its own contexts, then those in which it takes part; at least one, or it throws.
+/// The contexts that it owns, then those in which it takes part. Throws std::runtime_error if there are none.
 std::vector<RTC::ExecutionContext_var> execution_contexts(RTC::RTObject_ptr component);
-/// Name of the active configuration set; empty when the component has not taken one over yet.
+/// Name of the active configuration set; empty if the component has not activated one yet.
 std::string active_configuration_set(SDOPackage::Configuration_ptr configuration);
-std::string text_of(RTC::ReturnCode_t code);
-/// Runs something that calls peers; CORBA exceptions become std::runtime_error with one line.
-template <class Action>
-auto call_remote(const std::string& address, Action action) -> decltype(action());
+/// What a return code means, as the end of a sentence about the component.
+std::string to_string(RTC::ReturnCode_t code);
+/// Throws std::runtime_error, one line with the address and the meaning of the exception.
 [[noreturn]] void throw_corba_error(const std::string& address, const CORBA::Exception& e);
 
-template <class Action>
-auto call_remote(const std::string& address, Action action) -> decltype(action()) {
+/// Runs `action`, which makes remote calls, and returns its result. CORBA exceptions become std::runtime_error, see
+/// throw_corba_error().
+template <class Function>
+auto call_remote(const std::string& address, Function action) -> decltype(action()) {
     try {
         return action();
     } catch (const CORBA::Exception& e) {

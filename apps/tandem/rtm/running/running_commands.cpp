@@ -9,6 +9,7 @@ namespace tandem::command {
 namespace {
 
 using Action = std::function<int()>;
+// The end of every page of --help.
 constexpr const char* addresses =
     "COMPONENT is rtcname://HOST:PORT/PATH/NAME.rtc (a name server), rtcloc://HOST:PORT/NAME (a manager), a\n"
     "path PATH/NAME.rtc in the default name server, or NAME alone: then the name servers and this user's\n"
@@ -16,8 +17,9 @@ constexpr const char* addresses =
     "A port is COMPONENT:PORT.\n"
     "Exit code 1, with one line, when something is not there or does not answer in time.";
 
-CLI::App* add(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
-              const std::string& details = "") {
+// A sub-command with the options that all of them have.
+CLI::App* add_command(CLI::App& rtm, const char* name, const char* brief, RtmClientOptions& client,
+                      const std::string& details = "") {
     CLI::App* command = rtm.add_subcommand(name, brief);
     command->footer(details + (details.empty() ? "" : "\n") + addresses);
     command
@@ -32,23 +34,22 @@ CLI::App* add(CLI::App& rtm, const char* name, const char* brief, RtmClientOptio
     return command;
 }
 
-void add_looks(CLI::App& rtm, Action& selected) {
+void add_listings(CLI::App& rtm, Action& selected) {
     auto list = std::make_shared<RtmClientOptions>();
-    add(rtm, "list", "The components that run, here and in name servers", *list,
-        "A name whose component does not answer is listed as UNREACHABLE.")
+    add_command(rtm, "list", "The components that run, here and in name servers", *list,
+                "A name whose component does not answer is listed as UNREACHABLE.")
         ->callback([=, &selected] { selected = [list] { return rtm_list(*list); }; });
     auto tree = std::make_shared<RtmClientOptions>();
-    add(rtm, "tree", "The same with ports and what they are connected with", *tree)->callback([=, &selected] {
-        selected = [tree] { return rtm_tree(*tree); };
-    });
+    add_command(rtm, "tree", "The components with their ports and connections", *tree)
+        ->callback([=, &selected] { selected = [tree] { return rtm_tree(*tree); }; });
     struct Info {
         RtmClientOptions client;
         std::string component;
     };
     auto info = std::make_shared<Info>();
     CLI::App* command =
-        add(rtm, "info", "What a component is: profile, contexts, ports, connections", info->client);
-    command->add_option("COMPONENT", info->component, "which one")->required();
+        add_command(rtm, "info", "What a component is: profile, contexts, ports, connections", info->client);
+    command->add_option("COMPONENT", info->component, "component, see below")->required();
     command->callback(
         [=, &selected] { selected = [info] { return rtm_info(info->client, info->component); }; });
 }
@@ -58,18 +59,18 @@ void add_transitions(CLI::App& rtm, Action& selected) {
         RtmClientOptions client;
         std::vector<std::string> components;
     };
-    auto one = [&](const char* name, const char* brief, Transition transition) {
+    auto add_transition = [&](const char* name, const char* brief, Transition transition) {
         auto options = std::make_shared<Options>();
-        CLI::App* command = add(rtm, name, brief, options->client);
-        command->add_option("COMPONENT", options->components, "which ones")->required();
+        CLI::App* command = add_command(rtm, name, brief, options->client);
+        command->add_option("COMPONENT", options->components, "components, see below")->required();
         command->callback([=, &selected] {
             selected = [=] { return rtm_transition(options->client, options->components, transition); };
         });
     };
-    one("activate", "Makes components active, and waits for it", Transition::activate);
-    one("deactivate", "Makes components inactive, and waits for it", Transition::deactivate);
-    one("reset", "Brings components from ERROR to INACTIVE", Transition::reset);
-    one("exit", "Ends components", Transition::exit);
+    add_transition("activate", "Makes components active, and waits for it", Transition::activate);
+    add_transition("deactivate", "Makes components inactive, and waits for it", Transition::deactivate);
+    add_transition("reset", "Brings components from ERROR to INACTIVE", Transition::reset);
+    add_transition("exit", "Ends components", Transition::exit);
 }
 
 void add_connections(CLI::App& rtm, Action& selected) {
@@ -79,9 +80,9 @@ void add_connections(CLI::App& rtm, Action& selected) {
     };
     auto connect = std::make_shared<Connect>();
     CLI::App* command =
-        add(rtm, "connect", "Connects the first port with each of the others", connect->client,
-            "Properties are those of manager.components.preconnect: dataflow_type=pull, "
-            "subscription_type=new ...");
+        add_command(rtm, "connect", "Connects the first port with each of the others", connect->client,
+                    "Properties are those of manager.components.preconnect: dataflow_type=pull, "
+                    "subscription_type=new ...");
     command->add_option("PORT", connect->options.ports, "two ports or more")->required()->expected(2, -1);
     command->add_option("-p,--property", connect->options.properties, "KEY=VALUE (repeatable)")
         ->allow_extra_args(false);
@@ -94,7 +95,8 @@ void add_connections(CLI::App& rtm, Action& selected) {
         DisconnectOptions options;
     };
     auto end = std::make_shared<Disconnect>();
-    command = add(rtm, "disconnect", "Ends the connections of a port, or those between two", end->client);
+    command =
+        add_command(rtm, "disconnect", "Ends the connections of a port, or those between two", end->client);
     command->add_option("PORT", end->options.ports, "one port or two")->required()->expected(1, 2);
     command->add_option("--id", end->options.id, "only the connection with this id");
     command->callback(
@@ -107,9 +109,9 @@ void add_conf(CLI::App& rtm, Action& selected) {
         ConfOptions options;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = add(rtm, "conf", "Shows and sets configuration parameters", options->client,
-                            "A component takes a new value over between two executions.");
-    command->add_option("COMPONENT", options->options.component, "which one")->required();
+    CLI::App* command = add_command(rtm, "conf", "Shows and sets configuration parameters", options->client,
+                                    "A component takes a new value over between two executions.");
+    command->add_option("COMPONENT", options->options.component, "component, see below")->required();
     command->add_option("NAME=VALUE", options->options.values, "parameters to set");
     command->add_option("--set", options->options.set, "configuration set (the active one)");
     command->add_option("--activate", options->options.activate, "configuration set to make the active one");
@@ -124,11 +126,12 @@ struct Stream {
 
 CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char* brief,
                      const char* details) {
-    CLI::App* command = add(rtm, name, brief, stream.client, details);
-    command->add_option("PORT", stream.options.port, "which one")->required();
+    CLI::App* command = add_command(rtm, name, brief, stream.client, details);
+    command->add_option("PORT", stream.options.port, "COMPONENT:PORT")->required();
     command
         ->add_option("--types", stream.options.types,
                      "library of a component, for its own data types (repeatable)")
+        ->type_name("FILE")
         ->allow_extra_args(false);
     command
         ->add_option("-p,--property", stream.options.properties, "KEY=VALUE of the connection (repeatable)")
@@ -140,8 +143,8 @@ void add_streams(CLI::App& rtm, Action& selected) {
     auto cat = std::make_shared<Stream>();
     CLI::App* command = add_stream(rtm, *cat, "cat", "Prints what an OutPort sends, one line of JSON each",
                                    "A type that is not known is printed as the bytes of its CDR form.");
-    command->add_option("-n,--count", cat->options.count, "leave after so many samples");
-    command->add_option("--for", cat->options.timeout_s, "leave after so many seconds")
+    command->add_option("-n,--count", cat->options.count, "end after so many samples");
+    command->add_option("--for", cat->options.timeout_s, "end after so many seconds")
         ->check(CLI::Range(0.01, 1e6));
     command->add_flag("--raw", cat->options.raw, "print bytes in any case");
     command->callback([=, &selected] { selected = [cat] { return rtm_cat(cat->client, cat->options); }; });
@@ -151,7 +154,7 @@ void add_streams(CLI::App& rtm, Action& selected) {
         rtm, *inject, "inject", "Sends values to an InPort",
         "VALUE is JSON: {\"tm\": {\"sec\": 1}, \"data\": [1, 2.5]}; a plain one stands for data, so\n"
         "`42` will do for a TimedLong; `-` reads one value from each line of standard input.");
-    // Not a list for the parser: it would take [1,2] apart.
+    // Not a std::vector: CLI11 would take [1,2] apart into two values. What follows the first value comes as extras.
     auto value = std::make_shared<std::string>();
     command->add_option("VALUE", *value, "what to send; more may follow")->required();
     command->allow_extras();
@@ -162,7 +165,7 @@ void add_streams(CLI::App& rtm, Action& selected) {
         inject->options.values = {*value};
         for (const auto& more : command->remaining()) {
             if (more.size() > 1 && more[0] == '-' && std::isdigit(static_cast<unsigned char>(more[1])) == 0)
-                throw CLI::ExtrasError({more});
+                throw CLI::ExtrasError({more}); // a misspelt option, not a negative number
             inject->options.values.push_back(more);
         }
         selected = [inject] { return rtm_inject(inject->client, inject->options); };
@@ -172,7 +175,7 @@ void add_streams(CLI::App& rtm, Action& selected) {
 } // namespace
 
 void add_running_commands(CLI::App& rtm, Action& selected) {
-    add_looks(rtm, selected);
+    add_listings(rtm, selected);
     add_transitions(rtm, selected);
     add_connections(rtm, selected);
     add_conf(rtm, selected);

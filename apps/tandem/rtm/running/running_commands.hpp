@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sub-commands of `tandem rtm` for components that run, here or elsewhere. Each returns the exit code,
-// and throws std::runtime_error with one line.
+// The sub-commands of `tandem rtm` for components that run, on this machine or another. Each prints its result, returns
+// the exit code, and throws std::runtime_error with one line.
 #pragma once
 #include "apps/tandem/rtm/running/rtm_client.hpp"
 
@@ -26,7 +26,7 @@ struct ConnectOptions {
 int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& options);
 
 struct DisconnectOptions {
-    std::vector<std::string> ports; ///< one: all its connections; two: those between them
+    std::vector<std::string> ports; ///< one: all its connections are ended; two: those between them
     std::string id;
 };
 int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptions& options);
@@ -39,23 +39,25 @@ struct ConfOptions {
 };
 int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options);
 
+/// Of cat and inject.
 struct StreamOptions {
     std::string port;
-    std::vector<std::filesystem::path> types; ///< libraries that know further data types
+    std::vector<std::filesystem::path> types; ///< libraries with stubs of further data types
     std::vector<std::string> properties;      ///< of the connection, KEY=VALUE
     unsigned long count = 0;                  ///< of samples; 0: any number
-    double timeout_s = 0;                     ///< that it may take; 0: until interrupted
-    bool raw = false;                         ///< bytes instead of members
+    double timeout_s = 0;                     ///< of `cat`; 0: until interrupted
+    bool raw = false;                         ///< prints bytes instead of members
     std::vector<std::string> values;          ///< to inject; `-`: lines of standard input
     double rate = 0;                          ///< Hz, 0: at once
 };
 int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options);
 int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& options);
 
-/// Adds them to `tandem rtm`.
+/// Adds all of these to `tandem rtm`.
 void add_running_commands(CLI::App& rtm, std::function<int()>& selected);
 
-/// `KEY=VALUE` arguments as NVList entries; keys without `port.` or `dataport.` get `dataport.`. Throws.
+/// KEY=VALUE arguments as properties of a connection; keys that begin with neither `port.` nor `dataport.` get
+/// `dataport.` in front. Throws std::runtime_error.
 coil::Properties connection_properties(const std::vector<std::string>& arguments);
 
 } // namespace tandem::command

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <chrono>
@@ -9,11 +9,12 @@
 namespace tandem::command {
 namespace {
 
-const char* wanted_state(Transition transition) {
+const char* target_state(Transition transition) {
     return transition == Transition::activate ? "ACTIVE" : "INACTIVE";
 }
 
-RTC::ReturnCode_t ask(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component, Transition transition) {
+RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component,
+                                     Transition transition) {
     switch (transition) {
     case Transition::activate:
         return context->activate_component(component);
@@ -24,8 +25,9 @@ RTC::ReturnCode_t ask(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr compo
     }
 }
 
-// The context carries a transition out in its next cycle, which may be after its answer.
-std::string state_after(const RemoteComponent& component, const std::string& wanted, double timeout_s) {
+// Waits until the component is in the wanted state or in ERROR, and returns the last state seen. Polls, because the
+// context carries a transition out in its next cycle, which may be after it has answered the request.
+std::string wait_for_state(const RemoteComponent& component, const std::string& wanted, double timeout_s) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
     for (;;) {
         const std::string state = component_state(component.object.in());
@@ -34,22 +36,26 @@ std::string state_after(const RemoteComponent& component, const std::string& wan
     }
 }
 
-std::string change(const RemoteComponent& component, Transition transition, double timeout_s) {
+// Requests the transition from the first context of the component, as rtshell does. Returns the state that was reached.
+std::string apply_transition(const RemoteComponent& component, Transition transition, double timeout_s) {
     if (transition == Transition::exit) {
         const RTC::ReturnCode_t code = component.object->exit();
         if (code != RTC::RTC_OK)
-            throw std::runtime_error(component.instance + " does not exit: " + text_of(code));
+            throw std::runtime_error(component.instance + " does not exit: " + to_string(code));
         return "exited";
     }
-    const std::string wanted = wanted_state(transition);
+    const std::string wanted = target_state(transition);
+    // Asking an active component to activate would be refused. A reset is requested in any state: only the component knows
+    // whether it applies.
     if (component_state(component.object.in()) == wanted && transition != Transition::reset) return wanted;
     const auto contexts = execution_contexts(component.object.in());
-    const RTC::ReturnCode_t code = ask(contexts.front().in(), component.object.in(), transition);
-    const std::string state = state_after(component, wanted, code == RTC::RTC_OK ? timeout_s : 0);
+    const RTC::ReturnCode_t code =
+        request_transition(contexts.front().in(), component.object.in(), transition);
+    const std::string state = wait_for_state(component, wanted, code == RTC::RTC_OK ? timeout_s : 0);
     if (state == wanted) return state;
     const char* hint = state == "ERROR" ? "; see its log, then tandem rtm reset" : "";
     throw std::runtime_error(fmt::format("{} is {}, expected {}{}{}", component.instance, state, wanted,
-                                         code == RTC::RTC_OK ? "" : ": " + text_of(code), hint));
+                                         code == RTC::RTC_OK ? "" : ": " + to_string(code), hint));
 }
 
 } // namespace
@@ -59,9 +65,9 @@ int rtm_transition(const RtmClientOptions& options, const std::vector<std::strin
     const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();
     for (const auto& name : names) {
-        const RemoteComponent component = client.find(name);
-        const std::string state =
-            call_remote(component.address, [&] { return change(component, transition, options.timeout_s); });
+        const RemoteComponent component = client.find_component(name);
+        const std::string state = call_remote(
+            component.address, [&] { return apply_transition(component, transition, options.timeout_s); });
         json.push_back({{"instance", component.instance}, {"address", component.address}, {"state", state}});
         if (!options.json) print_text(component.instance + " " + state + "\n");
     }

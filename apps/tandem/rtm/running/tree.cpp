@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/component_source.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
@@ -9,13 +9,14 @@
 namespace tandem::command {
 namespace {
 
-struct PortLine {
+/// What the tree shows of a port.
+struct PortEntry {
     std::string name, kind, type;
     std::vector<std::string> connected_with;
 };
 
-// Names of the other ports of a connection; one whose process is gone is said to be.
-std::string name_of(RTC::PortService_ptr port) {
+// Name of a port at the other side of a connection, whose process may be gone.
+std::string peer_name(RTC::PortService_ptr port) {
     try {
         RTC::PortProfile_var profile = port->get_port_profile();
         return static_cast<const char*>(profile->name);
@@ -24,15 +25,15 @@ std::string name_of(RTC::PortService_ptr port) {
     }
 }
 
-std::vector<PortLine> ports_of(RTC::RTObject_ptr component) {
-    std::vector<PortLine> lines;
+std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
+    std::vector<PortEntry> lines;
     RTC::PortServiceList_var ports = component->get_ports();
     for (CORBA::ULong i = 0; i < ports->length(); ++i) {
         RTC::PortProfile_var profile = ports[i]->get_port_profile();
-        PortLine line{static_cast<const char*>(profile->name),
-                      NVUtil::toString(profile->properties, "port.port_type"),
-                      NVUtil::toString(profile->properties, "dataport.data_type"),
-                      {}};
+        PortEntry line{static_cast<const char*>(profile->name),
+                       NVUtil::toString(profile->properties, "port.port_type"),
+                       NVUtil::toString(profile->properties, "dataport.data_type"),
+                       {}};
         for (CORBA::ULong k = 0; k < profile->interfaces.length(); ++k) {
             const auto& one = profile->interfaces[k];
             line.type += fmt::format("{}{} {}", line.type.empty() ? "" : ", ",
@@ -43,7 +44,7 @@ std::vector<PortLine> ports_of(RTC::RTObject_ptr component) {
             const auto& connection = profile->connector_profiles[c];
             for (CORBA::ULong p = 0; p < connection.ports.length(); ++p)
                 if (!connection.ports[p]->_is_equivalent(ports[i]))
-                    line.connected_with.push_back(name_of(connection.ports[p]));
+                    line.connected_with.push_back(peer_name(connection.ports[p]));
         }
         lines.push_back(line);
     }
@@ -76,17 +77,17 @@ int rtm_tree(const RtmClientOptions& options) {
                         for (const auto& other : port.connected_with) text += "      <-> " + other + "\n";
                     }
             } catch (const CORBA::SystemException& e) {
-                error = e._name(); // it has gone just now
+                error = e._name(); // it has ended since it was listed
             }
             components.push_back({{"instance", entry.instance},
                                   {"address", entry.address},
                                   {"state", entry.state},
-                                  {"trouble", error},
+                                  {"error", error},
                                   {"ports", ports}});
         }
         json.push_back({{"kind", source.kind},
                         {"address", source.address},
-                        {"trouble", source.error},
+                        {"error", source.error},
                         {"components", components}});
     }
     if (options.json)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
-#include "apps/tandem/rtm/stream/cdr_json.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/rtm/stream/cdr_json_converter.hpp"
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 #include "apps/tandem/rtm/stream/untyped_ports.hpp"
 
@@ -10,12 +10,22 @@
 namespace tandem::command {
 namespace {
 
-Json shown(CORBA::TypeCode_ptr type, const RTC::ByteData& bytes, bool raw) {
+/// `00 01 2a ...`
+std::string hex_dump(const RTC::ByteData& bytes) {
+    std::string text;
+    for (unsigned long i = 0; i < bytes.getDataLength(); ++i)
+        text += fmt::format("{}{:02x}", i == 0 ? "" : " ", bytes.getBuffer()[i]);
+    return text;
+}
+
+/// A sample as JSON; its bytes if they are wanted, or if its type is not known, or if they do not fit the type.
+Json sample_json(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type, const RTC::ByteData& bytes,
+                 bool raw) {
     if (raw || CORBA::is_nil(type)) return {{"cdr", hex_dump(bytes)}};
     try {
-        return cdr_to_json(type, bytes);
-    } catch (const DataConversionError& e) {
-        return {{"cdr", hex_dump(bytes)}, {"trouble", e.what()}};
+        return converter.to_json(type, bytes);
+    } catch (const DataConversionError& error) {
+        return {{"cdr", hex_dump(bytes)}, {"error", error.what()}};
     }
 }
 
@@ -23,33 +33,37 @@ Json shown(CORBA::TypeCode_ptr type, const RTC::ByteData& bytes, bool raw) {
 
 int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options) {
     for (const auto& library : options.types) load_type_library(library);
-    interrupted(); // from here on an interruption leaves in order
+    interrupted(); // installs the handlers: from here on SIGINT ends the loop, and the connection is taken down
     const RtmClient client(client_options, true);
+    const CdrJsonConverter converter(client.orb());
     const RemotePort remote_port = find_port(client, options.port);
-    const std::string type = data_type(remote_port, "DataOutPort");
+    const std::string type = require_data_type(remote_port, "DataOutPort");
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
     if (CORBA::is_nil(code.in()) && !options.raw)
-        fmt::print(stderr,
-                   "{} carries {}, which is not known here: bytes are shown; --types LIBRARY names the "
-                   "component's library\n",
-                   remote_port.name, type);
+        fmt::print(
+            stderr,
+            "{} carries {}, which is not known here: bytes are printed; name the component's library with "
+            "--types LIBRARY to see members\n",
+            remote_port.name, type);
     UntypedInPort port("in", type.c_str());
     const PortConnection connection(remote_port, port, options.properties, "tandem-cat");
     const auto begin = std::chrono::steady_clock::now();
-    unsigned long seen = 0;
-    while (!interrupted() && (options.count == 0 || seen < options.count)) {
+    unsigned long received = 0;
+    while (!interrupted() && (options.count == 0 || received < options.count)) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         if (options.timeout_s > 0 && spent.count() > options.timeout_s) break;
         RTC::ByteData bytes;
-        if (!port.samples().next(bytes, std::chrono::milliseconds(100))) continue;
-        ++seen;
-        // A line for each, so that others can read along.
-        print_text(shown(code.in(), bytes, options.raw).dump(-1, ' ', false, Json::error_handler_t::replace) +
+        // The wait is short, because a signal does not end it.
+        if (!port.samples().pop(bytes, std::chrono::milliseconds(100))) continue;
+        ++received;
+        // One line for each sample, flushed at once: another program may read them through a pipe.
+        print_text(sample_json(converter, code.in(), bytes, options.raw)
+                       .dump(-1, ' ', false, Json::error_handler_t::replace) +
                    "\n");
         std::fflush(stdout);
     }
-    if (options.count > 0 && seen < options.count && !interrupted())
-        throw std::runtime_error(fmt::format("{} of {} samples came within {} s; is {} active?", seen,
+    if (options.count > 0 && received < options.count && !interrupted())
+        throw std::runtime_error(fmt::format("{} of {} samples came within {} s; is {} active?", received,
                                              options.count, options.timeout_s,
                                              remote_port.name.substr(0, remote_port.name.rfind('.'))));
     return 0;

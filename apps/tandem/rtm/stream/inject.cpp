@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/output/format.hpp"
-#include "apps/tandem/rtm/stream/cdr_json.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/rtm/stream/cdr_json_converter.hpp"
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 #include "apps/tandem/rtm/stream/untyped_ports.hpp"
 
@@ -11,15 +11,16 @@
 namespace tandem::command {
 namespace {
 
-// What is no JSON is taken as a string: `hello` need not be quoted.
-Json parsed(const std::string& text) {
+// Text that is not JSON is taken as a string, so that `hello` need not be quoted for JSON and for the shell.
+Json parse_value(const std::string& text) {
     const Json value = Json::parse(text, nullptr, false);
     return value.is_discarded() ? Json(text) : value;
 }
 
-RTC::ByteData message(CORBA::TypeCode_ptr type, const std::string& text, bool little_endian) {
+RTC::ByteData encode_sample(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type,
+                            const std::string& text, bool little_endian) {
     try {
-        return json_to_cdr(type, parsed(text), little_endian);
+        return converter.to_cdr(type, parse_value(text), little_endian);
     } catch (const DataConversionError& e) {
         throw std::runtime_error("`" + text + "`: " + e.what());
     }
@@ -29,10 +30,11 @@ RTC::ByteData message(CORBA::TypeCode_ptr type, const std::string& text, bool li
 
 int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& options) {
     for (const auto& library : options.types) load_type_library(library);
-    interrupted();
+    interrupted(); // installs the handlers: SIGINT takes the connection down before this program ends
     const RtmClient client(client_options, true);
+    const CdrJsonConverter converter(client.orb());
     const RemotePort remote_port = find_port(client, options.port);
-    const std::string type = data_type(remote_port, "DataInPort");
+    const std::string type = require_data_type(remote_port, "DataInPort");
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
     if (CORBA::is_nil(code.in()))
         throw std::runtime_error(
@@ -44,12 +46,13 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
     auto send = [&](const std::string& text) {
         if (sent > 0 && options.rate > 0)
             std::this_thread::sleep_for(std::chrono::duration<double>(1 / options.rate));
-        port.send(message(code.in(), text, port.littleEndian()));
+        port.send(encode_sample(converter, code.in(), text, port.is_little_endian()));
         ++sent;
     };
     const unsigned long rounds = options.count == 0 ? 1 : options.count;
+    // All values are checked before the first one is sent: nothing or everything reaches the component.
     for (const auto& value : options.values)
-        message(code.in(), value == "-" ? "{}" : value, true); // all are sound
+        encode_sample(converter, code.in(), value == "-" ? "{}" : value, true);
     for (unsigned long round = 0; round < rounds && !interrupted(); ++round)
         for (const auto& value : options.values) {
             if (value != "-") {

@@ -9,7 +9,8 @@
 namespace tandem::command {
 namespace {
 
-// {RTC, TimedLong} -> _ZN3RTC13_tc_TimedLongE: what omniidl's stubs call it.
+// The mangled name (Itanium C++ ABI) of the TypeCode constant in omniidl's stubs: {RTC, TimedLong} becomes
+// _ZN3RTC13_tc_TimedLongE, that is RTC::_tc_TimedLong. A name without a module is not mangled.
 std::string symbol(const coil::vstring& names) {
     std::string mangled = "_ZN";
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -22,6 +23,8 @@ std::string symbol(const coil::vstring& names) {
 } // namespace
 
 void load_type_library(const std::filesystem::path& library) {
+    // RTLD_GLOBAL: the constants are looked up in all libraries by dlsym(RTLD_DEFAULT). Never closed: the TypeCodes
+    // are used until the program ends.
     if (dlopen(library.c_str(), RTLD_LAZY | RTLD_GLOBAL) == nullptr) throw std::runtime_error(dlerror());
 }
 
@@ -29,7 +32,7 @@ CORBA::TypeCode_ptr find_type_code(const std::string& repository_id) {
     if (repository_id.compare(0, 4, "IDL:") != 0) return CORBA::TypeCode::_nil();
     coil::vstring names = coil::split(repository_id.substr(4, repository_id.rfind(':') - 4), "/", true);
     while (!names.empty()) {
-        // The address of the constant, not its value: that is set when the library is initialised.
+        // The symbol is the variable that holds the TypeCode; the library's static initialisation has set it.
         if (const void* constant = dlsym(RTLD_DEFAULT, symbol(names).c_str()))
             return *static_cast<const CORBA::TypeCode_ptr*>(constant);
         if (names.front().find('.') == std::string::npos) break;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// TypeCodes of data types that this program was not compiled with.
 #pragma once
 #include <omniORB4/CORBA.h>
 

@@ -8,46 +8,49 @@
 namespace tandem::command {
 namespace {
 
-constexpr std::size_t max_queued = 100000; // of a terminal that does not keep up, the newest are given up
+// A terminal that does not keep up must not let the memory grow: beyond this the newest samples are dropped.
+constexpr std::size_t max_queued = 100000;
 
-volatile std::sig_atomic_t end_wanted = 0;
+volatile std::sig_atomic_t stop_signal_received = 0;
 
 } // namespace
 
 SampleQueue::ReturnCode SampleQueue::operator()(RTC::ConnectorInfo&, RTC::ByteData& data,
                                                 const std::string&) {
     std::lock_guard<std::mutex> lock(mutex_);
-    if (waiting_.size() < max_queued) waiting_.push_back(data);
-    wake_.notify_one();
+    if (queue_.size() < max_queued) queue_.push_back(data);
+    received_.notify_one();
     return NO_CHANGE;
 }
 
-bool SampleQueue::next(RTC::ByteData& bytes, std::chrono::milliseconds timeout) {
+bool SampleQueue::pop(RTC::ByteData& bytes, std::chrono::milliseconds timeout) {
     std::unique_lock<std::mutex> lock(mutex_);
-    if (!wake_.wait_for(lock, timeout, [this] { return !waiting_.empty(); })) return false;
-    bytes = waiting_.front();
-    waiting_.pop_front();
+    if (!received_.wait_for(lock, timeout, [this] { return !queue_.empty(); })) return false;
+    bytes = queue_.front();
+    queue_.pop_front();
     return true;
 }
 
 UntypedInPort::UntypedInPort(const char* name, const char* type)
     : InPortBase(name, type), samples_(new SampleQueue) {
+    // Without other serializers the sender has to choose CDR, of which the TypeCode tells the meaning.
     addProperty("dataport.marshaling_types", "cdr");
     addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, samples_);
 }
+
 bool UntypedInPort::read(std::string) { return false; }
 
 UntypedOutPort::UntypedOutPort(const char* name, const char* type) : OutPortBase(name, type) {
     addProperty("dataport.marshaling_types", "cdr");
 }
 
-bool UntypedOutPort::littleEndian() {
+bool UntypedOutPort::is_little_endian() {
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
     return m_connectors.empty() || m_connectors.front()->isLittleEndian();
 }
 
 void UntypedOutPort::send(const RTC::ByteData& bytes) {
-    RTC::ByteData message(bytes);
+    RTC::ByteData message(bytes); // write() takes a reference that is not const
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
     if (m_connectors.empty()) throw std::runtime_error("the port has disconnected");
     const RTC::DataPortStatus status = m_connectors.front()->write(message);
@@ -55,36 +58,37 @@ void UntypedOutPort::send(const RTC::ByteData& bytes) {
         throw std::runtime_error(std::string("the port does not take the value: ") + RTC::toString(status));
 }
 
-std::string data_type(const RemotePort& port, const std::string& kind) {
-    const std::string is = NVUtil::toString(port.profile->properties, "port.port_type");
-    if (is != kind)
-        throw std::runtime_error(
-            fmt::format("{} is a {}, expected a {}", port.name, is.empty() ? "port" : is, kind));
+std::string require_data_type(const RemotePort& port, const std::string& kind) {
+    const std::string actual_kind = NVUtil::toString(port.profile->properties, "port.port_type");
+    if (actual_kind != kind)
+        throw std::runtime_error(fmt::format("{} is a {}, expected a {}", port.name,
+                                             actual_kind.empty() ? "port" : actual_kind, kind));
     return NVUtil::toString(port.profile->properties, "dataport.data_type");
 }
 
-PortConnection::PortConnection(const RemotePort& remote_port, RTC::PortBase& ours,
+PortConnection::PortConnection(const RemotePort& remote_port, RTC::PortBase& own_port,
                                const std::vector<std::string>& properties, const char* name)
-    : ours_(ours) {
+    : own_port_(own_port) {
     call_remote(remote_port.name, [&] {
-        RTC::PortService_var own = ours.getPortRef();
+        RTC::PortService_var own = own_port.getPortRef();
         RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
             name, connection_properties(properties), own.in(), remote_port.object.in());
-        const RTC::ReturnCode_t code = ours.connect(profile.inout());
+        const RTC::ReturnCode_t code = own_port.connect(profile.inout());
         if (code != RTC::RTC_OK)
-            throw std::runtime_error(remote_port.name + " cannot be connected: " + ours.connectError());
+            throw std::runtime_error(remote_port.name + " cannot be connected: " + own_port.connectError());
         id_ = profile->connector_id;
     });
 }
 
-PortConnection::~PortConnection() { ours_.disconnect(id_.c_str()); }
+PortConnection::~PortConnection() { own_port_.disconnect(id_.c_str()); }
 
 bool interrupted() {
     static const bool installed = [] {
-        for (int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, [](int) { end_wanted = 1; });
+        for (int number : {SIGINT, SIGTERM, SIGHUP})
+            std::signal(number, [](int) { stop_signal_received = 1; });
         return true;
     }();
-    return installed && end_wanted != 0;
+    return installed && stop_signal_received != 0;
 }
 
 } // namespace tandem::command

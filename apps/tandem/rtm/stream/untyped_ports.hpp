@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A component of this program with one port of a type that is known at run time only, for cat and inject.
+// Ports of this program whose data type is known at run time only, for cat and inject. They carry CDR as it is.
 #pragma once
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
@@ -11,19 +11,21 @@
 
 namespace tandem::command {
 
-/// Messages as they came, in order. [any-thread]
+/// The samples that an InPort has received, in order. Filled by a thread of the ORB, emptied by the main thread.
+/// [any-thread]
 class SampleQueue : public RTC::ConnectorDataListener {
   public:
     ReturnCode operator()(RTC::ConnectorInfo& info, RTC::ByteData& data, const std::string& type) override;
-    /// The next one; false when none comes within the time.
-    bool next(RTC::ByteData& bytes, std::chrono::milliseconds timeout);
+    /// Takes the oldest sample; false if none comes in time.
+    bool pop(RTC::ByteData& bytes, std::chrono::milliseconds timeout);
 
   private:
     std::mutex mutex_;
-    std::condition_variable wake_;
-    std::deque<RTC::ByteData> waiting_;
+    std::condition_variable received_;
+    std::deque<RTC::ByteData> queue_;
 };
 
+/// Takes any data type that is named when it is made. read() has no variable to read into: samples() has the data.
 class UntypedInPort : public RTC::InPortBase {
   public:
     UntypedInPort(const char* name, const char* type);
@@ -31,35 +33,40 @@ class UntypedInPort : public RTC::InPortBase {
     SampleQueue& samples() { return *samples_; }
 
   private:
-    SampleQueue* samples_; // the port's
+    SampleQueue* samples_; // owned by the port's list of listeners
 };
 
+/// Sends CDR that the caller has encoded.
 class UntypedOutPort : public RTC::OutPortBase {
   public:
     UntypedOutPort(const char* name, const char* type);
     bool write() override { return false; }
-    /// Throws std::runtime_error when the connection does not take it.
+    /// Throws std::runtime_error if the port is not connected or the connection refuses the sample.
     void send(const RTC::ByteData& bytes);
-    bool littleEndian();
+    /// The byte order that the connection has agreed on, in which samples are to be encoded.
+    bool is_little_endian();
 };
 
-/// The data type of a port of the kind wanted (DataInPort, DataOutPort). Throws.
-std::string data_type(const RemotePort& port, const std::string& kind);
-/// Connects a port of ours; it is disconnected when this goes.
+/// The repository id of a port's data type. Throws std::runtime_error if the port is not of the kind (DataInPort,
+/// DataOutPort).
+std::string require_data_type(const RemotePort& port, const std::string& kind);
+
+/// A connection between a remote port and one of this program, for the lifetime of the object. The constructor throws
+/// std::runtime_error if the ports cannot be connected.
 class PortConnection {
   public:
-    PortConnection(const RemotePort& remote_port, RTC::PortBase& ours,
+    PortConnection(const RemotePort& remote_port, RTC::PortBase& own_port,
                    const std::vector<std::string>& properties, const char* name);
     ~PortConnection();
     PortConnection(const PortConnection&) = delete;
     PortConnection& operator=(const PortConnection&) = delete;
 
   private:
-    RTC::PortBase& ours_;
+    RTC::PortBase& own_port_;
     std::string id_;
 };
 
-/// True once SIGINT or SIGTERM has come; the first call installs the handlers.
+/// True once SIGINT, SIGTERM or SIGHUP has come; the first call installs the handlers. [main-thread]
 bool interrupted();
 
 } // namespace tandem::command

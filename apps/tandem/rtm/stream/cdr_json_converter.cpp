@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/stream/cdr_json_converter.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace tandem::command {
+namespace {
+
+using DynamicAny::DynAny_ptr;
+using DynamicAny::DynAny_var;
+
+/// A DynAny that this file has made. Components of one must not be destroyed: they go with the whole.
+class OwnedDynAny {
+  public:
+    explicit OwnedDynAny(DynAny_ptr value) : value_(value) {}
+    ~OwnedDynAny() { value_->destroy(); }
+    OwnedDynAny(const OwnedDynAny&) = delete;
+    OwnedDynAny& operator=(const OwnedDynAny&) = delete;
+    DynAny_ptr get() const { return value_.in(); }
+
+  private:
+    DynAny_var value_;
+};
+
+CORBA::TypeCode_var without_aliases(CORBA::TypeCode_ptr type) {
+    CORBA::TypeCode_var actual = CORBA::TypeCode::_duplicate(type);
+    while (actual->kind() == CORBA::tk_alias) actual = actual->content_type();
+    return actual;
+}
+
+bool is_octet(CORBA::TypeCode_ptr element) { return without_aliases(element)->kind() == CORBA::tk_octet; }
+
+Json read_value(DynAny_ptr value, const std::string& path);
+
+// Octets are taken as a whole: a DynAny for each would take 200 times the memory of an image.
+std::string read_octets(DynAny_ptr list) {
+    CORBA::OctetSeq_var octets = list->get_octet_seq();
+    std::string digits;
+    digits.reserve(std::size_t{2} * octets->length());
+    for (CORBA::ULong i = 0; i < octets->length(); ++i)
+        fmt::format_to(std::back_inserter(digits), "{:02x}", octets[i]);
+    return digits;
+}
+
+Json read_list(DynAny_ptr list, CORBA::TypeCode_ptr type, const std::string& path) {
+    if (is_octet(CORBA::TypeCode_var(type->content_type()).in())) return read_octets(list);
+    Json elements = Json::array();
+    const CORBA::ULong count = list->component_count();
+    for (CORBA::ULong i = 0; i < count; ++i) {
+        list->seek(static_cast<CORBA::Long>(i));
+        DynAny_var element = list->current_component();
+        elements.push_back(read_value(element.in(), fmt::format("{}[{}]", path, i)));
+    }
+    return elements;
+}
+
+Json read_struct(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& path) {
+    Json members = Json::object();
+    for (CORBA::ULong i = 0; i < type->member_count(); ++i) {
+        const char* name = type->member_name(i);
+        value->seek(static_cast<CORBA::Long>(i));
+        DynAny_var member = value->current_component();
+        members[name] = read_value(member.in(), path + "." + name);
+    }
+    return members;
+}
+
+std::string read_enum(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& path) {
+    DynamicAny::DynEnum_var dyn_enum = DynamicAny::DynEnum::_narrow(value);
+    const CORBA::ULong number = dyn_enum->get_as_ulong();
+    // The number comes from the sender as it is: omniORB does not compare it with the members.
+    if (number >= type->member_count())
+        throw DataConversionError(fmt::format("{}: {} is not a value of {}", path, number, type->name()));
+    return type->member_name(number);
+}
+
+// JSON strings are UTF-8, for which neither the size nor the encoding of wchar is defined: numbers are exact.
+Json read_wide_string(DynAny_ptr value) {
+    CORBA::WString_var text = value->get_wstring();
+    Json codes = Json::array();
+    for (const CORBA::WChar* c = text.in(); *c != 0; ++c) codes.push_back(static_cast<unsigned>(*c));
+    return codes;
+}
+
+Json read_value(DynAny_ptr value, const std::string& path) {
+    const CORBA::TypeCode_var type = without_aliases(CORBA::TypeCode_var(value->type()).in());
+    switch (type->kind()) {
+    case CORBA::tk_short:
+        return value->get_short();
+    case CORBA::tk_ushort:
+        return value->get_ushort();
+    case CORBA::tk_long:
+        return value->get_long();
+    case CORBA::tk_ulong:
+        return value->get_ulong();
+    case CORBA::tk_longlong:
+        return value->get_longlong();
+    case CORBA::tk_ulonglong:
+        return value->get_ulonglong();
+    case CORBA::tk_float:
+        return value->get_float();
+    case CORBA::tk_double:
+        return value->get_double();
+    case CORBA::tk_boolean:
+        return static_cast<bool>(value->get_boolean());
+    case CORBA::tk_octet:
+        return value->get_octet();
+    case CORBA::tk_char:
+        return std::string(1, value->get_char());
+    case CORBA::tk_wchar:
+        return static_cast<unsigned>(value->get_wchar());
+    case CORBA::tk_string:
+        return std::string(CORBA::String_var(value->get_string()).in());
+    case CORBA::tk_wstring:
+        return read_wide_string(value);
+    case CORBA::tk_enum:
+        return read_enum(value, type.in(), path);
+    case CORBA::tk_sequence:
+    case CORBA::tk_array:
+        return read_list(value, type.in(), path);
+    case CORBA::tk_struct:
+        return read_struct(value, type.in(), path);
+    default:
+        throw DataConversionError(path + ": a type that cannot be shown (any, union or object reference)");
+    }
+}
+
+void write_value(DynAny_ptr target, const Json& value, const std::string& path);
+
+/// The number as T. Throws nlohmann's type_error for what is no number.
+template <class T>
+T integer(const Json& value) {
+    if (value.is_number_float()) throw DataConversionError(value.dump() + " is not an integer");
+    const bool fits = value.is_number_unsigned()
+                          ? std::in_range<T>(value.get<std::uint64_t>())
+                          : !value.is_number_integer() || std::in_range<T>(value.get<std::int64_t>());
+    if (!fits) throw DataConversionError(value.dump() + " does not fit");
+    return value.get<T>();
+}
+
+CORBA::OctetSeq octets_from_hex(const std::string& digits, const std::string& path) {
+    if (digits.size() % 2 != 0 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+        throw DataConversionError(path + ": expected pairs of hexadecimal digits");
+    CORBA::OctetSeq octets;
+    octets.length(static_cast<CORBA::ULong>(digits.size() / 2));
+    for (CORBA::ULong i = 0; i < octets.length(); ++i)
+        octets[i] = static_cast<CORBA::Octet>(std::stoul(digits.substr(std::size_t{2} * i, 2), nullptr, 16));
+    return octets;
+}
+
+void write_list(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, const std::string& path) {
+    const bool as_hex = value.is_string() && is_octet(CORBA::TypeCode_var(type->content_type()).in());
+    if (!value.is_array() && !as_hex) throw DataConversionError(path + ": expected a list");
+    CORBA::OctetSeq octets;
+    if (as_hex) octets = octets_from_hex(value.get<std::string>(), path);
+    const auto count = as_hex ? octets.length() : static_cast<CORBA::ULong>(value.size());
+    if (count == 0) return; // the default: an empty sequence, an array of zeros
+    if (type->kind() == CORBA::tk_sequence)
+        DynamicAny::DynSequence_var(DynamicAny::DynSequence::_narrow(target))->set_length(count);
+    else if (count != type->length())
+        throw DataConversionError(fmt::format("{}: {} elements, expected {}", path, count, type->length()));
+    for (CORBA::ULong i = 0; i < count; ++i) {
+        target->seek(static_cast<CORBA::Long>(i));
+        DynAny_var element = target->current_component();
+        if (as_hex)
+            element->insert_octet(octets[i]);
+        else
+            write_value(element.in(), value[i], fmt::format("{}[{}]", path, i));
+    }
+}
+
+void write_enum(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, const std::string& path) {
+    CORBA::ULong number = type->member_count();
+    if (value.is_number_unsigned() && value.get<std::uint64_t>() < number)
+        number = value.get<CORBA::ULong>();
+    else if (value.is_string())
+        for (number = 0; number < type->member_count(); ++number)
+            if (value.get<std::string>() == type->member_name(number)) break;
+    if (number >= type->member_count())
+        throw DataConversionError(path + ": " + value.dump() + " is not a value of " + type->name());
+    DynamicAny::DynEnum_var(DynamicAny::DynEnum::_narrow(target))->set_as_ulong(number);
+}
+
+CORBA::ULong member_index(CORBA::TypeCode_ptr type, const std::string& name) {
+    CORBA::ULong i = 0;
+    while (i < type->member_count() && name != type->member_name(i)) ++i;
+    return i;
+}
+
+void write_struct(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, const std::string& path) {
+    if (!value.is_object()) throw DataConversionError(path + ": expected {...}");
+    for (const auto& [name, member_value] : value.items()) {
+        const CORBA::ULong i = member_index(type, name);
+        if (i == type->member_count()) throw DataConversionError(path + ": there is no member " + name);
+        target->seek(static_cast<CORBA::Long>(i));
+        DynAny_var member = target->current_component();
+        write_value(member.in(), member_value, path + "." + name);
+    }
+}
+
+void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
+    switch (kind) {
+    case CORBA::tk_short:
+        return target->insert_short(integer<CORBA::Short>(value));
+    case CORBA::tk_ushort:
+        return target->insert_ushort(integer<CORBA::UShort>(value));
+    case CORBA::tk_long:
+        return target->insert_long(integer<CORBA::Long>(value));
+    case CORBA::tk_ulong:
+        return target->insert_ulong(integer<CORBA::ULong>(value));
+    case CORBA::tk_longlong:
+        return target->insert_longlong(integer<CORBA::LongLong>(value));
+    case CORBA::tk_ulonglong:
+        return target->insert_ulonglong(integer<CORBA::ULongLong>(value));
+    case CORBA::tk_float:
+        return target->insert_float(value.get<CORBA::Float>());
+    case CORBA::tk_double:
+        return target->insert_double(value.get<CORBA::Double>());
+    case CORBA::tk_boolean:
+        return target->insert_boolean(value.get<bool>());
+    case CORBA::tk_octet:
+        return target->insert_octet(integer<CORBA::Octet>(value));
+    case CORBA::tk_char:
+        return target->insert_char(value.get<std::string>().c_str()[0]);
+    case CORBA::tk_string:
+        return target->insert_string(value.get<std::string>().c_str());
+    default:
+        throw DataConversionError(
+            "a type that cannot be given as text (any, union, wide characters, object reference)");
+    }
+}
+
+// A null is as a member that is left out: the target keeps its default.
+void write_value(DynAny_ptr target, const Json& value, const std::string& path) {
+    const CORBA::TypeCode_var type = without_aliases(CORBA::TypeCode_var(target->type()).in());
+    if (value.is_null()) return;
+    if (type->kind() == CORBA::tk_struct) return write_struct(target, type.in(), value, path);
+    if (type->kind() == CORBA::tk_enum) return write_enum(target, type.in(), value, path);
+    if (type->kind() == CORBA::tk_sequence || type->kind() == CORBA::tk_array)
+        return write_list(target, type.in(), value, path);
+    try {
+        write_basic(target, type->kind(), value);
+    } catch (const nlohmann::json::exception&) {
+        throw DataConversionError(path + ": " + value.dump() + " is of another type");
+    } catch (const DataConversionError& error) {
+        throw DataConversionError(path + ": " + error.what());
+    }
+}
+
+bool has_member(CORBA::TypeCode_ptr type, const char* name) {
+    return type->kind() == CORBA::tk_struct && member_index(type, name) < type->member_count();
+}
+
+} // namespace
+
+CdrJsonConverter::CdrJsonConverter(CORBA::ORB_ptr orb) {
+    CORBA::Object_var factory = orb->resolve_initial_references("DynAnyFactory");
+    factory_ = DynamicAny::DynAnyFactory::_narrow(factory.in());
+}
+
+Json CdrJsonConverter::to_json(CORBA::TypeCode_ptr type, const RTC::ByteData& bytes) const {
+    cdrMemoryStream stream(bytes.getBuffer(), static_cast<std::size_t>(bytes.getDataLength()));
+    stream.setByteSwapFlag(bytes.getEndian());
+    try {
+        const OwnedDynAny empty(factory_->create_dyn_any_from_type_code(type));
+        CORBA::Any_var any = empty.get()->to_any();
+        // omniORB's own way to fill an Any from bare CDR. The portable IOP::Codec reads encapsulations, which begin
+        // with an octet for the byte order and therefore align everything behind it differently.
+        any->NP_unmarshalDataOnly(stream);
+        const OwnedDynAny value(factory_->create_dyn_any(any.in()));
+        return read_value(value.get(), type->name());
+    } catch (const CORBA::Exception&) {
+        throw DataConversionError(fmt::format("{} bytes are not a {}", bytes.getDataLength(), type->name()));
+    }
+}
+
+RTC::ByteData CdrJsonConverter::to_cdr(CORBA::TypeCode_ptr type, const Json& value,
+                                       bool little_endian) const {
+    cdrMemoryStream stream;
+    stream.setByteSwapFlag(little_endian);
+    try {
+        const OwnedDynAny target(factory_->create_dyn_any_from_type_code(type));
+        const bool data_only = !value.is_object() && has_member(without_aliases(type).in(), "data");
+        write_value(target.get(), data_only ? Json{{"data", value}} : value, type->name());
+        CORBA::Any_var any = target.get()->to_any();
+        any->NP_marshalDataOnly(stream);
+    } catch (const CORBA::Exception& error) {
+        throw DataConversionError(
+            fmt::format("{} is not a {} ({})", value.dump(), type->name(), error._name()));
+    }
+    RTC::ByteData bytes;
+    bytes.isLittleEndian(little_endian);
+    bytes.writeData(static_cast<const unsigned char*>(stream.bufPtr()), stream.bufSize());
+    return bytes;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The top of the command line: --version, doctor, and completion in bash.
+#include "program.hpp"
+
+#include <fstream>
+#include <tandem_version.hpp>
+
+using tandem::test::Result;
+using tandem::test::tandem_program;
+
+namespace {
+
+/// Runs a script in a bash that has read the completion script which was built with the program.
+std::string in_bash(const std::string& script) {
+    const std::string command = "bash --norc -c 'source " COMPLETION_FILE "; " + script + "' 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    std::string output;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output.push_back(static_cast<char>(c));
+    pclose(pipe);
+    return output;
+}
+
+/// What bash offers when TAB is pressed behind these words; the last one may be incomplete or "".
+std::string completions(const std::vector<std::string>& words) {
+    std::string list;
+    for (const auto& word : words) list += " \"" + word + "\"";
+    return in_bash("COMP_WORDS=(" + list + "); COMP_CWORD=" + std::to_string(words.size() - 1) +
+                   "; _tandem; echo ${COMPREPLY[*]}");
+}
+
+} // namespace
+
+TEST_CASE("tandem --version prints the version of the build") {
+    const Result result = tandem_program({"--version"});
+    CHECK(result.exit_code == 0);
+    CHECK(result.output == std::string("tandem ") + tandem::version + "\n");
+}
+
+TEST_CASE("tandem doctor ends with exit code 1 exactly if a check is an error") {
+    const Result result = tandem_program({"doctor", "--json"});
+    const auto json = result.json();
+    bool any_error = false;
+    for (const auto& check : json["checks"]) {
+        any_error = any_error || check["status"] == "error";
+        CHECK(check.contains("advice") == (check["status"] != "ok"));
+    }
+    CHECK(json["checks"].size() == 20);
+    CHECK(result.exit_code == (any_error ? 1 : 0));
+    CHECK(tandem_program({"doctor"}).says("/dev/shm mount"));
+}
+
+TEST_CASE("the installed completion script is what tandem completion bash prints") {
+    std::ifstream file(COMPLETION_FILE);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    CHECK(text == tandem_program({"completion", "bash"}).output);
+    CHECK(tandem_program({"completion", "tcsh"}).exit_code != 0);
+}
+
+TEST_CASE("bash completes sub-commands and options of tandem") {
+    CHECK(completions({"tandem", "rt"}) == "rtm\n");
+    CHECK(completions({"tandem", ""}) == "doctor opros rtm shm completion\n");
+    CHECK(completions({"tandem", "shm", "st"}) == "stats\n");
+    CHECK(completions({"tandem", "--v"}) == "--version\n");
+    const std::string stats = completions({"tandem", "shm", "stats", "--"});
+    for (const char* option : {"--help", "--generation", "--json", "--watch", "--count"})
+        CHECK_THAT(stats, Catch::Contains(option));
+    CHECK(completions({"tandem", "shm", "stats", "link", "--wa"}) == "--watch\n");
+    CHECK(completions({"tandem", "opros", "--js"}) == "\n");
+}
+
+TEST_CASE("bash completes the values of options of tandem") {
+    CHECK(completions({"tandem", "completion", ""}) == "bash\n");
+    CHECK(completions({"tandem", "rtm", "build", "--standard", "1"}) == "11 14 17\n");
+    CHECK(completions({"tandem", "rtm", "build", "--standard", "=", "2"}) == "20\n");
+    // A value that looks like a sub-command is one only where sub-commands stand.
+    CHECK(completions({"tandem", "rtm", "build", "--timeout", "opros", "--outp"}) == "--output\n");
+    CHECK(completions({"tandem", "shm", "stats", "--watch", ""}) == "\n");
+}
+
+TEST_CASE("bash completes files and folders where tandem expects them") {
+    const std::string folder =
+        in_bash("cd $(mktemp -d); mkdir \"a folder\"; touch \"a file\"; COMP_CWORD=3; "
+                "COMP_WORDS=(tandem opros info a); _tandem; printf \"%s;\" \"${COMPREPLY[@]}\"; "
+                "COMP_WORDS=(tandem opros build a); _tandem; printf \"%s;\" \"${COMPREPLY[@]}\"; "
+                "COMP_CWORD=4; COMP_WORDS=(tandem opros build --output a); _tandem; "
+                "printf \"%s;\" \"${COMPREPLY[@]}\"");
+    CHECK_THAT(folder, Catch::Contains("a file;") && Catch::EndsWith("a folder;a folder;"));
+}
