@@ -86,10 +86,20 @@ class RingWorld {
             require(get(header_.received) == received_, "the reader's counts");
             require(get(header_.bytes_received) == bytes_received_ && get(header_.bytes_sent) == bytes_sent_,
                     "the bytes of both ends");
+            check_all_chunks_are_free();
         } else {
             // A killed writer may have dropped its last record already, for one that it did not finish.
             require(last_ <= accepted_ + 1, "nothing is read that was not published");
             require(last_ >= seen_before, "records stay in order");
+        }
+    }
+    /// With the reader gone, the writer fills every chunk without dropping a record.
+    void check_all_chunks_are_free() {
+        reader.reset();
+        const std::uint64_t dropped = header_.overwritten.load(Order::relaxed);
+        for (std::uint32_t i = 0; i < view_.chunk_count; ++i) {
+            require(write(chunk_bytes), "a chunk is free");
+            require(header_.overwritten.load(Order::relaxed) == dropped, "every chunk has come back");
         }
     }
     void check_writer() {
