@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/suite.hpp"
 
-#include "apps/bench/harness/daemon.hpp"
 #include "apps/bench/harness/forked_children.hpp"
-#include "apps/bench/harness/machine_conditions.hpp"
+#include "apps/bench/machine/daemon.hpp"
+#include "apps/bench/machine/machine_conditions.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #include "proxy/adaptor/adaptor_comp.hpp"
 
 #include "proxy/adaptor/method_check.hpp"
-#include "proxy/link/control.hpp"
+#include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 
 #include <fmt/format.h>

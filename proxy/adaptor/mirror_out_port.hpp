@@ -3,8 +3,8 @@
 
 #include "host/process/log_throttle.hpp"
 #include "proxy/adaptor/cdr_archive.hpp"
-#include "proxy/link/channel.hpp"
-#include "proxy/link/port_table.hpp"
+#include "proxy/link/channel/channel.hpp"
+#include "proxy/link/protocol/port_table.hpp"
 
 #include <DataPortSource.h>
 #include <InputDataPortInterface.h>

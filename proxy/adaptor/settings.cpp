@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/settings.hpp"
 
-#include "proxy/link/positive_number.hpp"
+#include "proxy/link/protocol/positive_number.hpp"
 
 #include <fmt/format.h>
 

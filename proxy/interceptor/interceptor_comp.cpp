@@ -4,7 +4,7 @@
 #include "proxy/interceptor/link_buffer.hpp"
 #include "proxy/interceptor/mirror_in_port.hpp"
 #include "proxy/interceptor/mirror_out_port.hpp"
-#include "proxy/link/control.hpp"
+#include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 #include "proxy/wire/signature_match.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/channel.hpp"
+#include "proxy/link/channel/channel.hpp"
 
 #include <rtm/CdrBufferBase.h>
 #include <rtm/InPlaceBuffer.h>

@@ -3,8 +3,8 @@
 
 #include "host/process/log_throttle.hpp"
 #include "proxy/interceptor/generic_servant.hpp"
-#include "proxy/link/control.hpp"
 #include "proxy/link/link.hpp"
+#include "proxy/link/protocol/control.hpp"
 
 #include <chrono>
 #include <map>

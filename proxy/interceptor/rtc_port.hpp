@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/port_table.hpp"
+#include "proxy/link/protocol/port_table.hpp"
 
 #include <rtm/RTObject.h>
 

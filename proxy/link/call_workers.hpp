@@ -2,7 +2,7 @@
 #pragma once
 
 #include "proxy/link/link_handler.hpp"
-#include "proxy/link/link_state.hpp"
+#include "proxy/link/session/link_state.hpp"
 
 #include <functional>
 #include <mutex>

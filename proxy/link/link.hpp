@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/arrival_notifier.hpp"
 #include "proxy/link/call_workers.hpp"
-#include "proxy/link/channel_table.hpp"
-#include "proxy/link/link_error.hpp"
-#include "proxy/link/link_options.hpp"
-#include "proxy/link/link_state.hpp"
+#include "proxy/link/channel/arrival_notifier.hpp"
+#include "proxy/link/channel/channel_table.hpp"
 #include "proxy/link/peer_supervisor.hpp"
+#include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/session/link_options.hpp"
+#include "proxy/link/session/link_state.hpp"
 #include "proxy/link/task_queue.hpp"
 
 #include <chrono>

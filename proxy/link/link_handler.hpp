@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/port_table.hpp"
-#include "proxy/link/reply.hpp"
-#include "proxy/link/request.hpp"
+#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/protocol/reply.hpp"
+#include "proxy/link/protocol/request.hpp"
 
 #include <string>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/channel_table.hpp"
+#include "proxy/link/channel/channel_table.hpp"
 #include "proxy/link/link_handler.hpp"
-#include "proxy/link/link_state.hpp"
-#include "proxy/link/session_joiner.hpp"
+#include "proxy/link/session/link_state.hpp"
+#include "proxy/link/session/session_joiner.hpp"
 #include "proxy/link/task_queue.hpp"
 #include "shm/segment/watcher.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/wait_mode.hpp"
 
-#include "proxy/link/link_error.hpp"
+#include "proxy/link/protocol/link_error.hpp"
 
 #include <cstdlib>
 #include <string_view>

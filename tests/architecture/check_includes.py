@@ -33,11 +33,14 @@ ALLOWED = {
     "host/rtm/runtime/*": ["host/rtm/runtime/*", "host/plugin", "host/process", "host/rt"],
     "host/rtm/program": ["host/rtm/runtime/*", "host/plugin", "host/process", "host/rt"],
     "proxy/wire": [],
-    "proxy/link": ["proxy/wire", "shm/*", "host/process"],
-    "proxy/adaptor": ["proxy/link", "proxy/wire", "host/process"],
-    "proxy/interceptor": ["proxy/link", "proxy/wire", "host/process"],
+    "proxy/link/protocol": ["proxy/wire", "shm/*"],
+    "proxy/link/session": ["proxy/link/protocol", "proxy/wire", "shm/*", "host/process"],
+    "proxy/link/channel": ["proxy/link/session", "proxy/link/protocol", "proxy/wire", "shm/*", "host/process"],
+    "proxy/link": ["proxy/link/*", "proxy/wire", "shm/*", "host/process"],
+    "proxy/adaptor": ["proxy/link/*", "proxy/wire", "host/process"],
+    "proxy/interceptor": ["proxy/link/*", "proxy/wire", "host/process"],
     "plugins": [],
-    "apps": ["shm/*", "host/process", "host/plugin", "host/rt", "proxy/wire", "proxy/link", "plugins", "apps"],
+    "apps": ["shm/*", "host/process", "host/plugin", "host/rt", "proxy/wire", "proxy/link/*", "plugins", "apps"],
 }
 # The public face of the hosts' rooms: what programs may include of them. Each room's README says what it is for.
 PUBLIC_TO_APPS = {

@@ -2,11 +2,11 @@
 // The least that anybody would write by hand for what tandem/opros and tandem/rtm measure inside one process: a
 // queue behind a mutex, a virtual call, a thread behind a condition variable, a loop on an absolute sleep.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/cores.hpp"
 #include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/harness/tick_budget.hpp"
 #include "apps/bench/harness/time_each_call.hpp"
+#include "apps/bench/machine/cores.hpp"
 
 #include <condition_variable>
 #include <mutex>

@@ -2,8 +2,8 @@
 #include "apps/bench/harness/case_runner.hpp"
 
 #include "apps/bench/harness/forked_children.hpp"
-#include "apps/bench/harness/machine_conditions.hpp"
-#include "apps/bench/harness/machine_load.hpp"
+#include "apps/bench/machine/machine_conditions.hpp"
+#include "apps/bench/machine/machine_load.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs one case in fresh processes.
 #pragma once
-#include "apps/bench/harness/cores.hpp"
 #include "apps/bench/harness/session.hpp"
+#include "apps/bench/machine/cores.hpp"
 
 #include <optional>
 #include <string>

@@ -3,8 +3,8 @@
 // where its samples go.
 #pragma once
 #include "apps/bench/harness/case.hpp"
-#include "apps/bench/harness/clock.hpp"
 #include "apps/bench/harness/tick_record.hpp"
+#include "apps/bench/machine/clock.hpp"
 
 #include <atomic>
 #include <cstdint>

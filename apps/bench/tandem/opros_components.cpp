@@ -2,11 +2,11 @@
 // What OPRoS components of one process cost each other: pushes, calls, events, and the lateness of a 1 ms period,
 // as the engine connects and runs them. Each has its hand-written counterpart in baseline/hand_written.cpp.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/cores.hpp"
 #include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/harness/tick_budget.hpp"
 #include "apps/bench/harness/time_each_call.hpp"
+#include "apps/bench/machine/cores.hpp"
 #include "apps/bench/tandem/opros/BenchParts.hpp"
 
 #include "host/opros/engine/application.hpp"

@@ -2,7 +2,7 @@
 // AdaptorComp, driven as a host drives it, against a peer that is only a link.
 #include "chair_service.hpp"
 #include "proxy/adaptor/adaptor_comp.hpp"
-#include "proxy/link/control.hpp"
+#include "proxy/link/protocol/control.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/link_error.hpp"
-#include "proxy/link/port_table.hpp"
-#include "proxy/link/request.hpp"
+#include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/protocol/request.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -3,7 +3,7 @@
 // its port, and the message carries the clock's readings at sending and receiving. Both processes read the same
 // clock of the machine, so that each direction is measured on its own.
 #pragma once
-#include "apps/bench/harness/clock.hpp"
+#include "apps/bench/machine/clock.hpp"
 
 #include <array>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench/harness/machine_load.hpp"
+#include "apps/bench/machine/machine_load.hpp"
 
 #include <algorithm>
 #include <fstream>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/arrival_notifier.hpp"
+#include "proxy/link/channel/arrival_notifier.hpp"
 
 #include <chrono>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/channel_table.hpp"
+#include "proxy/link/channel/channel_table.hpp"
 
-#include "proxy/link/link_error.hpp"
-#include "proxy/link/link_session.hpp"
+#include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/session/link_session.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench/harness/machine_conditions.hpp"
+#include "apps/bench/machine/machine_conditions.hpp"
 
 #include "apps/bench/harness/forked_children.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/channel.hpp"
+#include "proxy/link/channel/channel.hpp"
 
 #include "shm/segment/segment_file.hpp"
 

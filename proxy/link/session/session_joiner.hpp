@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/link_options.hpp"
-#include "proxy/link/link_session.hpp"
-#include "proxy/link/port_table.hpp"
+#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/session/link_options.hpp"
+#include "proxy/link/session/link_session.hpp"
 
 #include <cstddef>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/ring_plan.hpp"
+#include "proxy/link/session/ring_plan.hpp"
 
 #include "proxy/wire/type.hpp"
 #include "shm/os/error.hpp"

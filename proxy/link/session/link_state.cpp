@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/link_state.hpp"
+#include "proxy/link/session/link_state.hpp"
 
 #include <utility>
 

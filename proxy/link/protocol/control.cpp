@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/control.hpp"
+#include "proxy/link/protocol/control.hpp"
 
-#include "proxy/link/link_error.hpp"
-#include "proxy/link/service_operations.hpp"
+#include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/protocol/service_operations.hpp"
 
 namespace tandem::link::control {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/channel_table.hpp"
-#include "proxy/link/link_state.hpp"
+#include "proxy/link/channel/channel_table.hpp"
+#include "proxy/link/session/link_state.hpp"
 #include "shm/wait/wait_options.hpp"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/channel.hpp"
-#include "proxy/link/port_table.hpp"
+#include "proxy/link/channel/channel.hpp"
+#include "proxy/link/protocol/port_table.hpp"
 
 #include <map>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/link_session.hpp"
+#include "proxy/link/session/link_session.hpp"
 
 #include <atomic>
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/request.hpp"
+#include "proxy/link/protocol/request.hpp"
 
 #include "proxy/wire/cdr.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench/harness/cores.hpp"
+#include "apps/bench/machine/cores.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench/harness/clock.hpp"
+#include "apps/bench/machine/clock.hpp"
 
 #include <fmt/format.h>
 

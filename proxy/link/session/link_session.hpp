@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/port_table.hpp"
+#include "proxy/link/protocol/port_table.hpp"
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
 #include "shm/segment.hpp"

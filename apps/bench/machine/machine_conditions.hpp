@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "apps/bench/harness/case.hpp"
-#include "apps/bench/harness/cores.hpp"
+#include "apps/bench/machine/cores.hpp"
 #include "host/process/child_process.hpp"
 
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/ring_plan.hpp"
+#include "proxy/link/session/ring_plan.hpp"
 #include "shm/wait/wait_options.hpp"
 
 #include <cstddef>

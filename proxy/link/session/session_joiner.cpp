@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/session_joiner.hpp"
+#include "proxy/link/session/session_joiner.hpp"
 
-#include "proxy/link/ring_plan.hpp"
+#include "proxy/link/session/ring_plan.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/link/link_session.hpp"
+#include "proxy/link/session/link_session.hpp"
 
-#include "proxy/link/link_error.hpp"
+#include "proxy/link/protocol/link_error.hpp"
 
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench/harness/daemon.hpp"
+#include "apps/bench/machine/daemon.hpp"
 
 #include "host/process/child_process.hpp"
 
