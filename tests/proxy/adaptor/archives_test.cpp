@@ -46,7 +46,7 @@ inline void load_this(opros::archive::iarchive& ar, Scan& scan) {
 namespace {
 template <class T>
 std::string signature() {
-    return adaptor::signature_of(opros_any(T()));
+    return adaptor::value_signature(opros_any(T()));
 }
 
 template <class T>

@@ -53,7 +53,7 @@ class Forward : public CallTarget {
                                  wire::parse_signature(operation.result), signature};
         }
     }
-    const Operation* find(const char* name) override {
+    const Operation* find_operation(const char* name) override {
         const auto at = operations_.find(name);
         return at == operations_.end() ? nullptr : &at->second;
     }

@@ -77,9 +77,9 @@ TEST_CASE("what is written is what the ORB writes, with the time apart or not") 
     const bool timed = GENERATE(true, false);
     std::vector<std::byte> body(wanted.size() - (timed ? head : 0));
     StampedOutStream out(body, timed);
-    CHECK_FALSE(out.full());
+    CHECK_FALSE(out.is_complete());
     message >>= out;
-    CHECK(out.full());
+    CHECK(out.is_complete());
     CHECK(std::equal(body.begin(), body.end(), wanted.end() - static_cast<std::ptrdiff_t>(body.size())));
     if (timed) CHECK(out.stamp() == wire::pack_time(1700000000, 5));
 }
