@@ -35,7 +35,9 @@ void list_context(CosNaming::NamingContext_ptr context, const std::string& path,
     CosNaming::BindingList_var list;
     CosNaming::BindingIterator_var more;
     context->list(10000, list.out(), more.out());
-    if (!CORBA::is_nil(more.in())) more->destroy(); // beyond 10000 names nobody reads the list
+    // Only the first 10000 names are listed. The iterator over the rest is an object of the name server, which keeps it
+    // until it is destroyed.
+    if (!CORBA::is_nil(more.in())) more->destroy();
     for (CORBA::ULong i = 0; i < list->length(); ++i) {
         const CosNaming::NameComponent& last = list[i].binding_name[0];
         const std::string kind(last.kind);

@@ -69,8 +69,9 @@ Json read_struct(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& 
 
 std::string read_enum(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& path) {
     DynamicAny::DynEnum_var dyn_enum = DynamicAny::DynEnum::_narrow(value);
+    // omniORB refuses a number that is not a member's when it decodes it: get_as_ulong() then throws BAD_PARAM.
     const CORBA::ULong number = dyn_enum->get_as_ulong();
-    // The number comes from the sender as it is: omniORB does not compare it with the members.
+    // Checked again before it is used as an index: member_name() would throw an error without the path.
     if (number >= type->member_count())
         throw DataConversionError(fmt::format("{}: {} is not a value of {}", path, number, type->name()));
     return type->member_name(number);
