@@ -17,7 +17,7 @@ struct Flags {
 };
 
 JoinOptions soon_late() {
-    auto options = small();
+    auto options = small(std::size_t{8} << 20);
     options.late_after = 20ms;
     return options;
 }
@@ -40,7 +40,7 @@ TEST_CASE("a writer that was stopped goes on without a gap") {
     Link link;
     Shared<Flags> flags;
     auto first = join(link, Side::first, soon_late());
-    RingReader reader(first->add_ring("r", {.writer = Side::second, .max_record = 8, .capacity = 1 << 20}));
+    RingReader reader(first->add_ring("r", {.writer = Side::second, .max_record = 8, .capacity = 4 << 20}));
     first->publish();
     // The ring holds far more than the writer sends between two looks of the reader, so nothing is dropped.
     Child writing([&] {
@@ -49,7 +49,7 @@ TEST_CASE("a writer that was stopped goes on without a gap") {
         for (std::uint64_t number = 1; !flags->no_more; ++number) {
             second->heartbeat();
             writer.write(std::as_bytes(std::span(&number, 1)), number);
-            if (number % 64 == 0) std::this_thread::sleep_for(100us);
+            if (number % 64 == 0) std::this_thread::sleep_for(500us);
         }
         flags->counted = writer.counters().sent;
         flags->done = true;
