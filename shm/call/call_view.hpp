@@ -58,16 +58,16 @@ struct BasicCallView {
     // gives up and calls again does so while a worker may still read the arguments of the call before (which
     // the worker notices by its compare-and-swap, call_worker.hpp), and a hostile peer does so at any time.
     void copy_arguments_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
-        copy_in(slots[slot].request.arguments, arguments_in_line, argument_room, slot, from, bytes);
+        copy_to_slot(slots[slot].request.arguments, arguments_in_line, argument_room, slot, from, bytes);
     }
     void copy_arguments_out(std::uint32_t slot, void* to, std::size_t bytes) const {
-        copy_out(slots[slot].request.arguments, argument_room, slot, to, bytes);
+        copy_from_slot(slots[slot].request.arguments, argument_room, slot, to, bytes);
     }
     void copy_results_in(std::uint32_t slot, const void* from, std::size_t bytes) const {
-        copy_in(slots[slot].reply.results, results_in_line, result_room, slot, from, bytes);
+        copy_to_slot(slots[slot].reply.results, results_in_line, result_room, slot, from, bytes);
     }
     void copy_results_out(std::uint32_t slot, void* to, std::size_t bytes) const {
-        copy_out(slots[slot].reply.results, result_room, slot, to, bytes);
+        copy_from_slot(slots[slot].reply.results, result_room, slot, to, bytes);
     }
 
   private:
@@ -81,8 +81,8 @@ struct BasicCallView {
     static constexpr std::size_t results_in_line =
         line - (offsetof(layout::CallSlot, reply.results) - offsetof(layout::CallSlot, reply));
 
-    void copy_in(typename A::Cell* cells, std::size_t in_line, std::size_t room, std::uint32_t slot,
-                 const void* from, std::size_t bytes) const {
+    void copy_to_slot(typename A::Cell* cells, std::size_t in_line, std::size_t room, std::uint32_t slot,
+                      const void* from, std::size_t bytes) const {
         const auto* at = static_cast<const std::byte*>(from);
         if (bytes > room) A::copy_atomic_to_shared(overflow_of(slot), at + room, bytes - room);
         if (bytes > in_line)
@@ -90,8 +90,8 @@ struct BasicCallView {
                                      std::min(bytes, room) - in_line);
         A::copy_atomic_to_shared(cells, at, std::min(bytes, in_line));
     }
-    void copy_out(const typename A::Cell* cells, std::size_t room, std::uint32_t slot, void* to,
-                  std::size_t bytes) const {
+    void copy_from_slot(const typename A::Cell* cells, std::size_t room, std::uint32_t slot, void* to,
+                        std::size_t bytes) const {
         A::copy_atomic_from_shared(to, cells, std::min(bytes, room));
         if (bytes > room)
             A::copy_atomic_from_shared(static_cast<std::byte*>(to) + room, overflow_of(slot), bytes - room);

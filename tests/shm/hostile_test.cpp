@@ -67,7 +67,7 @@ TEST_CASE("a damaged segment header ends in an error or in a sound segment") {
             auto first = join(link, Side::first, small(4096));
             first->add_blob("b", 100);
             first->publish();
-            // The header is the page before the halves; a hostile peer reaches it through its own mapping.
+            // The header is the page before the side headers; a hostile peer reaches it through its own mapping.
             const FileDescriptor file = open_segment(first->path(), access_of_this_process(""));
             REQUIRE(pwrite(file.get(), &value, 1, static_cast<off_t>(at)) == 1);
             try {

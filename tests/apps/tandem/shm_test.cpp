@@ -94,7 +94,7 @@ TEST_CASE("a segment of another user is listed and neither read nor removed") {
     CHECK(std::filesystem::exists(path));
 }
 
-TEST_CASE("info shows every object of both halves") {
+TEST_CASE("info shows the objects of both sides") {
     const Pair pair;
     pair.first->add_ring("scan", {.max_record = 1000, .capacity = 4096});
     pair.second->add_ring("stick", {.writer = Side::second, .max_record = 100, .capacity = 4096});

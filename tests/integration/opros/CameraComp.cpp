@@ -14,7 +14,7 @@ class CameraComp : public Component {
 
     ReturnType onExecute() override {
         while (const std::unique_ptr<opros_any> any{back_.pop()}) look_at(*back_.getContentPointer(*any));
-        if (taken_ == returned_ || ++cycles_ == patience) take();
+        if (taken_ == returned_ || ++cycles_ == max_wait_cycles) take();
         return OPROS_SUCCESS;
     }
 
@@ -46,7 +46,7 @@ class CameraComp : public Component {
                   << (back == last_ ? "whole" : "broken") << std::endl;
     }
 
-    static constexpr int patience = 100; // cycles, for a picture that is lost while there is no peer
+    static constexpr int max_wait_cycles = 100; // cycles, for a picture that is lost while there is no peer
     int cycles_ = 0;
     std::size_t taken_ = 0, returned_ = 0;
     Picture last_;

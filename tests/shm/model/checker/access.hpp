@@ -37,8 +37,8 @@ inline std::uint64_t Execution::look(std::uint32_t word, Order order, Index& rea
     // Stores come to be seen some day: nobody reads the same old one again and again.
     Repeat& repeat = me().repeats[word];
     const std::size_t allowed = oldest;
-    if (me().pauses >= settings_.patience || me().hurry != 0) oldest = newest;
-    if (repeat.index >= oldest && repeat.index < newest && repeat.count >= settings_.patience)
+    if (me().pauses >= settings_.max_stale_reads || me().hurry != 0) oldest = newest;
+    if (repeat.index >= oldest && repeat.index < newest && repeat.count >= settings_.max_stale_reads)
         oldest = repeat.index + 1U;
     if (oldest != allowed && explores())
         reduction_.turn_round(choices_, turn_, {Kind::load, order, word}, true);

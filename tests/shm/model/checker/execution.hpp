@@ -13,8 +13,9 @@ struct Ended {};
 
 /// What an execution may do besides running every step of every thread.
 struct Settings {
-    unsigned lapses = 0;   ///< how often each thread's deadlines may pass although others could still run
-    unsigned patience = 2; ///< how often in a row a thread reads one store although there is a newer one
+    unsigned lapses = 0; ///< how often each thread's deadlines may pass although others could still run
+    unsigned max_stale_reads =
+        2; ///< how often in a row a thread reads one store although there is a newer one
     std::size_t step_limit = 20000;
     bool ends_in_sleep = false; ///< all threads asleep for ever is not a failure
     bool reduced = true;        ///< false: every order of every step, to check the reduction itself

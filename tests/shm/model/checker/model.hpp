@@ -10,7 +10,7 @@
 //     fiber           a thread of a scenario
 //     memory          which stores a load may read
 //     operation       one step, and which steps depend on each other
-//     execution       the threads; its two halves are scheduler and access
+//     execution       the threads; it consists of scheduler and access
 //     choices         the path through a search
 //     reduction       what a search may leave out
 //     search          explore()
@@ -35,7 +35,7 @@
 //   no weaker ones.
 // - Plain copies (copy_plain_from_shared, copy_plain_to_shared) must be ordered with all other accesses: a data
 //   race is a failure.
-// - Stores become visible in the end: the same old store is read at most Settings::patience times in a row, and
+// - Stores become visible in the end: the same old store is read at most Settings::max_stale_reads times in a row, and
 //   from the third round of a polling loop on only the newest is read.
 // - futex_wait compares and enqueues in one step and reads the word as a seq_cst load does; a wake-up makes what
 //   the waker knows of that word visible to the sleeper. Sleepers are woken in the order of their threads. All

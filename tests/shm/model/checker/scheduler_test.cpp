@@ -15,7 +15,7 @@ constexpr Order relaxed = Order::relaxed, acquire = Order::acquire, release = Or
                 seq_cst = Order::seq_cst;
 constexpr std::uint64_t never = ~std::uint64_t{0};
 
-/// The protocol of shm/futex.hpp.
+/// The protocol of shm/os/futex.hpp.
 Outcome sleeper_and_waker(Order announce, Order look, bool wakes, std::optional<std::uint64_t> seed = {}) {
     Effort effort;
     effort.seed = seed;
