@@ -11,6 +11,7 @@ namespace tandem::command {
 
 using Action = std::function<int()>; ///< Returns the program's exit code.
 
+// `tandem` and `selected` must outlive the parsing: the callbacks of the sub-commands keep references to them.
 void add_opros_commands(CLI::App& tandem, Action& selected);
 void add_rtm_commands(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     // This program is also the child process in which it tries out component libraries: then this call ends it.
     tandem::plugin::serve_probe(argc, argv, tandem::command::opros_probe_tasks());
     CLI::App app{"Inspects, builds and controls what runs on Tandem hosts on this machine.", "tandem"};
+    // Without one there is nothing to do: CLI11 then reports an error that names --help.
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("tandem ") + tandem::version);
     app.footer("tandem COMMAND --help says more about a command. New here? Start with tandem doctor.");

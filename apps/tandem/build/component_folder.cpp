@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Flushed before it is checked: a full disk shows only when the bytes leave the buffer.
 void write_file(const fs::path& file, const std::string& text) {
     std::ofstream stream(file);
     stream << text << std::flush;
@@ -42,6 +43,7 @@ const std::set<std::string_view> cpp_keywords{
 
 void require_component_name(const std::string& name) {
     const auto letter = [](unsigned char c) { return c < 128 && (std::isalpha(c) || c == '_'); };
+    // ASCII only, although C++ allows more: the name is also that of files, a library and a CMake target.
     bool valid = !name.empty() && name.size() <= 100 && letter(static_cast<unsigned char>(name[0]));
     for (const unsigned char c : name) valid = valid && (letter(c) || (c < 128 && std::isdigit(c)));
     if (!valid)

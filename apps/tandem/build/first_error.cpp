@@ -16,6 +16,7 @@ std::string cmake_error(std::string text, std::istream& lines) {
 
 } // namespace
 
+// The first one, because later errors of a compiler are mostly consequences of it.
 std::string first_error(const std::string& output) {
     std::istringstream lines(output);
     std::string line, last;

@@ -148,6 +148,7 @@ void require_folder(const fs::path& folder) {
 }
 
 // CMake configures anew each time: a second build in a kept folder compiles only what has changed.
+// Everything is made in the build folder; the output folder is touched only after the build has succeeded.
 fs::path build_plugin(const std::string& model, const std::string& name, const PluginBuildOptions& options,
                       const fs::path& default_folder) {
     for (const auto& dir : options.include_dirs) require_folder(dir);
@@ -162,10 +163,12 @@ fs::path build_plugin(const std::string& model, const std::string& name, const P
     run_cmake({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                "-DTandem_DIR=" + cmake_package_folder().string()},
               options.timeout_s, name, "cannot be set up");
+    // Two steps, each with its own time limit and its own message.
     run_cmake({"cmake", "--build", bin, "--parallel"}, options.timeout_s, name, "does not compile");
     fs::create_directories(output);
     const fs::path library = output / (name + ".so");
     replace_library(cmake_output / library.filename(), library);
+    // tandem_add_opros_component() copies the profiles beside the library: another folder needs them, too.
     if (!options.output.empty())
         for (const auto& entry : fs::directory_iterator(cmake_output))
             if (entry.path().filename() != library.filename())

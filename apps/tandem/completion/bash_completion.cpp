@@ -45,9 +45,11 @@ struct Branches {
     std::string values;  ///< "command option": completes the option's value
     std::string words;   ///< "command": its options, sub-commands and positional arguments
 
+    /// `path` is the command with the commands above it: "tandem shm info".
     void add(const CLI::App& app, const std::string& path) {
         std::string options, subcommands, positional;
         for (const CLI::Option* option : app.get_options()) {
+            // Only the first positional argument that can be completed: the script does not count arguments.
             if (option->get_positional() && positional.empty()) positional = candidates(*option);
             for (const auto& name : names_of(*option)) {
                 options += (options.empty() ? "" : " ") + name;

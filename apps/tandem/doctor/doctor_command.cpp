@@ -29,6 +29,7 @@ std::string format_results(const std::vector<doctor::CheckResult>& results) {
     return table.text() + (advice.empty() ? "" : "\nWhat to do:\n" + advice);
 }
 
+// "advice" exists for warnings and errors only.
 nlohmann::json results_json(const std::vector<doctor::CheckResult>& results) {
     auto checks = nlohmann::json::array();
     for (const auto& result : results) {
@@ -45,6 +46,7 @@ int run_doctor(bool json) {
         print_json(results_json(results));
     else
         print_text(format_results(results));
+    // Warnings do not fail: a script that sets a machine up may run the doctor as its last step.
     const bool any_error = std::any_of(results.begin(), results.end(), [](const auto& result) {
         return result.status == CheckStatus::error;
     });

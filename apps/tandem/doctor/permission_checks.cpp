@@ -24,6 +24,7 @@ std::optional<long> number_in(const Machine& machine, const std::string& file) {
     return value;
 }
 
+// Each is said by two checks: of the limit, and of what it prevents.
 constexpr auto raise_memlock =
     "'@realtime - memlock unlimited' in /etc/security/limits.d, or LimitMEMLOCK=infinity in the unit";
 constexpr auto raise_rtprio =

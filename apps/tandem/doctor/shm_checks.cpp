@@ -46,6 +46,7 @@ CheckResult check_shm_mount(const Machine& machine) {
     return ok(name, "tmpfs");
 }
 
+// Free space, not size: other programs and dead hosts' segments take room from new links.
 CheckResult check_shm_space(const Machine& machine) {
     // 16 MiB hold a few links with small messages; images take 8 MiB for each one in transit.
     constexpr std::uint64_t mib = 1 << 20, one_link = 16 * mib, comfortable = 256 * mib;
@@ -72,6 +73,7 @@ CheckResult check_huge_pages(const Machine& machine) {
     if (!choices)
         return warning(name, "not in this kernel",
                        "large payloads cost more TLB misses; use a kernel with CONFIG_TRANSPARENT_HUGEPAGE");
+    // The kernel marks the value in use: "always within_size advise [never] deny force".
     const std::string global = bracketed_word(*choices);
     if (global == "force") return ok(name, "forced for all shared memory");
     if (global == "deny")

@@ -60,6 +60,7 @@ CheckResult check_core_count(const Machine& machine) {
         "the two hosts take turns: let them wait in the kernel and not spin, or give them two cores");
 }
 
+// isolcpus= takes cores out of the scheduler's load balancing: only threads that are pinned there run on them.
 CheckResult check_isolated_cores(const Machine& machine) {
     const std::string name = "isolated cores", cores = core_list(machine, "/sys/devices/system/cpu/isolated");
     if (!cores.empty()) return ok(name, cores);
@@ -68,6 +69,7 @@ CheckResult check_isolated_cores(const Machine& machine) {
         "other processes may run on the cores of the ticks: boot with isolcpus=LIST and pin the hosts there");
 }
 
+// nohz_full= stops the scheduler's periodic tick on a core while one thread alone runs there.
 CheckResult check_nohz_full(const Machine& machine) {
     const std::string name = "cores without timer ticks",
                       cores = core_list(machine, "/sys/devices/system/cpu/nohz_full");

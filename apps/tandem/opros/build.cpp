@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 std::vector<engine::ComponentProfile> find_component_profiles(const fs::path& folder) {
     std::vector<engine::ComponentProfile> found;
     for (const char* subfolder : {"", "profile", "profiles"}) {
+        // A subfolder that does not exist has no profiles: the iterator is then at its end.
         std::error_code ignored;
         for (const auto& entry : fs::directory_iterator(folder / subfolder, ignored)) {
             if (entry.path().extension() != ".xml") continue;
@@ -56,6 +57,7 @@ std::string library_stem(const engine::ComponentProfile& profile) {
     const auto allowed = [](unsigned char c) {
         return c < 128 && (std::isalnum(c) || std::strchr("_-+.", c) != nullptr);
     };
+    // The stem becomes a CMake target and the name of a file.
     if (stem.empty() || !std::all_of(stem.begin(), stem.end(), allowed))
         throw engine::SetupError(profile.library_location,
                                  "no library can be built as '" + replace_nonprintable(stem) +
@@ -69,6 +71,7 @@ std::string library_stem(const engine::ComponentProfile& profile) {
 int opros_build(const OprosBuildOptions& options) {
     require_folder(options.folder);
     const auto profile = select_profile(options);
+    // Beside the profile, where opros_host looks first.
     const auto library =
         build_plugin("opros", library_stem(profile), options, profile.location.file.parent_path());
     print_text(library.string() + "\n");

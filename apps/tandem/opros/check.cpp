@@ -35,8 +35,10 @@ class ErrorList {
 /// Where a component does not fit its profile. Throws if there is no component that could be connected.
 std::vector<std::string> check_component(const ApplicationProfile& application,
                                          const engine::Subcomponent& entry, const InspectOptions& options) {
+    // The application's folder comes first, as in opros_host.
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.location.file.parent_path());
+    // flatten_composites() has already found the profiles of what it has taken out of a composite.
     const auto file = entry.file.empty()
                           ? engine::find_component_profile(application, entry, options.plugin_dirs)
                           : entry.file;
@@ -48,6 +50,7 @@ std::vector<std::string> check_component(const ApplicationProfile& application,
                                            options.initialize);
         for (std::string& each : find_type_profile_errors(profile)) errors.push_back(std::move(each));
         return errors;
+        // A library's own errors do not say which profile names it: the line of <library_name> is put before them.
     } catch (const plugin::Error& error) {
         throw engine::SetupError(profile.library_location, error.what());
     }
@@ -59,6 +62,7 @@ std::string count_text(std::size_t count, const char* what) {
 }
 
 // The last line of the text is a summary, also of an application without errors.
+// Returns the exit code: 1 if there is an error.
 int print_report(const ApplicationProfile& application, const ErrorList& errors, bool as_json) {
     const int code = errors.lines.empty() ? 0 : 1;
     if (as_json) {

@@ -13,6 +13,7 @@
 namespace tandem::command {
 
 /// Of info and check.
+/// Component code runs in a child process only: its crash, exit or hang becomes an error of one line.
 struct InspectOptions {
     std::filesystem::path file;
     std::vector<std::filesystem::path> plugin_dirs;
@@ -26,11 +27,14 @@ int opros_info(const InspectOptions& options);
 int opros_check(const InspectOptions& options);
 
 /// Creates the folder parent/name with a component that builds.
+/// Prints the next two commands. Throws if the folder exists or the name clashes with C++ or the OPRoS API.
 int opros_new(const std::string& name, const std::filesystem::path& parent);
 
+/// Of build: the common options, and the profile.
 struct OprosBuildOptions : PluginBuildOptions {
     std::string profile; ///< component profile to use, if the folder has several
 };
+/// Builds a component's library and prints its path. Throws if the folder has no profile, or several and none is named.
 int opros_build(const OprosBuildOptions& options);
 
 /// What a child process of this program does for info and check, see probe_tasks.hpp.

@@ -5,6 +5,7 @@ namespace tandem::command {
 namespace {
 
 // @NAME@ stands for the component's name, see expand_template().
+// With all callbacks of the life cycle and of execution, so that an author sees them without a manual.
 constexpr char header[] = R"(#ifndef @NAME@_H_
 #define @NAME@_H_
 
@@ -85,6 +86,7 @@ void releaseComponent(Component* component) { delete component; }
 }
 )";
 
+// The elements that the host needs, and those that an author most probably changes.
 constexpr char profile[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <component_profile>
   <name>@NAME@</name>
@@ -118,6 +120,7 @@ constexpr char profile[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </component_profile>
 )";
 
+// The component is connected with itself: the application runs without a second component.
 constexpr char application[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <package_profile>
   <name>@NAME@App</name>
@@ -137,6 +140,7 @@ constexpr char application[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </package_profile>
 )";
 
+// For projects that have more than components; tandem opros build does not read it.
 constexpr char build[] = R"(cmake_minimum_required(VERSION 3.16)
 project(@NAME@ CXX)
 find_package(Tandem REQUIRED COMPONENTS opros)

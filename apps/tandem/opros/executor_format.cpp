@@ -27,6 +27,7 @@ std::string format_executor(const engine::ComponentProfile& profile) {
     const auto ms = [](std::chrono::nanoseconds time) {
         return fmt::format("{} ms", static_cast<double>(time.count()) / 1e6);
     };
+    // Zero and the default policy are what a profile has that does not name them: they would only lengthen the line.
     if (profile.period.count() != 0) text += ", every " + ms(profile.period);
     if (profile.phase.count() != 0) text += ", phase " + ms(profile.phase);
     if (profile.priority != 0) text += fmt::format(", priority {}", profile.priority);

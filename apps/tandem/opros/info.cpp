@@ -48,9 +48,11 @@ std::optional<engine::ComponentProfile> find_profile_beside(const fs::path& libr
 }
 
 // FILE is either a profile, whose library is searched for, or a library, whose profile may lie beside it.
+// With a library given, a profile with errors is as none: the library can be shown without it.
 InspectedComponent find_component(const InspectOptions& options) {
     if (options.file.empty())
         throw std::runtime_error("FILE is empty, expected a component library or profile");
+    // The extension tells them apart: libraries may have any other.
     if (options.file.extension() != ".xml") return {options.file, find_profile_beside(options.file)};
     auto profile = engine::read_component_profile(options.file);
     return {engine::find_component_library(profile, options.plugin_dirs), std::move(profile)};
@@ -69,6 +71,7 @@ json inspect(const InspectedComponent& found, const InspectOptions& options) {
     engine::require_opros_component(found.library);
     json info =
         describe_in_child(found.library, found.profile ? found.profile->location.file : fs::path(), options);
+    // Absolute paths: the JSON may be read in another folder. null for what only a profile knows.
     info["library"] = fs::absolute(found.library).lexically_normal().string();
     info["name"] = found.profile ? found.profile->name : found.library.stem().string();
     info["profile"] =
@@ -88,6 +91,7 @@ std::string format_component(const json& info, const InspectedComponent& found,
             "\n";
     if (found.profile) text += "executor   " + format_executor(*found.profile) + "\n";
     text += "\n" + format_ports(info["ports"]);
+    // A component without ports is rare: it more probably creates them in onInitialize.
     if (info["ports"].empty() && !options.initialize)
         text +=
             "ports that onInitialize creates are shown with --initialize, which runs it in a child process\n";

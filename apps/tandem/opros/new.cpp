@@ -27,6 +27,7 @@ int opros_new(const std::string& name, const std::filesystem::path& parent) {
                                  "' cannot be the name of a component, the OPRoS API has one of it");
     const auto folder = parent / name;
     create_component_folder(folder, opros_component_template(name));
+    // The output names the next two commands, ready to be copied.
     const std::string shown = folder.lexically_normal().string();
     print_text(fmt::format("{0}: component {1}, its profile, and an application of it. Next:\n"
                            "  tandem opros build {0}\n"

@@ -9,12 +9,14 @@
 namespace tandem::command {
 namespace {
 
+// `brief` is its line in the list of commands, `details` the text below its options in --help.
 CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details) {
     CLI::App* command = parent.add_subcommand(name, brief);
     command->footer(details);
     return command;
 }
 
+// `what` describes FILE, which is the only difference between the two commands.
 void add_inspect_options(CLI::App* command, InspectOptions& options, const char* what) {
     command->add_option("FILE", options.file, what)->required();
     command->add_option("--plugin-path", options.plugin_dirs, "folder with component libraries (repeatable)")
@@ -34,6 +36,7 @@ void append_default_dirs(InspectOptions& options) {
 }
 
 void add_info_and_check(CLI::App& opros, Action& selected) {
+    // Shared by info and check: only one of them is parsed in a run.
     auto options = std::make_shared<InspectOptions>();
     CLI::App* info = add_command(
         opros, "info", "Shows a component: ports with types, services, properties, executor",

@@ -58,6 +58,7 @@ std::string join_names(const json& ports, const std::string& kind) {
 std::string describe_mismatch(const ProfilePort& profile_port, const json& ports, bool initialized) {
     const std::string what = profile_port.kind + " port '" + profile_port.name + "' ";
     const json* real = find_port(ports, profile_port.kind, profile_port.name);
+    // Without onInitialize this may be no error: the message says how to find out.
     if (!real)
         return what + "is not in the component, its " + profile_port.kind +
                " ports are: " + join_names(ports, profile_port.kind) +
@@ -66,6 +67,7 @@ std::string describe_mismatch(const ProfilePort& profile_port, const json& ports
     if (kind != profile_port.kind) return what + "is of kind " + kind + " in the component";
     if (direction != profile_port.direction)
         return what + "is " + direction + " in the component, not " + profile_port.direction;
+    // A type is compared only if both give one: a port may carry any type, and a profile may leave the type out.
     if (profile_port.type.empty() || !real->contains("type") || (*real)["type"].is_null()) return "";
     const std::string type = (*real)["type"];
     if (normalized_type(type) == normalized_type(profile_port.type)) return "";

@@ -33,6 +33,7 @@ json make_request(const InspectOptions& options) {
     return request;
 }
 
+// The reverse of make_request(). [child process]
 std::vector<std::filesystem::path> plugin_dirs(const json& request) {
     std::vector<std::filesystem::path> dirs;
     for (const auto& dir : request["plugin_dirs"]) dirs.emplace_back(dir.get<std::string>());
@@ -54,6 +55,7 @@ void initialize(Component& component, const std::string& name, plugin::ProbeRepo
 json describe_in_child(const std::filesystem::path& library, const std::filesystem::path& profile,
                        const InspectOptions& options) {
     json request = make_request(options);
+    // A file and not its content: the child reads it as the host does, relative references included.
     request["profile"] = profile.string();
     return json::parse(
         plugin::run_probe(make_probe(options, "library"), describe_task, library, {request.dump()}));
@@ -82,6 +84,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
     if (request["initialize"]) initialize(*loaded.component, task.library, report);
     report.begin_stage("its ports");
     json description = describe_component(*loaded.component);
+    // The host sets these for the component's use; they are not properties of the profile.
     for (const char* name : engine::folder_property_names) description["properties"].erase(name);
     if (library->has("getVersion")) {
         report.begin_stage("getVersion()");

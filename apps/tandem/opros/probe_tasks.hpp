@@ -27,6 +27,8 @@ std::vector<std::string> check_connections_in_child(const std::vector<std::strin
                                                     const InspectOptions& options);
 
 /// The tasks themselves. [child process]
+/// They name each stage by report.begin_stage() before it runs and give their result to report.finish(). What they
+/// throw is reported to the parent by serve_probe().
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report);
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report);
 

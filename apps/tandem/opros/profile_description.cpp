@@ -63,6 +63,7 @@ class ExportedPorts {
         const auto flat = engine::flatten_composites(one, options_.plugin_dirs);
         const engine::ConnectionProfile& resolved = flat.connections.front();
         if (!resolved.error.empty()) throw engine::SetupError(exported.location, resolved.error);
+        // The connection's source names the component and the port that the exported port leads to.
         for (const auto& entry : flat.subcomponents)
             if (entry.name == resolved.source.component)
                 for (json port : ports_of(entry))
@@ -108,6 +109,7 @@ json describe_service_types(const std::filesystem::path& file) {
     for (const auto& type : engine::read_service_type_profile(file)) {
         json methods = json::array();
         for (const auto& method : type.methods) {
+            // Names of parameters are optional in the profile.
             std::string parameters;
             for (const auto& each : method.parameters)
                 parameters +=
@@ -121,6 +123,7 @@ json describe_service_types(const std::filesystem::path& file) {
     return {{"kind", "service type"}, {"types", types}};
 }
 
+// Fields in the order of the profile, with their default values as text.
 json describe_data_types(const std::filesystem::path& file) {
     json types = json::array();
     for (const auto& type : engine::read_data_type_profile(file)) {
@@ -183,6 +186,7 @@ json describe_profile(engine::ProfileKind kind, const InspectOptions& options) {
 
 std::string format_profile(const json& info) {
     const std::string kind = string_at(info, "kind");
+    // Applications and composites have components; the profiles of types have no name of their own.
     const bool is_assembly = info.contains("components");
     return fmt::format("{:<11}  {}\nprofile      {}\n", kind, is_assembly ? string_at(info, "name") : "",
                        string_at(info, "profile")) +

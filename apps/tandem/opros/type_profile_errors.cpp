@@ -27,6 +27,7 @@ void check(const fs::path& folder, const std::string& reference,
 
 std::vector<std::string> find_type_profile_errors(const engine::ComponentProfile& profile) {
     const fs::path folder = profile.location.file.parent_path();
+    // Sets, because several ports mostly refer to one file: its error is reported once.
     std::set<std::string> services(profile.service_types.begin(), profile.service_types.end());
     for (const auto& port : profile.service_ports) services.insert(port.reference);
     const std::set<std::string> data(profile.data_types.begin(), profile.data_types.end());

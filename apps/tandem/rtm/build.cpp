@@ -31,6 +31,7 @@ std::string select_module(const RtmBuildOptions& options) {
 int rtm_build(const RtmBuildOptions& options) {
     require_folder(options.folder);
     const std::string name = select_module(options);
+    // Also for a name that was found: it becomes the name of a file and of a CMake target.
     require_component_name(name);
     print_text(build_plugin("rtm", name, options, options.folder).string() + "\n");
     return 0;

@@ -6,11 +6,16 @@
 
 namespace tandem::command {
 
+/// Creates the folder parent/name with a component that builds and runs, and prints the next two commands. Throws if
+/// the folder exists or the name cannot be that of a C++ class.
 int rtm_new(const std::string& name, const std::filesystem::path& parent);
 
+/// Of build: the common options, and the module.
 struct RtmBuildOptions : PluginBuildOptions {
     std::string name; ///< of the module, when the folder has several
 };
+/// Builds NAME.so from the sources and IDL files in the folder and prints its path. Nothing else goes to standard
+/// output unless the build fails, so that scripts can use it.
 int rtm_build(const RtmBuildOptions& options);
 
 } // namespace tandem::command

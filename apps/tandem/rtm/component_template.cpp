@@ -5,6 +5,7 @@ namespace tandem::command {
 namespace {
 
 // @NAME@ stands for the component's name, see expand_template(). The style is that of RTCBuilder's output.
+// The callbacks are those of RTC::RTObject_impl; the ones that the component does not need are named in a comment.
 constexpr char header[] = R"(#ifndef @NAME@_H
 #define @NAME@_H
 
@@ -38,6 +39,7 @@ extern "C" void @NAME@Init(RTC::Manager* manager);
 #endif
 )";
 
+// The specification is the list of keys and values that RTCBuilder writes: coil::Properties reads it up to "".
 constexpr char source[] = R"(#include "@NAME@.h"
 
 #include <iostream>
@@ -93,6 +95,7 @@ extern "C" void @NAME@Init(RTC::Manager* manager) {
 }
 )";
 
+// Nothing in it is Tandem's own, so that the same folder builds against OpenRTM-aist.
 constexpr char build[] =
     R"(# Here and with OpenRTM-aist: cmake -S . -B build -DOpenRTM_DIR=PREFIX/lib/cmake/OpenRTM && cmake --build build
 cmake_minimum_required(VERSION 3.16)
@@ -109,6 +112,7 @@ target_link_libraries(@NAME@ PRIVATE ${OPENRTM_LIBRARIES})
 set_target_properties(@NAME@ PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR})
 )";
 
+// For rtm_host -f. The component is connected with itself, so that a new component does something without a second one.
 constexpr char conf[] = R"(manager.modules.load_path: .
 manager.modules.preload: @NAME@.so
 manager.components.precreate: @NAME@

@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 // Replaces comments by blanks. String literals are not recognized: a definition of a module function inside of one is not
 // to be expected.
 std::string strip_comments(std::string text) {
+    // A state machine over pairs of characters; the last character cannot begin or end a comment.
     enum { code, line, block } in = code;
     for (std::size_t i = 0; i + 1 < text.size(); ++i) {
         if (in == code && text[i] == '/' && (text[i + 1] == '/' || text[i + 1] == '*'))
@@ -34,6 +35,7 @@ std::string strip_comments(std::string text) {
 std::vector<std::string> tokenize(const std::string& text) {
     std::vector<std::string> found;
     for (std::size_t i = 0; i < text.size();) {
+        // The characters of C++ identifiers in ASCII; others are tokens of their own, which match nothing below.
         const auto word = [&](std::size_t at) {
             return at < text.size() &&
                    (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
@@ -63,9 +65,11 @@ void add_names(const fs::path& file, std::set<std::string>& names) {
     std::ostringstream text;
     text << stream.rdbuf();
     const auto all = tokenize(strip_comments(text.str()));
+    // Gathered apart: main() may follow the module function, and then none of this file counts.
     std::set<std::string> found_here;
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (matches_at(all, i, {"int", "main", "("})) return;
+        // void XInit(RTC::Manager* ...: a definition or a declaration, with or without extern "C" before it.
         const std::string& word = all[i];
         if (word.size() > 4 && word.ends_with("Init") && i > 0 && all[i - 1] == "void" &&
             matches_at(all, i + 1, {"(", "RTC", ":", ":", "Manager", "*"}))
@@ -74,6 +78,7 @@ void add_names(const fs::path& file, std::set<std::string>& names) {
     names.merge(found_here);
 }
 
+// IDL files and data are not read.
 bool is_source(const fs::path& file) {
     static const std::set<std::string> endings{".h", ".hh", ".hpp", ".hxx", ".cpp", ".cc", ".cxx", ".c"};
     return endings.count(file.extension().string()) != 0;
@@ -84,6 +89,7 @@ bool is_source(const fs::path& file) {
 std::set<std::string> find_module_names(const fs::path& folder) {
     std::set<std::string> names;
     std::error_code ignored;
+    // A folder that is missing has no sources: the iterator is then at its end.
     for (const char* place : {"", "src", "include"})
         for (const auto& entry : fs::directory_iterator(folder / place, ignored))
             if (is_source(entry.path())) add_names(entry.path(), names);

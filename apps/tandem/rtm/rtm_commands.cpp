@@ -9,6 +9,7 @@
 namespace tandem::command {
 namespace {
 
+// `brief` is its line in the list of commands, `details` the text below its options in --help.
 CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details) {
     CLI::App* command = parent.add_subcommand(name, brief);
     command->footer(details);
@@ -16,6 +17,7 @@ CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, con
 }
 
 void add_new(CLI::App& rtm, Action& selected) {
+    // CLI11 fills the options after this function has returned: the callback shares them.
     struct Options {
         std::string name;
         std::filesystem::path parent = ".";

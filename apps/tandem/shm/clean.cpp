@@ -47,6 +47,7 @@ int shm_clean(const std::string& link, bool json) {
             removed.push_back({{"path", segment.path}, {"bytes", segment.file_bytes}});
             text += fmt::format("removed  {} ({}; {})\n", segment.path, format_bytes(segment.file_bytes),
                                 segment.reason.empty() ? format_sides(segment) : segment.reason);
+            // "": it has gone since it was observed, another process may have removed it.
         } else if (const std::string why = reason_kept(segment); !why.empty()) {
             kept.push_back({{"path", segment.path}, {"reason", why}});
             text += fmt::format("kept     {} ({})\n", segment.path, why);

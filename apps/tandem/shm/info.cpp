@@ -114,6 +114,7 @@ nlohmann::json objects_json(const shm::Observation& observation) {
 int shm_info(const std::string& link, std::uint64_t generation, bool json) {
     const auto observation = observe_or_throw(link, generation);
     if (json) {
+        // "objects" and "damage" are empty for a segment that cannot be read.
         auto value = to_json(observation.segment);
         value["objects"] = objects_json(observation);
         value["damage"] = observation.damage;

@@ -18,6 +18,7 @@ const View* find_in(const std::vector<View>& before, const View& now) {
     const auto found = std::find_if(before.begin(), before.end(), [&](const View& view) {
         return view.name == now.name && view.owner == now.owner && view.damage.empty();
     });
+    // A damaged object's counters mean nothing, on either side of the difference.
     return found != before.end() && now.damage.empty() ? &*found : nullptr;
 }
 
@@ -34,6 +35,7 @@ bool same_segment(const shm::ObservedSegment& a, const shm::ObservedSegment& b) 
 
 std::optional<Rates> compute_rates(const shm::Observation& before, const shm::Observation& after,
                                    std::uint64_t elapsed_ns) {
+    // Counters begin at zero in a new segment: the difference to an old one would be meaningless.
     if (!same_segment(before.segment, after.segment) || elapsed_ns == 0) return std::nullopt;
     // The signed difference: a counter that the other process has damaged may run backwards.
     const auto rate = [&](std::uint64_t from, std::uint64_t to) {

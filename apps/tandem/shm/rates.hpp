@@ -27,6 +27,7 @@ struct CallQueueRate {
     std::uint64_t in_use;
 };
 
+/// Only of objects that both observations contain: a ring that was added in between has no rate yet.
 struct Rates {
     std::vector<RingRate> rings;
     std::vector<CallQueueRate> call_queues;

@@ -41,6 +41,7 @@ const char* to_string(shm::PeerState state) {
 // The pid is that of the process's own pid namespace: in a container it is not the one that the host's ps shows.
 std::string format_side(const shm::ObservedSegment& segment, shm::Side which) {
     const shm::ObservedSide& side = segment.side(which);
+    // Nothing is known of a foreign segment's sides; of an unreadable one only who holds its locks.
     if (segment.readability == shm::Readability::foreign) return "-";
     if (segment.readability != shm::Readability::readable) return side.held ? "held" : "-";
     if (side.state == shm::PeerState::absent) return "absent";
@@ -113,6 +114,7 @@ int report_if_unreadable(const shm::ObservedSegment& segment) {
                          : segment.readability == shm::Readability::other_layout
                              ? "use the tandem program of the build that made it"
                              : "stop the process that holds it, then 'tandem shm clean' removes it";
+    // Not an exception: what could be read has been printed already.
     fmt::print(stderr, "tandem: {}: {} ({}), a readable segment was expected; {}\n", segment.path,
                to_string(segment.readability), segment.reason, remedy);
     return 1;

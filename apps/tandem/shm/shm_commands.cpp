@@ -84,6 +84,7 @@ void add_segment_options(CLI::App* command, std::string& link, std::uint64_t& ge
         ->check(CLI::PositiveNumber);
 }
 
+// --count only makes sense with --watch: CLI11 refuses it alone.
 void add_stats_command(CLI::App* shm, Action& selected) {
     auto options = std::make_shared<StatsOptions>();
     CLI::App* stats = add_command(*shm, "stats", stats_help);

@@ -11,6 +11,7 @@ int shm_list(bool json); ///< all segments of the machine
 /// Header, sides and objects of one segment; generation 0 is the newest. 1 if it cannot be read.
 int shm_info(const std::string& link, std::uint64_t generation, bool json);
 
+/// Of `tandem shm stats`.
 struct StatsOptions {
     std::string link;
     std::uint64_t generation = 0; ///< 0: the newest
@@ -21,6 +22,8 @@ struct StatsOptions {
 /// Counters, or from the second observation on their rates. 1 if the segment cannot be read.
 int shm_stats(const StatsOptions& options);
 /// Removes dead segments of a link, or with "" of all links.
+/// Prints each segment that it removed and each that it left with the reason. Segments that a process holds, or of
+/// another user, stay. Always 0; throws shm::Error for an impossible link name.
 int shm_clean(const std::string& link, bool json);
 
 } // namespace tandem::command

@@ -159,6 +159,7 @@ void print_observation(const StatsOptions& options, const std::optional<shm::Obs
         nlohmann::json json = observation
                                   ? observation_json(*observation)
                                   : nlohmann::json{{"observed_ns", shm::now_ns()}, {"segment", nullptr}};
+        // Beside the counters, not in their place: a program may use either.
         if (rates) json["rates"] = to_json(*rates);
         print_json(json, true);
         return;
@@ -169,6 +170,7 @@ void print_observation(const StatsOptions& options, const std::optional<shm::Obs
         print_text(format_headline(observation->segment) + format_rates(*rates) + "\n");
     else
         print_text(format_observation(*observation) + "\n");
+    // The exit code is for a single observation; a watch goes on.
     if (observation) report_if_unreadable(observation->segment);
 }
 
@@ -180,10 +182,12 @@ int watch_segment(const StatsOptions& options) {
     std::optional<shm::Observation> previous;
     std::uint64_t previous_ns = 0;
     auto next = std::chrono::steady_clock::now();
+    // count 0 never equals the iteration: then only a signal ends the loop.
     for (std::uint64_t iteration = 1;; ++iteration) {
         auto observation = shm::observe(options.link, options.generation);
         const std::uint64_t now = shm::now_ns();
         std::optional<Rates> rates;
+        // The newest generation is looked up each time: the first observation of a new one has counters and no rates.
         if (previous && observation) rates = compute_rates(*previous, *observation, now - previous_ns);
         print_observation(options, observation, rates);
         if (iteration == options.count) return 0;

@@ -5,12 +5,15 @@
 namespace tandem::command {
 namespace {
 
+// What a component answers about itself. A failure becomes the entry's error: a name server often holds names whose
+// processes have died, and these must not end the listing.
 ComponentEntry query_component(const std::string& address, CORBA::Object_ptr object,
                                unsigned long timeout_ms) {
     ComponentEntry entry;
     entry.address = address;
     try {
         omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout_ms));
+        // This is a remote call if the reference does not carry the type RTObject itself.
         entry.object = RTC::RTObject::_narrow(object);
         if (CORBA::is_nil(entry.object.in())) {
             entry.error = "it is not an RT-Component";
@@ -39,6 +42,7 @@ void list_context(CosNaming::NamingContext_ptr context, const std::string& path,
     // until it is destroyed.
     if (!CORBA::is_nil(more.in())) more->destroy();
     for (CORBA::ULong i = 0; i < list->length(); ++i) {
+        // list() gives names relative to the context: each has one component (CosNaming, NamingContext::list).
         const CosNaming::NameComponent& last = list[i].binding_name[0];
         const std::string kind(last.kind);
         const std::string name =
@@ -55,6 +59,7 @@ void list_context(CosNaming::NamingContext_ptr context, const std::string& path,
 }
 
 // Runs `query` and turns its failure into the source's error, so that the other sources are still asked.
+// `query` fills the components; what it has added before it fails is kept.
 template <class Query>
 ComponentSource query_source(const char* kind, const std::string& address, Query query) {
     ComponentSource source{kind, address, "", {}};
@@ -76,6 +81,7 @@ std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
         sources.push_back(query_source("name server", address, [&](ComponentSource& p) {
             CosNaming::NamingContext_var root =
                 RTC::resolve_name_server(client.orb(), address, client.timeout_ms());
+            // OpenRTM-aist's default name, %h.host_cxt/%n.rtc, is one context deep; naming.formats may add some.
             list_context(root.in(), "rtcname://" + address, 6, client.timeout_ms(), p.components);
         }));
     for (const auto& address : client.managers())
@@ -84,6 +90,7 @@ std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
             RTC::RTCList_var components = manager->get_components();
             for (CORBA::ULong i = 0; i < components->length(); ++i) {
                 p.components.push_back(query_component("", components[i], client.timeout_ms()));
+                // A manager finds its components by their instance names; of one that does not answer this is unknown.
                 p.components.back().address = "rtcloc://" + address + "/" + p.components.back().instance;
             }
         }));
@@ -91,6 +98,7 @@ std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
 }
 
 void require_reachable(const RtmClient& client, const std::vector<ComponentSource>& sources) {
+    // Without explicit sources one that answers is enough: a machine need not run a name server.
     std::string errors;
     bool answered = false;
     for (const auto& source : sources) {

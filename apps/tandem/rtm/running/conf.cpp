@@ -10,6 +10,7 @@
 namespace tandem::command {
 namespace {
 
+// For the message about an unknown parameter.
 std::string join_names(const SDOPackage::NVList& values) {
     std::string names;
     for (CORBA::ULong i = 0; i < values.length(); ++i)
@@ -31,6 +32,7 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         if (index < 0)
             throw std::runtime_error(fmt::format("configuration set {} has no parameter {} (it has: {})", id,
                                                  name, join_names(set->configuration_data)));
+        // Values of OpenRTM's parameters are strings in the profile, whatever their C++ type.
         set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
             assignment.substr(equals + 1).c_str();
     }
@@ -45,6 +47,7 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
     nlohmann::json json = nlohmann::json::array();
     for (CORBA::ULong i = 0; i < sets->length(); ++i) {
         nlohmann::json values = nlohmann::json::object();
+        // toProperties() leaves out values that are no strings.
         for (const auto& key : NVUtil::toProperties(sets[i].configuration_data).propertyNames())
             values[key] = NVUtil::toString(sets[i].configuration_data, key.c_str());
         const std::string id(sets[i].id);
@@ -61,11 +64,15 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
     const RemoteComponent component = client.find_component(options.component);
     try {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
+        // Without --set the active one. OpenRTM-aist has none before the first activation: then `default`, the set of the
+        // parameters' initial values (conf.default.*).
         std::string id = options.set;
         if (id.empty()) id = active_configuration_set(configuration.in());
         if (id.empty()) id = "default";
+        // Values are set first: a set that is activated together with them becomes active with the new values.
         if (!options.values.empty()) set_values(configuration.in(), options, id);
         if (!options.activate.empty()) configuration->activate_configuration_set(options.activate.c_str());
+        // Read back, so that what is printed is what the component has and not what was asked for.
         const nlohmann::json sets = sets_json(configuration.in());
         if (client_options.json) {
             print_json(sets);

@@ -25,6 +25,7 @@ coil::Properties connection_properties(const std::vector<std::string>& arguments
 
 namespace {
 
+// "" if the port does not have the property.
 std::string port_property(const RemotePort& port, const char* key) {
     return NVUtil::toString(port.profile->properties, key);
 }
@@ -34,6 +35,7 @@ std::string port_property(const RemotePort& port, const char* key) {
 void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::ConnectorProfile& profile) {
     const std::string kind_a = port_property(a, "port.port_type"),
                       kind_b = port_property(b, "port.port_type");
+    // A service port fits a service port only; a data port fits one of the other direction.
     const bool services = kind_a == "CorbaPort" && kind_b == "CorbaPort";
     if (!services && (kind_a == kind_b || kind_a == "CorbaPort" || kind_b == "CorbaPort"))
         throw std::runtime_error(
@@ -50,6 +52,8 @@ void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::Con
 
 } // namespace
 
+// One connection with two ports for each port after the first. Each is printed as soon as it is made: the connections
+// before a failure stay.
 int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& options) {
     const RtmClient client(client_options);
     const RemotePort first = find_port(client, options.ports.front());

@@ -21,6 +21,7 @@ int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptio
     if (options.ports.size() > 1) second = find_port(client, options.ports[1]);
     nlohmann::json disconnected = nlohmann::json::array();
     call_remote(first.name, [&] {
+        // The list is a copy: to end a connection does not change it.
         RTC::ConnectorProfileList_var all = first.object->get_connector_profiles();
         for (CORBA::ULong i = 0; i < all->length(); ++i) {
             const std::string id(all[i].connector_id);
@@ -32,6 +33,7 @@ int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptio
             disconnected.push_back({{"id", id}, {"name", static_cast<const char*>(all[i].name)}});
         }
     });
+    // Nothing to end is an error, since a misspelt id would otherwise look like a success.
     if (disconnected.empty())
         throw std::runtime_error(first.name + " has no such connection" +
                                  (second.name.empty() ? "" : " with " + second.name));

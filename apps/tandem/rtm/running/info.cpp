@@ -20,6 +20,7 @@ json properties_json(const SDOPackage::NVList& list) {
     return out;
 }
 
+// Only service ports have interfaces; the type of a data port is one of its properties.
 json ports_json(const RTC::PortProfileList& ports) {
     json list = json::array();
     for (CORBA::ULong i = 0; i < ports.length(); ++i) {
@@ -42,6 +43,7 @@ json ports_json(const RTC::PortProfileList& ports) {
     return list;
 }
 
+// The numbers of the enumerations are indices: omniORB refuses an answer with a number that is none of them.
 // The order of both arrays is that of the enumerations in RTC.idl.
 json contexts_json(RTC::RTObject_ptr component) {
     static const char* const kinds[] = {"periodic", "event driven", "other"};
@@ -74,6 +76,7 @@ json info_json(const RemoteComponent& component) {
             {"properties", properties_json(profile->properties)}};
 }
 
+// "" without the property: service ports have no dataport.*.
 std::string string_property(const json& properties, const char* key) {
     return properties.value(key, std::string());
 }

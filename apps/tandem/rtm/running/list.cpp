@@ -15,6 +15,7 @@ int rtm_list(const RtmClientOptions& options) {
     nlohmann::json json = nlohmann::json::array();
     Table table({"INSTANCE", "TYPE", "STATE", ">PORTS", "ADDRESS"});
     for (const auto& source : sources) {
+        // A component of a manager that is also bound in a name server has two lines, one for each address.
         for (const auto& entry : source.components) {
             json.push_back({{"instance", entry.instance},
                             {"type", entry.type},

@@ -24,6 +24,7 @@ std::map<std::string, std::string> listening_sockets() {
     while (std::getline(table, line)) {
         std::istringstream words(line);
         std::string slot, local, remote, state, word, inode;
+        // sl local_address rem_address st, then tx_queue:rx_queue tr:tm->when retrnsmt uid timeout, then inode
         words >> slot >> local >> remote >> state;
         for (int i = 0; i < 5; ++i) words >> word;
         words >> inode;
@@ -67,6 +68,8 @@ std::set<std::string> sockets_of(const fs::path& process) {
 
 } // namespace
 
+// Three filters, the cheap ones first: processes with an ORB, the ports on which these listen, and whether a manager
+// answers there.
 std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb) {
     const auto sockets = listening_sockets();
     std::set<std::string> candidates;
@@ -75,8 +78,10 @@ std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb) {
         const std::string name = it->path().filename().string();
         if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(getpid()))
             continue;
+        // Without this, every server of the user would be sent a CORBA message that it does not understand.
         if (!has_omniorb(it->path())) continue;
         for (const auto& inode : sockets_of(it->path())) {
+            // A process's other sockets are connections or of another family.
             const auto found = sockets.find(inode);
             if (found != sockets.end()) candidates.insert(found->second);
         }

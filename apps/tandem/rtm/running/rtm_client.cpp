@@ -27,6 +27,7 @@ coil::vstring orb_arguments(unsigned long timeout_ms) {
             "0"};
 }
 
+// The options are those of rtm_host; the manager's ORB gets the same time limit for calls.
 // No rtc.conf, log, name server or servant: this manager is there for the ports of cat and inject and for nobody else.
 CORBA::ORB_ptr manager_orb(unsigned long timeout_ms) {
     coil::Argv argv(coil::vstring{"tandem", "-f", "/dev/null", "-o", "logger.enable:NO", "-o",
@@ -36,6 +37,7 @@ CORBA::ORB_ptr manager_orb(unsigned long timeout_ms) {
     return RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), {}).getORB();
 }
 
+// The variable is a list separated by ';', as in rtshell.
 std::vector<std::string> default_name_servers() {
     const char* names = std::getenv("RTCSH_NAMESERVERS");
     const auto list = coil::split(names ? names : "", ";", true);
@@ -49,6 +51,7 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
       has_explicit_sources_(!options.name_servers.empty() || !options.managers.empty()),
       name_servers_(has_explicit_sources_ ? options.name_servers : default_name_servers()),
       managers_(options.managers) {
+    // A path without a server belongs to the first one that is named, or to the first default one if only managers are.
     path_server_ = RTC::with_default_port(
         name_servers_.empty() ? default_name_servers().front() : name_servers_.front(), 2809);
     if (with_manager) {
@@ -60,6 +63,7 @@ RtmClient::RtmClient(const RtmClientOptions& options, bool with_manager)
     }
     for (auto& server : name_servers_) server = RTC::with_default_port(server, 2809);
     for (auto& manager : managers_) manager = RTC::with_default_port(manager, 2810);
+    // Last, since it needs the ORB. With explicit sources nobody wants to wait for a search.
     if (!has_explicit_sources_) managers_ = find_local_managers(orb_.in());
 }
 
@@ -75,6 +79,7 @@ RtmClient::~RtmClient() {
 }
 
 RemoteComponent RtmClient::find_component(const std::string& name) const {
+    // The profile is asked for at once: messages show its instance name, whatever name was given.
     auto found = [&](const std::string& address) {
         RemoteComponent component{RTC::resolve_component(orb_.in(), address, name_servers_, timeout_ms_),
                                   address, ""};
@@ -84,11 +89,15 @@ RemoteComponent RtmClient::find_component(const std::string& name) const {
             return component;
         });
     };
+    // An address or a path names one place; only a plain name is searched for.
     if (name.find("://") != std::string::npos) return found(name);
     if (name.find('/') != std::string::npos) return found("rtcname://" + path_server_ + "/" + name);
+    // Managers know components without the kind of the name server's name.
     const bool has_kind = name.size() > 4 && name.compare(name.size() - 4, 4, ".rtc") == 0;
     const std::string plain = has_kind ? name.substr(0, name.size() - 4) : name;
     std::vector<std::string> reasons;
+    // Only a source that does not have the component is passed over. A component that was found and then does not
+    // answer ends the search with its own error.
     auto attempt = [&](const std::string& address) -> std::optional<RemoteComponent> {
         try {
             return found(address);
@@ -97,6 +106,7 @@ RemoteComponent RtmClient::find_component(const std::string& name) const {
             return std::nullopt;
         }
     };
+    // Managers first: they know what runs, where a name server may hold names of dead processes.
     for (const auto& manager : managers_)
         if (auto component = attempt("rtcloc://" + manager + "/" + plain)) return *component;
     for (const auto& server : name_servers_)
@@ -141,6 +151,7 @@ std::vector<RTC::ExecutionContext_var> execution_contexts(RTC::RTObject_ptr comp
     return all;
 }
 
+// A component has a state in each of its contexts. ERROR and ACTIVE replace what earlier contexts have given.
 std::string component_state(RTC::RTObject_ptr component) {
     static const char* const names[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
     std::string state = "NONE";
@@ -165,6 +176,7 @@ std::string active_configuration_set(SDOPackage::Configuration_ptr configuration
 }
 
 std::string to_string(RTC::ReturnCode_t code) {
+    // The order is that of RTC::ReturnCode_t.
     static const char* const texts[] = {"OK",
                                         "it reports an error",
                                         "it refuses the request",

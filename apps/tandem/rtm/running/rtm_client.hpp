@@ -33,7 +33,10 @@ struct RemoteComponent {
 class RtmClient {
   public:
     /// `with_manager`: starts RTC::Manager on the ORB, which ports of this program's own need.
+    /// Without explicit sources it searches this machine for managers. Throws CORBA::SystemException if the ORB cannot
+    /// be started.
     explicit RtmClient(const RtmClientOptions& options, bool with_manager = false);
+    /// Shuts the ORB or the manager down: references that are still held must not be used any more.
     ~RtmClient();
     RtmClient(const RtmClient&) = delete;
     RtmClient& operator=(const RtmClient&) = delete;

@@ -8,6 +8,8 @@
 namespace tandem::command {
 namespace {
 
+// Each function below declares one group of sub-commands. Options live in a shared_ptr that the callbacks hold, because
+// CLI11 fills them after these functions have returned.
 using Action = std::function<int()>;
 // The end of every page of --help.
 constexpr const char* addresses =
@@ -34,6 +36,7 @@ CLI::App* add_command(CLI::App& rtm, const char* name, const char* brief, RtmCli
     return command;
 }
 
+// list, tree and info: what is there.
 void add_listings(CLI::App& rtm, Action& selected) {
     auto list = std::make_shared<RtmClientOptions>();
     add_command(rtm, "list", "The components that run, here and in name servers", *list,
@@ -54,6 +57,7 @@ void add_listings(CLI::App& rtm, Action& selected) {
         [=, &selected] { selected = [info] { return rtm_info(info->client, info->component); }; });
 }
 
+// activate, deactivate, reset and exit: the same command line for all four.
 void add_transitions(CLI::App& rtm, Action& selected) {
     struct Options {
         RtmClientOptions client;
@@ -73,6 +77,7 @@ void add_transitions(CLI::App& rtm, Action& selected) {
     add_transition("exit", "Ends components", Transition::exit);
 }
 
+// connect and disconnect.
 void add_connections(CLI::App& rtm, Action& selected) {
     struct Connect {
         RtmClientOptions client;
@@ -119,11 +124,14 @@ void add_conf(CLI::App& rtm, Action& selected) {
         [=, &selected] { selected = [options] { return rtm_conf(options->client, options->options); }; });
 }
 
+// The options of cat and inject.
 struct Stream {
     RtmClientOptions client;
     StreamOptions options;
 };
 
+// allow_extra_args(false): CLI11 would otherwise take the words behind --types FILE or -p KEY=VALUE for more values of
+// the option, and PORT or VALUE would be missing.
 CLI::App* add_stream(CLI::App& rtm, Stream& stream, const char* name, const char* brief,
                      const char* details) {
     CLI::App* command = add_command(rtm, name, brief, stream.client, details);

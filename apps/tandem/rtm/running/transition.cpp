@@ -9,10 +9,12 @@
 namespace tandem::command {
 namespace {
 
+// A reset leads from ERROR to INACTIVE, as a deactivation does from ACTIVE.
 const char* target_state(Transition transition) {
     return transition == Transition::activate ? "ACTIVE" : "INACTIVE";
 }
 
+// Not for Transition::exit, which is an operation of the component and not of a context.
 RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component,
                                      Transition transition) {
     switch (transition) {
@@ -51,6 +53,7 @@ std::string apply_transition(const RemoteComponent& component, Transition transi
     const auto contexts = execution_contexts(component.object.in());
     const RTC::ReturnCode_t code =
         request_transition(contexts.front().in(), component.object.in(), transition);
+    // After a refusal the state is looked at once: another client may have brought the component there.
     const std::string state = wait_for_state(component, wanted, code == RTC::RTC_OK ? timeout_s : 0);
     if (state == wanted) return state;
     const char* hint = state == "ERROR" ? "; see its log, then tandem rtm reset" : "";
@@ -65,6 +68,7 @@ int rtm_transition(const RtmClientOptions& options, const std::vector<std::strin
     const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();
     for (const auto& name : names) {
+        // Found one by one: those before a name that does not exist have changed already.
         const RemoteComponent component = client.find_component(name);
         const std::string state = call_remote(
             component.address, [&] { return apply_transition(component, transition, options.timeout_s); });

@@ -25,6 +25,7 @@ std::string peer_name(RTC::PortService_ptr port) {
     }
 }
 
+// Makes remote calls: one for the list, one for each port and one for each port that is connected with it.
 std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
     std::vector<PortEntry> lines;
     RTC::PortServiceList_var ports = component->get_ports();
@@ -36,6 +37,7 @@ std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
                        {}};
         for (CORBA::ULong k = 0; k < profile->interfaces.length(); ++k) {
             const auto& one = profile->interfaces[k];
+            // A service port has no data type: its interfaces are listed in that place.
             line.type += fmt::format("{}{} {}", line.type.empty() ? "" : ", ",
                                      one.polarity == RTC::PROVIDED ? "provides" : "requires",
                                      static_cast<const char*>(one.type_name));
@@ -53,6 +55,7 @@ std::vector<PortEntry> ports_of(RTC::RTObject_ptr component) {
 
 } // namespace
 
+// Text and JSON are made in one pass, because each look at a port is a remote call.
 int rtm_tree(const RtmClientOptions& options) {
     const RtmClient client(options);
     nlohmann::json json = nlohmann::json::array();

@@ -39,6 +39,7 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
     const RemotePort remote_port = find_port(client, options.port);
     const std::string type = require_data_type(remote_port, "DataOutPort");
     CORBA::TypeCode_var code = CORBA::TypeCode::_duplicate(find_type_code(type));
+    // Not an error: bytes still show whether and how often the port sends.
     if (CORBA::is_nil(code.in()) && !options.raw)
         fmt::print(
             stderr,
@@ -47,6 +48,7 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
             remote_port.name, type);
     UntypedInPort port("in", type.c_str());
     const PortConnection connection(remote_port, port, options.properties, "tandem-cat");
+    // The time of --for begins with the connection, not with the search for the component.
     const auto begin = std::chrono::steady_clock::now();
     unsigned long received = 0;
     while (!interrupted() && (options.count == 0 || received < options.count)) {
@@ -62,6 +64,7 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
                    "\n");
         std::fflush(stdout);
     }
+    // A script that waits for samples must see that they did not come; a user who interrupts knows it.
     if (options.count > 0 && received < options.count && !interrupted())
         throw std::runtime_error(fmt::format("{} of {} samples came within {} s; is {} active?", received,
                                              options.count, options.timeout_s,

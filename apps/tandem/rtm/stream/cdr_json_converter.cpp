@@ -24,6 +24,7 @@ class OwnedDynAny {
     DynAny_var value_;
 };
 
+// A typedef is a TypeCode of its own around that of the type.
 CORBA::TypeCode_var without_aliases(CORBA::TypeCode_ptr type) {
     CORBA::TypeCode_var actual = CORBA::TypeCode::_duplicate(type);
     while (actual->kind() == CORBA::tk_alias) actual = actual->content_type();
@@ -44,6 +45,7 @@ std::string read_octets(DynAny_ptr list) {
     return digits;
 }
 
+// A DynAny has a cursor: seek() moves it, current_component() is the component there.
 Json read_list(DynAny_ptr list, CORBA::TypeCode_ptr type, const std::string& path) {
     if (is_octet(CORBA::TypeCode_var(type->content_type()).in())) return read_octets(list);
     Json elements = Json::array();
@@ -67,6 +69,7 @@ Json read_struct(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& 
     return members;
 }
 
+// The name: numbers of an enum say nothing to a reader.
 std::string read_enum(DynAny_ptr value, CORBA::TypeCode_ptr type, const std::string& path) {
     DynamicAny::DynEnum_var dyn_enum = DynamicAny::DynEnum::_narrow(value);
     // omniORB refuses a number that is not a member's when it decodes it: get_as_ulong() then throws BAD_PARAM.
@@ -141,6 +144,7 @@ T integer(const Json& value) {
     return value.get<T>();
 }
 
+// The reverse of read_octets(). Nothing but pairs of digits: std::stoul alone would take signs and blanks, too.
 CORBA::OctetSeq octets_from_hex(const std::string& digits, const std::string& path) {
     if (digits.size() % 2 != 0 || digits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
         throw DataConversionError(path + ": expected pairs of hexadecimal digits");
@@ -151,6 +155,8 @@ CORBA::OctetSeq octets_from_hex(const std::string& digits, const std::string& pa
     return octets;
 }
 
+// A sequence takes the length of the list, an array has its own. Octets may be a list of numbers or hexadecimal
+// digits, as read_list() writes them.
 void write_list(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, const std::string& path) {
     const bool as_hex = value.is_string() && is_octet(CORBA::TypeCode_var(type->content_type()).in());
     if (!value.is_array() && !as_hex) throw DataConversionError(path + ": expected a list");
@@ -172,6 +178,7 @@ void write_list(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, 
     }
 }
 
+// By name, or by number as other programs write it.
 void write_enum(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, const std::string& path) {
     CORBA::ULong number = type->member_count();
     if (value.is_number_unsigned() && value.get<std::uint64_t>() < number)
@@ -184,6 +191,7 @@ void write_enum(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value, 
     DynamicAny::DynEnum_var(DynamicAny::DynEnum::_narrow(target))->set_as_ulong(number);
 }
 
+// member_count() if there is no such member.
 CORBA::ULong member_index(CORBA::TypeCode_ptr type, const std::string& name) {
     CORBA::ULong i = 0;
     while (i < type->member_count() && name != type->member_name(i)) ++i;
@@ -201,6 +209,7 @@ void write_struct(DynAny_ptr target, CORBA::TypeCode_ptr type, const Json& value
     }
 }
 
+// Throws nlohmann's type_error for a value of another JSON type; write_value() makes an error with the path of it.
 void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
     switch (kind) {
     case CORBA::tk_short:
@@ -224,6 +233,7 @@ void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
     case CORBA::tk_octet:
         return target->insert_octet(integer<CORBA::Octet>(value));
     case CORBA::tk_char:
+        // The first byte of the text; "" is the character 0.
         return target->insert_char(value.get<std::string>().c_str()[0]);
     case CORBA::tk_string:
         return target->insert_string(value.get<std::string>().c_str());
@@ -233,6 +243,7 @@ void write_basic(DynAny_ptr target, CORBA::TCKind kind, const Json& value) {
     }
 }
 
+// The errors of write_basic() know no path: it is added here, where the innermost value is written.
 // A null is as a member that is left out: the target keeps its default.
 void write_value(DynAny_ptr target, const Json& value, const std::string& path) {
     const CORBA::TypeCode_var type = without_aliases(CORBA::TypeCode_var(target->type()).in());
@@ -250,6 +261,7 @@ void write_value(DynAny_ptr target, const Json& value, const std::string& path) 
     }
 }
 
+// Whether a plain value may stand for the member: data ports' types mostly have `tm` and `data`.
 bool has_member(CORBA::TypeCode_ptr type, const char* name) {
     return type->kind() == CORBA::tk_struct && member_index(type, name) < type->member_count();
 }

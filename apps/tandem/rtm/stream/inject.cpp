@@ -17,6 +17,7 @@ Json parse_value(const std::string& text) {
     return value.is_discarded() ? Json(text) : value;
 }
 
+// The message quotes the value as it was given, since several may be on one command line.
 RTC::ByteData encode_sample(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type,
                             const std::string& text, bool little_endian) {
     try {
@@ -43,6 +44,7 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
     UntypedOutPort port("out", type.c_str());
     const PortConnection connection(remote_port, port, options.properties, "tandem-inject");
     unsigned long sent = 0;
+    // The pause is before every value but the first, so that the program ends right after the last one.
     auto send = [&](const std::string& text) {
         if (sent > 0 && options.rate > 0)
             std::this_thread::sleep_for(std::chrono::duration<double>(1 / options.rate));
@@ -59,6 +61,8 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
                 send(value);
                 continue;
             }
+            // Lines are encoded as they come: an error ends the command after those before it have been sent. Further
+            // rounds find standard input at its end.
             for (std::string line; !interrupted() && std::getline(std::cin, line);)
                 if (!line.empty()) send(line);
         }

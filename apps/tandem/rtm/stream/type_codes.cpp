@@ -28,6 +28,7 @@ void load_type_library(const std::filesystem::path& library) {
     if (dlopen(library.c_str(), RTLD_LAZY | RTLD_GLOBAL) == nullptr) throw std::runtime_error(dlerror());
 }
 
+// Repository ids have the form IDL:PREFIX/MODULE/NAME:VERSION (CORBA, Interface Repository).
 CORBA::TypeCode_ptr find_type_code(const std::string& repository_id) {
     if (repository_id.compare(0, 4, "IDL:") != 0) return CORBA::TypeCode::_nil();
     coil::vstring names = coil::split(repository_id.substr(4, repository_id.rfind(':') - 4), "/", true);

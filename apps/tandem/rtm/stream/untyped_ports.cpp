@@ -15,6 +15,7 @@ volatile std::sig_atomic_t stop_signal_received = 0;
 
 } // namespace
 
+// NO_CHANGE: a listener may also replace the data, which nobody reads behind this one.
 SampleQueue::ReturnCode SampleQueue::operator()(RTC::ConnectorInfo&, RTC::ByteData& data,
                                                 const std::string&) {
     std::lock_guard<std::mutex> lock(mutex_);
@@ -38,17 +39,20 @@ UntypedInPort::UntypedInPort(const char* name, const char* type)
     addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, samples_);
 }
 
+// The base class has it for ports with a variable.
 bool UntypedInPort::read(std::string) { return false; }
 
 UntypedOutPort::UntypedOutPort(const char* name, const char* type) : OutPortBase(name, type) {
     addProperty("dataport.marshaling_types", "cdr");
 }
 
+// Little-endian without a connection.
 bool UntypedOutPort::is_little_endian() {
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
     return m_connectors.empty() || m_connectors.front()->isLittleEndian();
 }
 
+// To the first connection only: the bytes are in its byte order, and PortConnection makes no other.
 void UntypedOutPort::send(const RTC::ByteData& bytes) {
     RTC::ByteData message(bytes); // write() takes a reference that is not const
     std::lock_guard<std::mutex> lock(m_connectorsMutex);

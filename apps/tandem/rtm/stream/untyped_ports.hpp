@@ -15,6 +15,7 @@ namespace tandem::command {
 /// [any-thread]
 class SampleQueue : public RTC::ConnectorDataListener {
   public:
+    /// Called by the port for each sample that it receives; keeps a copy, or drops it if the queue is full.
     ReturnCode operator()(RTC::ConnectorInfo& info, RTC::ByteData& data, const std::string& type) override;
     /// Takes the oldest sample; false if none comes in time.
     bool pop(RTC::ByteData& bytes, std::chrono::milliseconds timeout);
@@ -55,6 +56,7 @@ std::string require_data_type(const RemotePort& port, const std::string& kind);
 /// std::runtime_error if the ports cannot be connected.
 class PortConnection {
   public:
+    /// `properties`: KEY=VALUE, see connection_properties(). Both ports must outlive the connection.
     PortConnection(const RemotePort& remote_port, RTC::PortBase& own_port,
                    const std::vector<std::string>& properties, const char* name);
     ~PortConnection();
