@@ -64,8 +64,8 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
     const RemoteComponent component = client.find_component(options.component);
     try {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
-        // Without --set the active one. OpenRTM-aist has none before the first activation: then `default`, the set of the
-        // parameters' initial values (conf.default.*).
+        // Without --set the active one. OpenRTM-aist has none before the first activation: then `default`, the set of
+        // the parameters' initial values (conf.default.*).
         std::string id = options.set;
         if (id.empty()) id = active_configuration_set(configuration.in());
         if (id.empty()) id = "default";
