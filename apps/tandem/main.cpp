@@ -26,8 +26,8 @@ int main(int argc, char** argv) {
     tandem::command::add_completion_command(app, selected);
     try {
         app.parse(argc, argv);
-    } catch (const CLI::ParseError& end) { // also --help and --version, with exit code 0
-        return app.exit(end);
+    } catch (const CLI::ParseError& result) { // also --help and --version, with exit code 0
+        return app.exit(result);
     }
     try {
         return selected();

@@ -81,21 +81,21 @@ void run_cmake(const std::vector<std::string>& command, double timeout_s, const 
     options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout_s * 1000));
     options.merge_errors = true;
     options.stop_on_signal = true; // or the folder of the build would be left behind
-    process::CommandResult end;
+    process::CommandResult result;
     try {
-        end = process::run_command(command, options);
+        result = process::run_command(command, options);
     } catch (const std::system_error& error) {
         throw std::runtime_error(std::string(error.what()) + "; install it (apt install " + command[0] + ")");
     }
-    if (end.stop_signal != 0)
-        throw std::runtime_error("the build of component " + name + " " + end.failure());
-    if (end.timed_out)
+    if (result.stop_signal != 0)
+        throw std::runtime_error("the build of component " + name + " " + result.failure());
+    if (result.timed_out)
         throw std::runtime_error(fmt::format("the build of component {} was not done within {} s and has "
                                              "been ended; --timeout gives it more time",
                                              name, timeout_s));
-    if (end.succeeded()) return;
-    print_text(end.output);
-    throw std::runtime_error("component " + name + " " + what + ": " + first_error(end.output) +
+    if (result.succeeded()) return;
+    print_text(result.output);
+    throw std::runtime_error("component " + name + " " + what + ": " + first_error(result.output) +
                              " (the compiler's output is above)");
 }
 
@@ -111,12 +111,12 @@ void require_no_semicolon(const fs::path& path) {
 // Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a copy that
 // fails half-way must not leave half a library.
 void replace_library(const fs::path& cmake_output, const fs::path& library) {
-    const fs::path fresh = library.parent_path() / ("." + library.filename().string() + ".new");
+    const fs::path new_file = library.parent_path() / ("." + library.filename().string() + ".new");
     std::error_code error, ignored;
-    if (fs::copy_file(cmake_output, fresh, fs::copy_options::overwrite_existing, error))
-        fs::rename(fresh, library, error);
+    if (fs::copy_file(cmake_output, new_file, fs::copy_options::overwrite_existing, error))
+        fs::rename(new_file, library, error);
     if (!error) return;
-    fs::remove(fresh, ignored);
+    fs::remove(new_file, ignored);
     throw std::runtime_error(library.string() + " cannot be written: " + error.message());
 }
 

@@ -112,7 +112,7 @@ complete -F _@NAME@ @NAME@
 )";
 
 // The text with every mark replaced.
-std::string replaced(std::string text, const std::string& mark, const std::string& by) {
+std::string replace_all(std::string text, const std::string& mark, const std::string& by) {
     for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += by.size())
         text.replace(at, mark.size(), by);
     return text;
@@ -123,10 +123,10 @@ std::string replaced(std::string text, const std::string& mark, const std::strin
 std::string bash_completion_script(const CLI::App& app) {
     Branches branches;
     branches.add(app, app.get_name());
-    std::string text = replaced(script, "@NAME@", app.get_name());
-    text = replaced(std::move(text), "@DESCEND@", branches.descend);
-    text = replaced(std::move(text), "@VALUES@", branches.values);
-    return replaced(std::move(text), "@WORDS@", branches.words);
+    std::string text = replace_all(script, "@NAME@", app.get_name());
+    text = replace_all(std::move(text), "@DESCEND@", branches.descend);
+    text = replace_all(std::move(text), "@VALUES@", branches.values);
+    return replace_all(std::move(text), "@WORDS@", branches.words);
 }
 
 } // namespace tandem::command

@@ -47,7 +47,7 @@ TEST_CASE("tandem doctor ends with exit code 1 exactly if a check is an error") 
     }
     CHECK(json["checks"].size() == 20);
     CHECK(result.exit_code == (any_error ? 1 : 0));
-    CHECK(tandem_program({"doctor"}).says("/dev/shm mount"));
+    CHECK(tandem_program({"doctor"}).output_contains("/dev/shm mount"));
 }
 
 TEST_CASE("the installed completion script is what tandem completion bash prints") {

@@ -165,7 +165,7 @@ TEST_CASE_METHOD(FakeMachine, "RemoveIPC is read as logind reads it") {
     }
 }
 
-TEST_CASE_METHOD(FakeMachine, "what is not permitted is a warning with its reason") {
+TEST_CASE_METHOD(FakeMachine, "a permission that is missing is a warning with its reason") {
     is(check_memory_locking(machine), CheckStatus::ok, "permitted");
     is(check_sched_fifo(machine), CheckStatus::ok, "permitted");
     machine.probed.lock_error = ENOMEM;
@@ -174,7 +174,7 @@ TEST_CASE_METHOD(FakeMachine, "what is not permitted is a warning with its reaso
     is(check_sched_fifo(machine), CheckStatus::warning, "refused (Operation not permitted)");
 }
 
-TEST_CASE_METHOD(FakeMachine, "a low limit counts only for those whom it binds") {
+TEST_CASE_METHOD(FakeMachine, "a low limit is a warning only for users whom it binds") {
     is(check_memlock_limit(machine), CheckStatus::ok, "unlimited");
     is(check_rtprio_limit(machine), CheckStatus::ok, "90");
     machine.probed.memlock_limit = 8 << 20;
@@ -283,7 +283,7 @@ TEST_CASE_METHOD(FakeMachine, "a virtual machine is a warning that names its ven
     is(check_hypervisor(machine), CheckStatus::warning, "QEMU Standard PC");
 }
 
-TEST_CASE("this machine answers every question") {
+TEST_CASE("every check has a result on this machine") {
     const Machine machine = probe_this_machine();
     CHECK(machine.probed.cores >= 1);
     CHECK(machine.probed.shm_bytes > 0);

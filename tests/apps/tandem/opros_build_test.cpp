@@ -75,7 +75,7 @@ TEST_CASE("a component is built from its folder and a neighbour's headers into a
     CHECK(files_in(folder.path() / "Old") ==
           std::vector<std::string>{"Helper.h", "Old.cpp", "mfc", "profile", "src"});
     CHECK(tandem_program({"opros", "info", folder.path() / "Old/profile/Old.xml"})
-              .says("output     out   double"));
+              .output_contains("output     out   double"));
     const auto elsewhere = folder.path() / "elsewhere";
     REQUIRE(
         build({folder.path() / "Old", "-I", folder.path() / "neighbour", "--output", elsewhere}).exit_code ==
@@ -83,7 +83,7 @@ TEST_CASE("a component is built from its folder and a neighbour's headers into a
     CHECK(files_in(elsewhere) == std::vector<std::string>{"Old.so", "Old.xml", "OldService.xml"});
 }
 
-TEST_CASE("what cannot be built is one last line with the first error and leaves the old plugin alone") {
+TEST_CASE("the last line of a failed build is its first error, and the old plugin stays") {
     const Folder folder;
     old_component(folder, "undeclared_thing();");
     folder.write("Old/profile/Old.so", "the old one");
@@ -111,7 +111,7 @@ TEST_CASE("what cannot be built is one last line with the first error and leaves
     CHECK_THAT(failed({old}), Catch::Contains("several component profiles") && Catch::Contains("--profile"));
 }
 
-TEST_CASE("names that no build can have are told as such before anything is built") {
+TEST_CASE("names that cannot be built are refused before anything is built") {
     const Folder folder;
     old_component(folder, "");
     folder.component("Old/profile/Old", "Old $(date)");
@@ -129,7 +129,7 @@ TEST_CASE("names that no build can have are told as such before anything is buil
     CHECK_THAT(refused({folder.path() / "O;d"}), Catch::Contains("O;d has a ';' in its name"));
 }
 
-TEST_CASE("a plugin that cannot be put in its place leaves nothing there") {
+TEST_CASE("a plugin that cannot be copied leaves no partial file") {
     const Folder folder;
     old_component(folder, "");
     fs::create_directory(folder.path() / "Old/profile/Old.so");
@@ -140,7 +140,7 @@ TEST_CASE("a plugin that cannot be put in its place leaves nothing there") {
           std::vector<std::string>{"Old.so", "Old.xml", "OldService.xml"});
 }
 
-TEST_CASE("what CMake says is the last line in its own words") {
+TEST_CASE("the last line of a failed CMake configuration is CMake's own error") {
     const Folder folder;
     folder.component("Empty/Empty", "Empty.dll");
     const auto result = build({folder.path() / "Empty"});
@@ -148,7 +148,7 @@ TEST_CASE("what CMake says is the last line in its own words") {
     CHECK_THAT(result.errors, Catch::Contains("no C++ source in"));
 }
 
-TEST_CASE("a function that forgets its return goes on behind its call as with compilers of old") {
+TEST_CASE("a function without a return statement continues after its call, as with old compilers") {
     const Folder folder;
     folder.write("Old/Old.cpp",
                  "#include <Component.h>\n#include <vector>\n"

@@ -21,7 +21,7 @@ TEST_CASE("tandem opros check finds nothing in an application that fits") {
                                                      Folder::connect("service", "M", "math", "P", "math")));
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 0);
-    CHECK(result.says("app: 2 components and 2 connections fit"));
+    CHECK(result.output_contains("app: 2 components and 2 connections fit"));
 }
 
 TEST_CASE("tandem opros check prints one line for each error of an application") {
@@ -48,17 +48,17 @@ TEST_CASE("tandem opros check prints one line for each error of an application")
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
     CHECK(result.errors.empty());
-    CHECK(result.says("Crash.xml:3: library " ZOO "/opros/entry_crashes.so "));
-    CHECK(result.says("Lost.xml:3: library 'nothing.dll' not found"));
-    CHECK(result.says("a periodic component needs a <period>"));
-    CHECK(result.says("profile 'Nobody.xml' of component 'Nobody' not found"));
-    CHECK(result.says("is an RTC module (exports HWCompInit)"));
-    CHECK(result.says("Old.xml:3: library " ZOO
-                      "/opros/another_tandem.so was built against the headers of another"));
-    CHECK(result.says("app.xml:8: component 'M' has no port 'nope'"));
-    CHECK(result.says("app.xml:9: type mismatch"));
-    CHECK(result.says("app.xml:10: "));
-    CHECK(result.says("app: 10 errors\n"));
+    CHECK(result.output_contains("Crash.xml:3: library " ZOO "/opros/entry_crashes.so "));
+    CHECK(result.output_contains("Lost.xml:3: library 'nothing.dll' not found"));
+    CHECK(result.output_contains("a periodic component needs a <period>"));
+    CHECK(result.output_contains("profile 'Nobody.xml' of component 'Nobody' not found"));
+    CHECK(result.output_contains("is an RTC module (exports HWCompInit)"));
+    CHECK(result.output_contains("Old.xml:3: library " ZOO
+                                 "/opros/another_tandem.so was built against the headers of another"));
+    CHECK(result.output_contains("app.xml:8: component 'M' has no port 'nope'"));
+    CHECK(result.output_contains("app.xml:9: type mismatch"));
+    CHECK(result.output_contains("app.xml:10: "));
+    CHECK(result.output_contains("app: 10 errors\n"));
     CHECK(std::count(result.output.begin(), result.output.end(), '\n') == 11);
     const auto json =
         tandem_program({"opros", "check", folder.path() / "app.xml", "--plugin-path", FIXTURES, "--json"});
@@ -83,9 +83,9 @@ TEST_CASE("tandem opros check reads the type profiles that a component refers to
     const auto result = check(application);
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
-    CHECK(result.says("Math.xml:3: "));
-    CHECK(result.says("Points.xml:1: <data_type> lacks its <struct>\n"));
-    CHECK(result.says("app: 2 errors\n"));
+    CHECK(result.output_contains("Math.xml:3: "));
+    CHECK(result.output_contains("Points.xml:1: <data_type> lacks its <struct>\n"));
+    CHECK(result.output_contains("app: 2 errors\n"));
 }
 
 TEST_CASE("tandem opros check reports a connection that is listed many times in one line") {
@@ -98,8 +98,9 @@ TEST_CASE("tandem opros check reports a connection that is listed many times in 
         check(folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"), connections));
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
-    CHECK(result.says("app.xml:8: connection M.numbers -> P.numbers is listed 6000 times, first at "));
-    CHECK(result.says("app: 1 error\n"));
+    CHECK(result.output_contains(
+        "app.xml:8: connection M.numbers -> P.numbers is listed 6000 times, first at "));
+    CHECK(result.output_contains("app: 1 error\n"));
 }
 
 TEST_CASE("tandem opros check reports a wrong connection that is listed many times in one line") {
@@ -112,10 +113,10 @@ TEST_CASE("tandem opros check reports a wrong connection that is listed many tim
     const auto result = check(folder.application(Folder::sub("M", "M.xml"), connections));
     INFO(result.output << result.errors);
     CHECK(result.exit_code == 1);
-    CHECK(result.says(
+    CHECK(result.output_contains(
         "app.xml:7: unknown component 'Q', expected one of M, in a connection that is listed 3000 times\n"));
-    CHECK(result.says("app.xml:8: port_type is 'mail'"));
-    CHECK(result.says("app: 2 errors\n"));
+    CHECK(result.output_contains("app.xml:8: port_type is 'mail'"));
+    CHECK(result.output_contains("app: 2 errors\n"));
 }
 
 TEST_CASE("tandem opros check refuses a file that is no application in one line") {
@@ -151,12 +152,13 @@ TEST_CASE("tandem opros check compares the ports that a profile lists with those
                 port("service", "maths", "provided", "") + port("data", "numbers", "input1", ""));
     INFO(unfit.output << unfit.errors);
     CHECK(unfit.exit_code == 1);
-    CHECK(unfit.says(
+    CHECK(unfit.output_contains(
         "P.xml:6: data port 'numbers' is std::vector<double> in the component, not vector<int>\n"));
-    CHECK(unfit.says("P.xml:7: data port 'counts' is input in the component, not output\n"));
-    CHECK(unfit.says("P.xml:8: data port 'news' is of kind event in the component\n"));
-    CHECK(unfit.says(
+    CHECK(unfit.output_contains("P.xml:7: data port 'counts' is input in the component, not output\n"));
+    CHECK(unfit.output_contains("P.xml:8: data port 'news' is of kind event in the component\n"));
+    CHECK(unfit.output_contains(
         "P.xml:9: service port 'maths' is not in the component, its service ports are: math (and"));
-    CHECK(unfit.says("P.xml:10: <data_port> 'numbers' has the <usage> 'input1', expected input or output\n"));
-    CHECK(unfit.says("app: 5 errors\n"));
+    CHECK(unfit.output_contains(
+        "P.xml:10: <data_port> 'numbers' has the <usage> 'input1', expected input or output\n"));
+    CHECK(unfit.output_contains("app: 5 errors\n"));
 }

@@ -28,8 +28,8 @@ TEST_CASE("tandem opros info shows ports, services, executor and properties of a
     CHECK(port(info, "refVoltage")["type"] == "std::vector<double>");
     CHECK(port(info, "chair")["methods"][0]["signature"] == "bool ()");
     const auto text = tandem_program({"opros", "info", PLUGINS "/opros/HWComp.xml"});
-    CHECK(text.says("executor   periodic, every 10 ms, phase 5 ms, priority 7"));
-    CHECK(text.says("emergency_stop: bool ()"));
+    CHECK(text.output_contains("executor   periodic, every 10 ms, phase 5 ms, priority 7"));
+    CHECK(text.output_contains("emergency_stop: bool ()"));
 }
 
 TEST_CASE("tandem opros info takes a library with or without a profile and shows all kinds of ports") {
@@ -44,7 +44,7 @@ TEST_CASE("tandem opros info takes a library with or without a profile and shows
     CHECK(port(info, "provided")["methods"][0]["signature"] == "double (double)");
 }
 
-TEST_CASE("tandem opros info says in one line why it cannot show a component") {
+TEST_CASE("tandem opros info reports in one line why it cannot show a component") {
     const auto refused = [](std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {"opros", "info"});
         const auto result = tandem_program(arguments);
@@ -139,15 +139,15 @@ TEST_CASE("tandem opros info shows the parts of composites and applications and 
 
     const auto application = info(
         folder.application(Folder::sub("M", "M.xml"), Folder::connect("data", "M", "numbers", "M", "x")));
-    CHECK(application.says("application  app\n"));
-    CHECK(application.says("M.numbers  M.x"));
+    CHECK(application.output_contains("application  app\n"));
+    CHECK(application.output_contains("M.numbers  M.x"));
     const auto service = info(folder.write(
         "s.xml",
         "<service_port_type_profile><service_port_type><type_name>Arm</type_name><method name=\"Move\" "
         "return_type=\"bool\"><param index=\"1\"><type>double</type><name>t</name></param></method>"
         "</service_port_type></service_port_type_profile>"));
-    CHECK(service.says("bool (double t)"));
+    CHECK(service.output_contains("bool (double t)"));
     const auto data = info(folder.write(
         "d.xml", "<data_type><struct name=\"Point\"><item type=\"double\">x</item></struct></data_type>"));
-    CHECK(data.says("Point\nfield  type    default\nx      double"));
+    CHECK(data.output_contains("Point\nfield  type    default\nx      double"));
 }

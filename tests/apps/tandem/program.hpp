@@ -16,7 +16,7 @@ struct Result {
     int exit_code;
     std::string output, errors;
     nlohmann::json json() const { return nlohmann::json::parse(output); }
-    bool says(const std::string& text) const { return output.find(text) != std::string::npos; }
+    bool output_contains(const std::string& text) const { return output.find(text) != std::string::npos; }
 };
 
 inline std::string content_of(std::FILE* file) {

@@ -27,7 +27,7 @@ std::string failed(const std::vector<std::string>& arguments) {
 
 } // namespace
 
-TEST_CASE("which module a folder of an RT-Component is must be plain from its sources") {
+TEST_CASE("the sources of an RT-Component must define exactly one module") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     CHECK_THAT(failed({dir}), Catch::Contains("is not a folder"));
@@ -41,7 +41,7 @@ TEST_CASE("which module a folder of an RT-Component is must be plain from its so
     CHECK_THAT(failed({dir, "--name", "no good"}), Catch::Contains("cannot be the name"));
 }
 
-TEST_CASE("what does not compile in an RT-Component is one last line with the first error") {
+TEST_CASE("the last line of a failed build of an RT-Component is its first error") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     folder.write("Rtc/Good.cpp", module_text);
@@ -63,7 +63,7 @@ TEST_CASE("what does not compile in an RT-Component is one last line with the fi
     CHECK(fs::file_size(dir + "/Good.so") == 11);
 }
 
-TEST_CASE("what an interrupted omniidl has left in the folder of an RT-Component is not built") {
+TEST_CASE("temporary files that an interrupted omniidl has left in a folder are not built") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     folder.write("Rtc/Good.cpp", module_text);

@@ -31,7 +31,7 @@ struct Installed {
 };
 
 // Until the component says ready.
-tandem::test::Said until_ready(const std::string& command, const std::string& expected) {
+tandem::test::CommandOutput until_ready(const std::string& command, const std::string& expected) {
     const auto said = tandem::test::run_host(command, "");
     INFO(command << "\n" << said.output);
     CHECK_THAT(said.output, Catch::Contains(expected));

@@ -9,13 +9,13 @@
 
 namespace tandem::test {
 
-struct Said {
+struct CommandOutput {
     int exit_code;
     std::string output; ///< standard output and error
 };
 
 /// By bash; no single quotes in the command.
-inline Said shell(const std::string& command) {
+inline CommandOutput shell(const std::string& command) {
     std::FILE* pipe = popen(("exec bash -c '" + command + "' 2>&1 </dev/null").c_str(), "r");
     if (!pipe) return {-1, "no shell"};
     std::string output;
@@ -27,7 +27,7 @@ inline Said shell(const std::string& command) {
 
 /// Runs opros_host until it says ready, then ends it in order. `host` may have arguments. Exit code 137: it
 /// was silent for a minute.
-inline Said run_host(const std::string& host, const std::string& application) {
+inline CommandOutput run_host(const std::string& host, const std::string& application) {
     return shell("coproc " + host + " " + application +
                  "; pid=$COPROC_PID; while read -t 60 -r line || { end=$?; false; }; do echo \"$line\"; "
                  "[ \"$line\" = ready ] && kill -TERM $pid; done <&${COPROC[0]}; "

@@ -51,8 +51,8 @@ TEST_CASE("list shows a segment and both of its sides") {
     CHECK(segment["sides"]["second"]["held"] == true);
     const auto text = shm_program({"list"});
     CHECK(text.exit_code == 0);
-    CHECK(text.says(pair.link.name));
-    CHECK(text.says("pid " + std::to_string(getpid())));
+    CHECK(text.output_contains(pair.link.name));
+    CHECK(text.output_contains("pid " + std::to_string(getpid())));
 }
 
 TEST_CASE("list tells a dead side from one that never joined") {
@@ -72,7 +72,7 @@ TEST_CASE("list names damaged segments with the reason and still ends with 0") {
     CHECK_FALSE(listed(link.name)["reason"].get<std::string>().empty());
     const auto text = shm_program({"list"});
     CHECK(text.exit_code == 0);
-    CHECK(text.says("damaged: "));
+    CHECK(text.output_contains("damaged: "));
     const auto info = shm_program({"info", link.name});
     CHECK(info.exit_code == 1);
     CHECK(info.errors.find("damaged") != std::string::npos);
@@ -89,8 +89,8 @@ TEST_CASE("a segment of another user is listed and neither read nor removed") {
     CHECK(shm_program({"stats", link.name}).exit_code == 1);
     const auto clean = shm_program({"clean", link.name});
     CHECK(clean.exit_code == 0);
-    CHECK(clean.says("kept"));
-    CHECK(clean.says("12345"));
+    CHECK(clean.output_contains("kept"));
+    CHECK(clean.output_contains("12345"));
     CHECK(std::filesystem::exists(path));
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("info shows the objects of both sides") {
     CHECK(text.exit_code == 0);
     for (const char* part :
          {"scan", "first writes, 4 KiB", "stick", "second writes,", "calls", "5 slots", "table", "321 B"})
-        CHECK(text.says(part));
+        CHECK(text.output_contains(part));
     const auto json = shm_program({"info", pair.link.name, "--json"}).json();
     REQUIRE(json["objects"].size() == 4);
     CHECK(json["objects"][0]["name"] == "scan");
@@ -119,7 +119,7 @@ TEST_CASE("control characters and invalid UTF-8 in names reach neither the termi
     pair.first->add_blob("\x1b[2J\xff\"name", 10);
     pair.first->publish();
     const auto text = shm_program({"info", pair.link.name});
-    CHECK(text.says("?[2J?\"name"));
+    CHECK(text.output_contains("?[2J?\"name"));
     CHECK(text.output.find('\x1b') == std::string::npos);
     CHECK(shm_program({"info", pair.link.name, "--json"}).json()["objects"].size() == 1);
 }
@@ -141,9 +141,9 @@ TEST_CASE("stats of a running writer grow and an idle segment stays as it is") {
     REQUIRE(eventually([&] { return listed(link.name)["sides"]["first"]["state"] == "late"; }));
     const auto idle = bytes();
     const auto stats = shm_program({"stats", link.name});
-    CHECK(stats.says("odometry"));
-    CHECK(stats.says("services"));
-    CHECK(stats.says("late"));
+    CHECK(stats.output_contains("odometry"));
+    CHECK(stats.output_contains("services"));
+    CHECK(stats.output_contains("late"));
     shm_program({"list"});
     shm_program({"info", link.name});
     CHECK(bytes() == idle);
@@ -162,14 +162,14 @@ TEST_CASE("stats --watch prints one line of JSON each time, with the rates since
     CHECK(observations[2]["rates"]["rings"][0]["name"] == "odometry");
     CHECK(observations[2]["rates"]["rings"][0]["sent_per_s"] > 0.0);
     CHECK(observations[2]["rates"]["call_queues"][0]["calls_per_s"] == 0.0);
-    CHECK(shm_program({"stats", link.name, "--watch", "0.05", "--count", "2"}).says("sent/s"));
+    CHECK(shm_program({"stats", link.name, "--watch", "0.05", "--count", "2"}).output_contains("sent/s"));
 }
 
 TEST_CASE("stats --watch goes on when the segment is gone") {
     const Link link;
     const auto watch = shm_program({"stats", link.name, "--watch", "0.02", "--count", "2"});
     CHECK(watch.exit_code == 0);
-    CHECK(watch.says("no segment at the moment"));
+    CHECK(watch.output_contains("no segment at the moment"));
 }
 
 TEST_CASE("clean removes the segments of dead processes and nothing else") {
@@ -185,13 +185,13 @@ TEST_CASE("clean removes the segments of dead processes and nothing else") {
 
     const auto result = shm_program({"clean", dead.name});
     CHECK(result.exit_code == 0);
-    CHECK(result.says("removed"));
-    CHECK(result.says("dead, pid"));
+    CHECK(result.output_contains("removed"));
+    CHECK(result.output_contains("dead, pid"));
     CHECK(dead.files().empty());
     CHECK(damaged.files().size() == 1);
-    CHECK(shm_program({"clean", damaged.name}).says("shorter than a header"));
+    CHECK(shm_program({"clean", damaged.name}).output_contains("shorter than a header"));
     CHECK(damaged.files().empty());
-    CHECK(shm_program({"clean", damaged.name}).says("nothing to remove"));
+    CHECK(shm_program({"clean", damaged.name}).output_contains("nothing to remove"));
     CHECK(shm_program({"stats", living.name}).exit_code == 0);
 }
 

@@ -99,13 +99,14 @@ void add_connections(CLI::App& rtm, Action& selected) {
         RtmClientOptions client;
         DisconnectOptions options;
     };
-    auto end = std::make_shared<Disconnect>();
-    command =
-        add_command(rtm, "disconnect", "Ends the connections of a port, or those between two", end->client);
-    command->add_option("PORT", end->options.ports, "one port or two")->required()->expected(1, 2);
-    command->add_option("--id", end->options.id, "only the connection with this id");
-    command->callback(
-        [=, &selected] { selected = [end] { return rtm_disconnect(end->client, end->options); }; });
+    auto disconnect = std::make_shared<Disconnect>();
+    command = add_command(rtm, "disconnect", "Ends the connections of a port, or those between two",
+                          disconnect->client);
+    command->add_option("PORT", disconnect->options.ports, "one port or two")->required()->expected(1, 2);
+    command->add_option("--id", disconnect->options.id, "only the connection with this id");
+    command->callback([=, &selected] {
+        selected = [disconnect] { return rtm_disconnect(disconnect->client, disconnect->options); };
+    });
 }
 
 void add_conf(CLI::App& rtm, Action& selected) {
