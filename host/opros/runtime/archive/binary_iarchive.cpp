@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/archive/checked_input.hpp"
+#include "host/opros/runtime/archive/number_types.hpp"
 
 #include <archive/opros_binary_iarchive.h>
 
@@ -47,26 +48,14 @@ OPROS_LOAD_NUMBER(char)
 OPROS_LOAD_NUMBER(signed char)
 OPROS_LOAD_NUMBER(unsigned char)
 OPROS_LOAD_NUMBER(wchar_t)
-OPROS_LOAD_NUMBER(short)
-OPROS_LOAD_NUMBER(unsigned short)
-OPROS_LOAD_NUMBER(int)
-OPROS_LOAD_NUMBER(unsigned int)
-OPROS_LOAD_NUMBER(long)
-OPROS_LOAD_NUMBER(unsigned long)
-OPROS_LOAD_NUMBER(long long)
-OPROS_LOAD_NUMBER(unsigned long long)
-OPROS_LOAD_NUMBER(float)
-OPROS_LOAD_NUMBER(double)
-OPROS_LOAD_NUMBER(long double)
+OPROS_FOR_EACH_NUMBER(OPROS_LOAD_NUMBER)
 #undef OPROS_LOAD_NUMBER
 
-/// A block of bytes. Its length is checked before that much is allocated.
+/// A block of bytes.
 void binary_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
     expect(static_cast<char>(sizeof(long)));
-    bytes.resize(check_count(*m_is, get_bytes<unsigned long>()));
-    m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
+    read_bytes(*m_is, get_bytes<unsigned long>(), bytes);
 }
 
 iarchive& binary_iarchive::load_binary(char** p, long& size) {
@@ -78,21 +67,13 @@ iarchive& binary_iarchive::load_binary(char** p, long& size) {
 
 iarchive& binary_iarchive::load(std::string& value) {
     read_class_head("std::string");
-    // The length is there twice: once of the string, once of the block that holds it.
-    unsigned long length = 0;
-    load(length);
-    get_blob(value);
-    if (value.size() != length) throw archive_format_exception();
+    load_string(*this, value, [this](std::string& bytes) { get_blob(bytes); });
     return *this;
 }
 
 iarchive& binary_iarchive::load(std::wstring& value) {
     read_class_head("std::wstring");
-    unsigned long length = 0;
-    load(length);
-    std::string bytes;
-    get_blob(bytes);
-    value = bytes_to_wstring(bytes, length);
+    load_wstring(*this, value, [this](std::string& bytes) { get_blob(bytes); });
     return *this;
 }
 

@@ -5,6 +5,8 @@
 //   int[2] {1, 2}        'A' 08 02 00 00 00 00 00 00 00  'I' 04  01 00 00 00  02 00 00 00
 //   "abc"                'T' 0b 00 "std::string"  'L' 08 <3>  'G' 08 <3> "abc"     <3>: 8 bytes
 //   vector<int> {7}      'T' 10 00 "std::vector<int>"  'I' 04 01 00 00 00  'I' 04 07 00 00 00
+#include "host/opros/runtime/archive/number_types.hpp"
+
 #include <archive/opros_binary_oarchive.h>
 
 #include <cstdint>
@@ -38,17 +40,7 @@ OPROS_SAVE_NUMBER(char)
 OPROS_SAVE_NUMBER(signed char)
 OPROS_SAVE_NUMBER(unsigned char)
 OPROS_SAVE_NUMBER(wchar_t)
-OPROS_SAVE_NUMBER(short)
-OPROS_SAVE_NUMBER(unsigned short)
-OPROS_SAVE_NUMBER(int)
-OPROS_SAVE_NUMBER(unsigned int)
-OPROS_SAVE_NUMBER(long)
-OPROS_SAVE_NUMBER(unsigned long)
-OPROS_SAVE_NUMBER(long long)
-OPROS_SAVE_NUMBER(unsigned long long)
-OPROS_SAVE_NUMBER(float)
-OPROS_SAVE_NUMBER(double)
-OPROS_SAVE_NUMBER(long double)
+OPROS_FOR_EACH_NUMBER(OPROS_SAVE_NUMBER)
 #undef OPROS_SAVE_NUMBER
 
 oarchive& binary_oarchive::save_binary(const char* p, long size) {

@@ -21,6 +21,12 @@ std::size_t check_count(std::istream& in, unsigned long count) {
     return count;
 }
 
+void read_bytes(std::istream& in, unsigned long count, std::string& bytes) {
+    bytes.resize(check_count(in, count));
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (in.gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
+}
+
 // Users' save() and load() pass memory of their own, or ask for some, through the same function.
 void copy_to_caller(const std::string& bytes, char** p, long& size) {
     if (*p == nullptr)

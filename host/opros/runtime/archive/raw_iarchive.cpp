@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/archive/checked_input.hpp"
+#include "host/opros/runtime/archive/number_types.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
 #include <archive/opros_raw_iarchive.h>
@@ -42,26 +43,14 @@ iarchive& raw_iarchive::load(wchar_t& value) {
     iarchive& raw_iarchive::load(type& value) { return get(value); }
 OPROS_LOAD_NUMBER(signed char)
 OPROS_LOAD_NUMBER(unsigned char)
-OPROS_LOAD_NUMBER(short)
-OPROS_LOAD_NUMBER(unsigned short)
-OPROS_LOAD_NUMBER(int)
-OPROS_LOAD_NUMBER(unsigned int)
-OPROS_LOAD_NUMBER(long)
-OPROS_LOAD_NUMBER(unsigned long)
-OPROS_LOAD_NUMBER(long long)
-OPROS_LOAD_NUMBER(unsigned long long)
-OPROS_LOAD_NUMBER(float)
-OPROS_LOAD_NUMBER(double)
-OPROS_LOAD_NUMBER(long double)
+OPROS_FOR_EACH_NUMBER(OPROS_LOAD_NUMBER)
 #undef OPROS_LOAD_NUMBER
 
-/// A block of bytes. Its length is checked before that much is allocated.
+/// A block of bytes.
 void raw_iarchive::get_blob(std::string& bytes) {
     unsigned long count = 0;
     get(count);
-    bytes.resize(check_count(*m_is, count));
-    m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
+    read_bytes(*m_is, count, bytes);
 }
 
 iarchive& raw_iarchive::load_binary(char** p, long& size) {
@@ -72,19 +61,12 @@ iarchive& raw_iarchive::load_binary(char** p, long& size) {
 }
 
 iarchive& raw_iarchive::load(std::string& value) {
-    unsigned long length = 0;
-    get(length);
-    get_blob(value);
-    if (value.size() != length) throw archive_format_exception();
+    load_string(*this, value, [this](std::string& bytes) { get_blob(bytes); });
     return *this;
 }
 
 iarchive& raw_iarchive::load(std::wstring& value) {
-    unsigned long length = 0;
-    get(length);
-    std::string bytes;
-    get_blob(bytes);
-    value = bytes_to_wstring(bytes, length);
+    load_wstring(*this, value, [this](std::string& bytes) { get_blob(bytes); });
     return *this;
 }
 

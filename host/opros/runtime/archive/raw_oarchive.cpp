@@ -4,6 +4,7 @@
 //   class Point {x, y}   x  y                          classes and arrays leave no trace
 //   "abc"                <3> <3> "abc"                 <3>: 8 bytes
 //   vector<int> {7}      01 00 00 00  07 00 00 00      the count, then the elements
+#include "host/opros/runtime/archive/number_types.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
 #include <archive/opros_raw_oarchive.h>
@@ -34,17 +35,7 @@ oarchive& raw_oarchive::save(wchar_t value) {
     oarchive& raw_oarchive::save(type value) { return put(value); }
 OPROS_SAVE_NUMBER(signed char)
 OPROS_SAVE_NUMBER(unsigned char)
-OPROS_SAVE_NUMBER(short)
-OPROS_SAVE_NUMBER(unsigned short)
-OPROS_SAVE_NUMBER(int)
-OPROS_SAVE_NUMBER(unsigned int)
-OPROS_SAVE_NUMBER(long)
-OPROS_SAVE_NUMBER(unsigned long)
-OPROS_SAVE_NUMBER(long long)
-OPROS_SAVE_NUMBER(unsigned long long)
-OPROS_SAVE_NUMBER(float)
-OPROS_SAVE_NUMBER(double)
-OPROS_SAVE_NUMBER(long double)
+OPROS_FOR_EACH_NUMBER(OPROS_SAVE_NUMBER)
 #undef OPROS_SAVE_NUMBER
 
 oarchive& raw_oarchive::save_binary(const char* p, long size) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/runtime/archive/checked_input.hpp"
+#include "host/opros/runtime/archive/number_types.hpp"
 #include "host/opros/runtime/archive/pair_type.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
@@ -107,25 +108,13 @@ iarchive& string_iarchive::load(wchar_t& value) {
 
 #define OPROS_LOAD_NUMBER(type)                                                                              \
     iarchive& string_iarchive::load(type& value) { return get(type_code(&value), value); }
-OPROS_LOAD_NUMBER(short)
-OPROS_LOAD_NUMBER(unsigned short)
-OPROS_LOAD_NUMBER(int)
-OPROS_LOAD_NUMBER(unsigned int)
-OPROS_LOAD_NUMBER(long)
-OPROS_LOAD_NUMBER(unsigned long)
-OPROS_LOAD_NUMBER(long long)
-OPROS_LOAD_NUMBER(unsigned long long)
-OPROS_LOAD_NUMBER(float)
-OPROS_LOAD_NUMBER(double)
-OPROS_LOAD_NUMBER(long double)
+OPROS_FOR_EACH_NUMBER(OPROS_LOAD_NUMBER)
 #undef OPROS_LOAD_NUMBER
 
 void string_iarchive::get_blob(std::string& bytes) {
     expect(BINARY_CODE);
     expect('[');
-    bytes.resize(check_count(*m_is, from_decimal<unsigned long>(up_to(']'))));
-    m_is->read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (m_is->gcount() != static_cast<std::streamsize>(bytes.size())) throw archive_format_exception();
+    read_bytes(*m_is, from_decimal<unsigned long>(up_to(']')), bytes);
     expect(';');
 }
 
@@ -138,20 +127,13 @@ iarchive& string_iarchive::load_binary(char** p, long& size) {
 
 iarchive& string_iarchive::load(std::string& value) {
     read_class_head("std::string");
-    unsigned long length = 0;
-    load(length);
-    get_blob(value);
-    if (value.size() != length) throw archive_format_exception();
+    load_string(*this, value, [this](std::string& bytes) { get_blob(bytes); });
     return read_class_end("std::string");
 }
 
 iarchive& string_iarchive::load(std::wstring& value) {
     read_class_head("std::wstring");
-    unsigned long length = 0;
-    load(length);
-    std::string bytes;
-    get_blob(bytes);
-    value = bytes_to_wstring(bytes, length);
+    load_wstring(*this, value, [this](std::string& bytes) { get_blob(bytes); });
     return read_class_end("std::wstring");
 }
 

@@ -5,6 +5,7 @@
 //   int[2] {1, 2}        A[2]I1;I2;;
 //   "abc"                T[std::string]L3;G[3]abc;;
 //   vector<int> {7}      T[std::vector<int>]I1;I7;;     the count, then the elements
+#include "host/opros/runtime/archive/number_types.hpp"
 #include "host/opros/runtime/archive/pair_type.hpp"
 #include "host/opros/runtime/archive/utf8.hpp"
 
@@ -67,17 +68,7 @@ oarchive& string_oarchive::save(wchar_t value) {
 
 #define OPROS_SAVE_NUMBER(type)                                                                              \
     oarchive& string_oarchive::save(type value) { return put(type_code(&value), value); }
-OPROS_SAVE_NUMBER(short)
-OPROS_SAVE_NUMBER(unsigned short)
-OPROS_SAVE_NUMBER(int)
-OPROS_SAVE_NUMBER(unsigned int)
-OPROS_SAVE_NUMBER(long)
-OPROS_SAVE_NUMBER(unsigned long)
-OPROS_SAVE_NUMBER(long long)
-OPROS_SAVE_NUMBER(unsigned long long)
-OPROS_SAVE_NUMBER(float)
-OPROS_SAVE_NUMBER(double)
-OPROS_SAVE_NUMBER(long double)
+OPROS_FOR_EACH_NUMBER(OPROS_SAVE_NUMBER)
 #undef OPROS_SAVE_NUMBER
 
 oarchive& string_oarchive::save_binary(const char* p, long size) {
