@@ -12,7 +12,7 @@ std::optional<ProbeOptions> ProbeCliOptions::probe_options() const {
     return options;
 }
 
-void add_probe_options(CLI::App& cli, ProbeCliOptions& options) {
+void add_library_probe_options(CLI::App& cli, ProbeCliOptions& options) {
     cli.add_flag("--no-probe", options.disabled,
                  "Load libraries without trying them in a child process first");
     cli.add_option("--probe-timeout", options.timeout_s,

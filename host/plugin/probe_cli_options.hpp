@@ -21,6 +21,6 @@ struct ProbeCliOptions {
 };
 
 /// Declares the options; parsing writes to `options`, which must live as long as `cli`.
-void add_probe_options(CLI::App& cli, ProbeCliOptions& options);
+void add_library_probe_options(CLI::App& cli, ProbeCliOptions& options);
 
 } // namespace tandem::plugin

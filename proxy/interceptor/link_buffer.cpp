@@ -86,7 +86,7 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
         channel_.writer->write_sized(counter.total() - head, stamp, [&](std::span<std::byte> room) {
             StampedOutStream out(room, channel_.timed);
             complete = marshal(out) && out.is_complete();
-            if (channel_.timed) stamp = out.stamp();
+            if (channel_.timed) stamp = out.packed_time();
             return complete;
         });
     return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;

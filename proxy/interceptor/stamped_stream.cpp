@@ -58,7 +58,7 @@ bool StampedOutStream::is_complete() const {
     return pd_outb_mkr == pd_outb_end && (!in_time_ || body_.empty());
 }
 
-std::uint64_t StampedOutStream::stamp() const {
+std::uint64_t StampedOutStream::packed_time() const {
     std::uint32_t words[2];
     std::memcpy(words, time_, sizeof words);
     return wire::pack_time(words[0], words[1]);

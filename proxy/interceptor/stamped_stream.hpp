@@ -49,7 +49,7 @@ class StampedOutStream final : public StampedStream {
     /// True if exactly as many bytes were written as there is room for.
     bool is_complete() const;
     /// The time of a timed message, as wire::pack_time() packs it.
-    std::uint64_t stamp() const;
+    std::uint64_t packed_time() const;
 
     void put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) override;
     _CORBA_Boolean checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) override;

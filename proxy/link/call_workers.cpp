@@ -37,12 +37,12 @@ void CallWorkers::start_worker() {
 
 void CallWorkers::run() {
     while (!state_.is_closing())
-        if (auto call = take_call()) serve(std::move(*call));
+        if (auto call = wait_for_call()) serve(std::move(*call));
 }
 
 /// The session is released before the call is served: a call may take long, and meanwhile the session must be
 /// able to end and the next one to be joined.
-std::optional<shm::IncomingCall> CallWorkers::take_call() {
+std::optional<shm::IncomingCall> CallWorkers::wait_for_call() {
     {
         const std::lock_guard lock(mutex_);
         ++idle_;

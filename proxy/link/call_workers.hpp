@@ -30,7 +30,7 @@ class CallWorkers {
 
   private:
     void run();
-    std::optional<shm::IncomingCall> take_call();
+    std::optional<shm::IncomingCall> wait_for_call();
     void serve(shm::IncomingCall call);
     void start_worker(); ///< with mutex_ held
 

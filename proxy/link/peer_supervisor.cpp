@@ -84,7 +84,7 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     std::string refusal;
     try {
         if (!chunks_suffice(session)) return; // one of the two sides joins a new segment
-        refusal = connect(session);
+        refusal = bind_to_peer(session);
     } catch (const std::runtime_error& error) { // LinkError, shm::Error, SignatureError: each is one line
         refusal = fmt::format("link '{}': {}", options_.name, error.what());
     }
@@ -113,7 +113,7 @@ bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
 }
 
 /// Binds the channels and opens the peer's call queue. Returns why the handler refused the peer, or "".
-std::string PeerSupervisor::connect(LinkSession& session) {
+std::string PeerSupervisor::bind_to_peer(LinkSession& session) {
     const PortTable peer_ports = session.read_peer_table();
     std::string refusal = handler_.check_peer_ports(peer_ports);
     if (!refusal.empty()) return refusal;

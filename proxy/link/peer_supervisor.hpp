@@ -42,7 +42,7 @@ class PeerSupervisor {
     std::string end_reason(const LinkSession& session) const;
     void try_connect(LinkSession& session);
     bool chunks_suffice(const LinkSession& session);
-    std::string connect(LinkSession& session);
+    std::string bind_to_peer(LinkSession& session);
     void disconnect(const std::string& reason);
 
     const shm::Side side_;

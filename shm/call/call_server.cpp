@@ -24,13 +24,13 @@ std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
     return std::nullopt;
 }
 
-void CallServer::interrupt() { state_->worker.interrupt(); }
+void CallServer::end_all_waits() { state_->worker.end_all_waits(); }
 
 void CallServer::shut_down() {
     state_->worker.close();
     bool polling = false;
     state_->take_runnable(polling); // answers what waits and hands nothing out, because the queue is closed
-    interrupt();
+    end_all_waits();
 }
 
 } // namespace tandem::shm

@@ -19,9 +19,9 @@ class CallServer {
     std::optional<IncomingCall> take(std::chrono::nanoseconds bound);
 
     /// Makes all workers' take() return empty at once when no call waits, now and from now on.
-    void interrupt();
+    void end_all_waits();
 
-    /// Refuses all calls, also those that wait, with CallStatus::shut_down; interrupts the workers.
+    /// Refuses all calls, also those that wait, with CallStatus::shut_down; ends the workers' waits.
     void shut_down();
 
     CallCounters counters() const;

@@ -27,7 +27,7 @@ std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds boun
     std::uint64_t now = began; // not read again for a call that was found by polling: only learn() uses it
     for (bool polling = false, polled = false;;) {
         auto call = take_runnable(polling);
-        if (call || worker.interrupted() || now >= deadline) {
+        if (call || worker.waits_ended() || now >= deadline) {
             if (polling) worker.stop_polling();
             // From a short bound that passed without a call nothing can be learnt.
             if (polled && (call || now - began > max_spin_ns)) spin.learn(max_spin_ns, now - began);

@@ -90,18 +90,18 @@ class CallWorker {
         announce(layout::WorkerPolling::no);
     }
 
-    /// Polls until there is a call to take, or interrupted(); false: now() has reached `until`. Unlike a
+    /// Polls until there is a call to take, or waits_ended(); false: now() has reached `until`. Unlike a
     /// caller it does not prefetch the second line of the next request: measured, that takes the line from
     /// the caller while it is being written.
     bool spin(std::uint64_t until) const {
         for (unsigned round = 1;; ++round) {
-            if (any_submitted() || interrupted()) return true;
+            if (any_submitted() || waits_ended()) return true;
             if (round % 32 == 0 && A::now() >= until) return false;
             A::pause();
         }
     }
 
-    /// Sleeps until there may be a call, or interrupt(), or now() reaches `until`.
+    /// Sleeps until there may be a call, or end_all_waits(), or now() reaches `until`.
     ///
     ///     worker: ++workers_asleep, w = wake_count | calls? sleep(w)
     ///     caller: word = submitted | workers_asleep? wake
@@ -114,17 +114,17 @@ class CallWorker {
         header.workers_asleep.fetch_add(1, std::memory_order_seq_cst);
         if (has_poller_.load(std::memory_order_seq_cst) == 0) announce(layout::WorkerPolling::no);
         const std::uint32_t wake_count = header.wake_count.load(std::memory_order_seq_cst);
-        if (!any_submitted() && !interrupted()) A::futex_wait(header.wake_count, wake_count, until);
+        if (!any_submitted() && !waits_ended()) A::futex_wait(header.wake_count, wake_count, until);
         header.workers_asleep.fetch_sub(1, std::memory_order_seq_cst);
     }
 
     /// Ends all waits of this object's workers, now and from now on.
-    void interrupt() {
-        interrupted_.store(1, std::memory_order_seq_cst);
+    void end_all_waits() {
+        waits_ended_.store(1, std::memory_order_seq_cst);
         view_.header->wake_count.fetch_add(1, std::memory_order_seq_cst);
         A::futex_wake(view_.header->wake_count, INT_MAX);
     }
-    bool interrupted() const { return interrupted_.load(std::memory_order_seq_cst) != 0; }
+    bool waits_ended() const { return waits_ended_.load(std::memory_order_seq_cst) != 0; }
 
     /// Callers that begin after close() see it; calls submitted before are seen by take()
     /// (CallCaller::begin()).
@@ -208,7 +208,7 @@ class CallWorker {
     std::size_t words_per_slot_;
     std::vector<std::uint64_t> copies_;
     std::vector<typename A::template Atomic<std::uint32_t>> busy_; // 1 = a worker is in the slot
-    typename A::template Atomic<std::uint32_t> has_poller_{0}, interrupted_{0};
+    typename A::template Atomic<std::uint32_t> has_poller_{0}, waits_ended_{0};
 };
 
 } // namespace tandem::shm

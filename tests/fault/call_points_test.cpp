@@ -53,7 +53,7 @@ void serve(const BasicCallView<CrashPointAtomics>& view, const WorkerScenario& s
     }
     if (scenario.closes) {
         worker.close();
-        worker.interrupt();
+        worker.end_all_waits();
         worker.drop_submitted();
         worker.stop_polling();
     }

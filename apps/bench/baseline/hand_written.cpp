@@ -121,7 +121,7 @@ std::int64_t monotonic_ns() {
 }
 
 /// The lateness of a loop on clock_nanosleep(). Missed periods are skipped, as a periodic executor skips them.
-void tick(Session& session) {
+void measure_nanosleep_lateness(Session& session) {
     constexpr std::int64_t second_ns = 1'000'000'000;
     TickCounts counts;
     std::int64_t next = monotonic_ns();
@@ -145,7 +145,7 @@ void add_hand_written_cases(Registry& registry) {
     cases.add("push", 1000 * sizeof(double), Wake::none, push_array);
     cases.add("local-call", sizeof(double), Wake::none, call);
     cases.add_event(event);
-    cases.add("tick", sizeof(double), Wake::blocking, tick);
+    cases.add("tick", sizeof(double), Wake::blocking, measure_nanosleep_lateness);
 }
 
 } // namespace tandem::bench

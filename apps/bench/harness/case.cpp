@@ -50,7 +50,7 @@ std::string Case::conditions() const {
     return text.empty() ? "normal" : text;
 }
 
-std::string Case::topic() const {
+std::string Case::comparison_key() const {
     // The cache line (8 bytes) and the 48-byte record are compared with the 64-byte message.
     const std::size_t size = bytes < 64 ? 64 : bytes;
     return operation + "/" + size_text(size) + "/" + conditions();

@@ -49,8 +49,8 @@ struct Case {
     std::string id() const;
     /// The state of the machine: "normal", or what differs from it: "low-latency-idle", "same-core", "loaded".
     std::string conditions() const;
-    /// Cases of one topic are measured one after the other, so that the two cases of a ratio are close in time.
-    std::string topic() const;
+    /// Cases with one key are measured one after the other, so that the two cases of a ratio are close in time.
+    std::string comparison_key() const;
     bool needs_two_cores() const {
         return placement == Placement::processes || placement == Placement::threads;
     }

@@ -35,11 +35,12 @@ Registry all_cases() {
     add_rtm_cases(registry);
     add_wheelchair_cases(registry);
     add_peer_cases(registry);
-    // Topics keep the order in which they first appear above, and so do the cases within a topic.
+    // Comparison keys keep the order in which they first appear above, and so do the cases within a key.
     std::map<std::string, std::size_t> order;
-    for (const Case& entry : registry.cases) order.emplace(entry.topic(), order.size());
-    std::stable_sort(registry.cases.begin(), registry.cases.end(),
-                     [&](const Case& a, const Case& b) { return order.at(a.topic()) < order.at(b.topic()); });
+    for (const Case& entry : registry.cases) order.emplace(entry.comparison_key(), order.size());
+    std::stable_sort(registry.cases.begin(), registry.cases.end(), [&](const Case& a, const Case& b) {
+        return order.at(a.comparison_key()) < order.at(b.comparison_key());
+    });
     return registry;
 }
 

@@ -22,7 +22,7 @@ struct Registry {
     void add_with_conditions(const Case& entry);
 };
 
-/// All cases, ordered by topic.
+/// All cases, ordered by comparison key.
 Registry all_cases();
 
 } // namespace tandem::bench

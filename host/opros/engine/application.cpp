@@ -68,7 +68,7 @@ void Application::sort_components(const ApplicationProfile& profile) {
 
 void Application::initialize_all() {
     for (ComponentHost* component : start_order_) {
-        report_setup_step(*component, "onInitialize");
+        announce_setup_callback(*component, "onInitialize");
         component->initialize();
         require_success_if_strict(*component, "initialize");
     }
@@ -97,7 +97,7 @@ void Application::connect_ports(const ConnectionProfile& connection) {
                      (has_source ? connection.target : connection.source).component);
 }
 
-void Application::report_setup_step(const ComponentHost& component, const char* callback) const {
+void Application::announce_setup_callback(const ComponentHost& component, const char* callback) const {
     if (options_.on_setup_step) options_.on_setup_step(component.name(), callback);
 }
 
@@ -118,7 +118,7 @@ void Application::start() {
     if (started_) return;
     started_ = true;
     for (ComponentHost* component : start_order_) {
-        report_setup_step(*component, "onStart");
+        announce_setup_callback(*component, "onStart");
         component->start();
         require_success_if_strict(*component, "start");
     }

@@ -80,7 +80,7 @@ class Application {
     void initialize_all();
     void connect_all(const ApplicationProfile& profile);
     void connect_ports(const ConnectionProfile& connection);
-    void report_setup_step(const ComponentHost& component, const char* callback) const;
+    void announce_setup_callback(const ComponentHost& component, const char* callback) const;
     void require_success_if_strict(const ComponentHost& component, const char* transition) const;
 
     void stop_component(ComponentHost& component);

@@ -43,7 +43,7 @@ void declare(CLI::App& cli, Options& options) {
                    "Seconds that the end waits for each callback of a component to return")
         ->check(CLI::Range(0.01, 3600.));
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
-    tandem::plugin::add_probe_options(cli, options.probe);
+    tandem::plugin::add_library_probe_options(cli, options.probe);
     tandem::rt::add_real_time_options(cli, options.real_time);
 }
 

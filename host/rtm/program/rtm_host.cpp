@@ -55,7 +55,7 @@ void declare_options(CLI::App& app, Arguments& a) {
                    "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
     app.add_option("--plugin-path", a.plugin_path, "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);
-    tandem::plugin::add_probe_options(app, a.probe);
+    tandem::plugin::add_library_probe_options(app, a.probe);
     tandem::rt::add_real_time_options(app, a.real_time);
 }
 

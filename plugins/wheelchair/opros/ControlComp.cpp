@@ -22,13 +22,13 @@ class ControlComp : public Component, private ControlPorts {
 
   protected:
     ReturnType onInitialize() override {
-        return component::guarded("ControlComp", [this] { settings_ = component::settings_of(*this); });
+        return component::run_guarded("ControlComp", [this] { settings_ = component::settings_of(*this); });
     }
 
     // The first call over the service port: it fails here, and not in mid-run, if the port is not connected.
     // A new body for each start: counters, law and safety state begin anew.
     ReturnType onStart() override {
-        return component::guarded("ControlComp", [this] {
+        return component::run_guarded("ControlComp", [this] {
             check_joystick(joystick_->dead_zone(), joystick_->direction_rate());
             body_.reset(); // closes the trace of an earlier start
             body_ = std::make_unique<ControlBody>(settings_);

@@ -31,13 +31,13 @@ class HWComp : public Component, public IChair, private HWPorts {
 
   protected:
     ReturnType onInitialize() override {
-        return component::guarded("HWComp", [this] { settings_ = component::settings_of(*this); });
+        return component::run_guarded("HWComp", [this] { settings_ = component::settings_of(*this); });
     }
 
     // Publishes once, so that the other components find values in their first tick.
     // A new body for each start: counters, law and safety state begin anew.
     ReturnType onStart() override {
-        return component::guarded("HWComp", [this] {
+        return component::run_guarded("HWComp", [this] {
             emergency_ = false;
             body_.reset(); // closes the trace of an earlier start
             body_ = std::make_unique<HWBody>(settings_);

@@ -25,13 +25,13 @@ class JoystickComp : public Component, public IJoystick, private JoystickPorts {
 
   protected:
     ReturnType onInitialize() override {
-        return component::guarded("JoystickComp", [this] { settings_ = component::settings_of(*this); });
+        return component::run_guarded("JoystickComp", [this] { settings_ = component::settings_of(*this); });
     }
 
     // Asks HWComp for the chair's limits, so HWComp must have been started before.
     // A new body for each start: counters, law and safety state begin anew.
     ReturnType onStart() override {
-        return component::guarded("JoystickComp", [this] {
+        return component::run_guarded("JoystickComp", [this] {
             body_.reset(); // closes the trace of an earlier start
             body_ = std::make_unique<JoystickBody>(settings_, chair_->limits());
         });

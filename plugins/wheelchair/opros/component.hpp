@@ -58,7 +58,7 @@ inline Settings settings_of(Component& component) {
 /// Runs a life-cycle callback. An exception becomes one line on standard error and an error code for the
 /// engine.
 template <class Step>
-ReturnType guarded(const char* component, Step step) {
+ReturnType run_guarded(const char* component, Step step) {
     try {
         step();
         return OPROS_SUCCESS;

@@ -26,7 +26,7 @@ class ControlComp : public RTC::DataFlowComponentBase, private ControlPorts {
 
     // A new body for each activation: counters, law and safety state begin anew.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
-        return component::guarded(getInstanceName(), [this] {
+        return component::run_guarded(getInstanceName(), [this] {
             ask_joystick();
             body_.reset(); // closes the trace of an earlier activation
             body_ = std::make_unique<ControlBody>(read_settings(parameters_.texts));

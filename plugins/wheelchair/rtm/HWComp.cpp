@@ -51,7 +51,7 @@ class HWComp : public RTC::DataFlowComponentBase, private HWPorts {
     // Publishes once, so that the other components find values in their first tick.
     // A new body for each activation: counters, law and safety state begin anew.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
-        return component::guarded(getInstanceName(), [this] {
+        return component::run_guarded(getInstanceName(), [this] {
             chair_.emergency_ = false;
             body_.reset(); // closes the trace of an earlier activation
             body_ = std::make_unique<HWBody>(read_settings(parameters_.texts));

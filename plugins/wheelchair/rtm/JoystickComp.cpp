@@ -51,7 +51,7 @@ class JoystickComp : public RTC::DataFlowComponentBase, private JoystickPorts {
 
     // A new body for each activation: counters, law and safety state begin anew.
     RTC::ReturnCode_t onActivated(RTC::UniqueId) override {
-        return component::guarded(getInstanceName(), [this] {
+        return component::run_guarded(getInstanceName(), [this] {
             body_.reset(); // closes the trace of an earlier activation
             const Settings settings = read_settings(parameters_.texts);
             joystick_.set_direction_rate(settings.scenario.direction_rate);

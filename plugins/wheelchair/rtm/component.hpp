@@ -117,7 +117,7 @@ inline coil::Properties profile(const char* name, const char* description) {
 
 /// Runs a life-cycle callback. An exception becomes one line on standard error and RTC_ERROR.
 template <class Step>
-RTC::ReturnCode_t guarded(const char* instance, Step step) {
+RTC::ReturnCode_t run_guarded(const char* instance, Step step) {
     try {
         step();
         return RTC::RTC_OK;

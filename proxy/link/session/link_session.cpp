@@ -42,7 +42,7 @@ void LinkSession::open_outgoing_calls() {
 }
 
 void LinkSession::interrupt() {
-    incoming_calls_.interrupt();
+    incoming_calls_.end_all_waits();
     segment_->doorbell().interrupt();
 }
 

@@ -33,15 +33,15 @@ Report measured(std::vector<Case> cases, double timeout = 10) {
 
 } // namespace
 
-TEST_CASE("Every case has a name of its own and the cases of a topic are neighbours") {
+TEST_CASE("Every case has a name of its own and the cases with one comparison key are neighbours") {
     const Registry registry = all_cases();
     std::set<std::string> ids, closed;
-    std::string topic;
+    std::string key;
     for (const Case& entry : registry.cases) {
         CHECK(ids.insert(entry.id()).second);
-        if (entry.topic() != topic) {
-            INFO(entry.topic());
-            CHECK(closed.insert(topic = entry.topic()).second);
+        if (entry.comparison_key() != key) {
+            INFO(entry.comparison_key());
+            CHECK(closed.insert(key = entry.comparison_key()).second);
         }
     }
 }

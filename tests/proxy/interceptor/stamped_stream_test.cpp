@@ -81,7 +81,7 @@ TEST_CASE("what is written is what the ORB writes, with the time apart or not") 
     message >>= out;
     CHECK(out.is_complete());
     CHECK(std::equal(body.begin(), body.end(), wanted.end() - static_cast<std::ptrdiff_t>(body.size())));
-    if (timed) CHECK(out.stamp() == wire::pack_time(1700000000, 5));
+    if (timed) CHECK(out.packed_time() == wire::pack_time(1700000000, 5));
 }
 
 TEST_CASE("what was written is read again, with the time apart or not") {

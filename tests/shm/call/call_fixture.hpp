@@ -29,7 +29,7 @@ struct CallPair : Pair {
     CallServer server;
 };
 
-/// Workers that run a function for every call until the server is interrupted.
+/// Workers that run a function for every call until the server ends their waits.
 struct Workers {
     Workers(CallServer& server, int count, std::function<void(IncomingCall&)> work) : server_(server) {
         for (int i = 0; i < count; ++i)
@@ -42,7 +42,7 @@ struct Workers {
             });
     }
     ~Workers() {
-        server_.interrupt();
+        server_.end_all_waits();
         for (auto& thread : threads_) thread.join();
     }
     CallServer& server_;

@@ -117,7 +117,7 @@ TEST_CASE("a caller that only polls has a worker woken though another was expect
     std::this_thread::sleep_for(20ms);
     CHECK(client.call({}, 5s).status == CallStatus::ok);
     CHECK(client.call({}, 5s).status == CallStatus::ok);
-    server.interrupt();
+    server.end_all_waits();
     once.join();
 }
 

@@ -92,7 +92,7 @@ TEST_CASE("waiting calls are taken in the order in which they came") {
     for (auto& caller : callers) caller.join();
 }
 
-TEST_CASE("an interrupt sends all idle workers home") {
+TEST_CASE("end_all_waits() makes all idle workers return") {
     CallPair calls;
     const auto before = now_ns();
     {

@@ -97,7 +97,7 @@ std::vector<ComponentSource> enumerate_components(const RtmClient& client) {
     return sources;
 }
 
-void require_reachable(const RtmClient& client, const std::vector<ComponentSource>& sources) {
+void throw_if_sources_failed(const RtmClient& client, const std::vector<ComponentSource>& sources) {
     // Without explicit sources one that answers is enough: a machine need not run a name server.
     std::string errors;
     bool answered = false;

@@ -28,6 +28,6 @@ struct ComponentSource {
 std::vector<ComponentSource> enumerate_components(const RtmClient& client);
 
 /// Throws std::runtime_error, in one line, if no source has answered, or if one that the user has named has not.
-void require_reachable(const RtmClient& client, const std::vector<ComponentSource>& sources);
+void throw_if_sources_failed(const RtmClient& client, const std::vector<ComponentSource>& sources);
 
 } // namespace tandem::command

@@ -35,7 +35,7 @@ int rtm_list(const RtmClientOptions& options) {
         print_json(json);
     else if (!table.empty())
         print_text(table.text());
-    require_reachable(client, sources);
+    throw_if_sources_failed(client, sources);
     return 0;
 }
 

@@ -97,7 +97,7 @@ int rtm_tree(const RtmClientOptions& options) {
         print_json(json);
     else
         print_text(text);
-    require_reachable(client, sources);
+    throw_if_sources_failed(client, sources);
     return 0;
 }
 

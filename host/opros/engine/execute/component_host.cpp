@@ -170,7 +170,7 @@ void ComponentHost::log_return_code(const char* callback, ReturnType code, Retur
 }
 
 // A component may call stopOnError() itself; errors that the engine has caused are logged where they happen.
-void ComponentHost::log_own_error() {
+void ComponentHost::log_if_component_stopped_itself() {
     const bool in_error = component_->getStatus() == OPROS_CS_ERROR;
     if (in_error && !error_logged_) spdlog::error("component {} has gone to ERROR by itself", name_);
     error_logged_ = in_error;
@@ -182,7 +182,7 @@ void ComponentHost::warm_up() { execute(Pass::warm_up); }
 // One function for both, since a copy of it for the warm-up would warm up the copy.
 std::string ComponentHost::execute(Pass pass) {
     if (!is_active()) {
-        if (pass == Pass::real) log_own_error();
+        if (pass == Pass::real) log_if_component_stopped_itself();
         return "";
     }
     return run_guarded("onExecute", [this, pass] {

@@ -97,7 +97,7 @@ class ComponentHost {
     void mark_failed();
     void configure_input_ports();
     void log_return_code(const char* callback, ReturnType code, ReturnType& last);
-    void log_own_error();
+    void log_if_component_stopped_itself();
 
     enum class Pass { real, warm_up };
     std::string execute(Pass pass);

@@ -123,7 +123,7 @@ std::string check_value(ConfKey::Value kind, std::string& value) {
 
 } // namespace
 
-bool normalize_value(const std::string& key, std::string& value) {
+bool check_and_normalize_value(const std::string& key, std::string& value) {
     const ConfKey* known = find_conf_key(key);
     return known == nullptr || value.empty() || check_value(known->value, value).empty();
 }

@@ -15,7 +15,7 @@ using SettingOrigins = std::map<std::string, std::string>;
 
 /// False: the key cannot have this value. Otherwise rewrites `value` to the one spelling that the rest of the
 /// runtime reads: YES or NO for the words of a boolean. Unknown keys and empty values pass as they are.
-bool normalize_value(const std::string& key, std::string& value);
+bool check_and_normalize_value(const std::string& key, std::string& value);
 
 /// Checks and normalizes every setting of `config` that has an origin. Returns one warning for each unknown
 /// key, with the nearest known one. Throws ManagerError, beginning with the origin, for a value that its key

@@ -52,7 +52,7 @@ void add_own_settings(const coil::Properties& config, const std::filesystem::pat
 
 void configure_component(Manager::Impl& impl, RTObject_impl& component, const coil::Properties& profile,
                          const coil::Properties& arguments) {
-    const coil::Properties config = impl.settings();
+    const coil::Properties config = impl.config_snapshot();
     coil::Properties properties = inherited_settings(config, profile);
     auto& listeners = impl.listeners.rtclifecycle_;
     listeners.forEach([&](auto& listener) { listener.preConfigure(properties); });

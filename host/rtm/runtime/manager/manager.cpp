@@ -53,7 +53,7 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
     // A component's own program is linked to this library, whatever headers it was built against.
     tandem::plugin::require_abi_of_process(tandem::plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
     std::unique_ptr<Manager> manager(new Manager(options));
-    read_configuration(*manager->m_impl, argc, argv);
+    configure_process(*manager->m_impl, argc, argv);
     start_orb(*manager->m_impl);
     register_contexts(*manager);
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,
@@ -90,7 +90,7 @@ coil::Properties& Manager::getConfig() { return m_impl->config; }
 std::string& Manager::getLogLevel() { return m_impl->config["logger.log_level"]; }
 void Manager::setModuleInitProc(ModuleInitProc proc) { m_impl->init_proc = proc; }
 
-coil::Properties Manager::Impl::settings() const {
+coil::Properties Manager::Impl::config_snapshot() const {
     std::lock_guard<std::recursive_mutex> lock(mutex);
     return config;
 }
@@ -101,7 +101,7 @@ std::string Manager::Impl::setting(const std::string& key) const {
 }
 
 bool Manager::Impl::change_setting(const std::string& key, std::string value) {
-    if (key.empty() || !normalize_value(key, value)) return false;
+    if (key.empty() || !check_and_normalize_value(key, value)) return false;
     std::lock_guard<std::recursive_mutex> lock(mutex);
     config.setProperty(key, value);
     return true;

@@ -87,7 +87,7 @@ void warn_about_naming_policy(const coil::Properties& config, SettingOrigins& or
 
 } // namespace
 
-void read_configuration(Manager::Impl& impl, int argc, char** argv) {
+void configure_process(Manager::Impl& impl, int argc, char** argv) {
     for (const auto& [key, value] : default_settings) impl.config.setDefault(key, value);
     CommandLine line = parse_command_line(argc, argv);
     const std::string file = line.conf_file.empty() ? find_default_conf_file() : line.conf_file;

@@ -67,7 +67,7 @@ struct Manager::Impl {
     RTM::ManagerActionListeners listeners;
 
     /// A copy of the settings as they are now: tools change them while components are created from them.
-    coil::Properties settings() const;
+    coil::Properties config_snapshot() const;
     std::string setting(const std::string& key) const;
     /// A setting made by a tool; false when the key cannot have the value.
     bool change_setting(const std::string& key, std::string value);
@@ -99,7 +99,7 @@ struct Manager::Impl {
 };
 
 /// Merges defaults, rtc.conf and command line into impl.config and opens the log. Throws ManagerError.
-void read_configuration(Manager::Impl& impl, int argc, char** argv);
+void configure_process(Manager::Impl& impl, int argc, char** argv);
 /// Initializes ORB, POAs and name bindings. Throws ManagerError, for example when the endpoint is in use.
 void start_orb(Manager::Impl& impl);
 /// Starts the supervision of connections with other processes and of the names in name servers.

@@ -22,7 +22,7 @@ coil::Properties module_profile(const std::string& name, const std::filesystem::
 }
 
 // Decided by the symbols and notes in the file, without running any of its code.
-bool is_rtc_module(const std::filesystem::path& file) {
+bool is_loadable_rtc_module(const std::filesystem::path& file) {
     try {
         const auto contents = tandem::plugin::read_contents(file);
         tandem::plugin::require_abi(file, contents, tandem::plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
@@ -58,7 +58,7 @@ std::vector<coil::Properties> Manager::getLoadableModules() {
         std::error_code ignored;
         for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
             const auto& file = entry.path();
-            if (file.extension() == ".so" && entry.is_regular_file(ignored) && is_rtc_module(file))
+            if (file.extension() == ".so" && entry.is_regular_file(ignored) && is_loadable_rtc_module(file))
                 modules.push_back(
                     module_profile(file.filename().string(), std::filesystem::absolute(file, ignored)));
         }

@@ -85,7 +85,7 @@ void Manager::runManager(bool no_block) {
     // The caller goes on without a main loop: tasks of invoke() and addTask() then wait for shutdown().
     if (no_block) return;
     for (int number : {SIGINT, SIGTERM, SIGHUP}) install_signal_handler(number);
-    IdleShutdown idle_shutdown(m_impl->settings());
+    IdleShutdown idle_shutdown(m_impl->config_snapshot());
     constexpr int round_ms = 100; // bounds the delay of tasks, and of noticing that components have gone
     while (!termination_requested) {
         wait_for_wake_up(round_ms);

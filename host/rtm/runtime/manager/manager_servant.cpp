@@ -88,7 +88,7 @@ RTC::RTCList* ManagerServant::get_components_by_name(const char* name) {
 
 ManagerProfile* ManagerServant::get_profile() {
     ManagerProfile_var profile = new ManagerProfile;
-    const coil::Properties settings = manager_.impl().settings();
+    const coil::Properties settings = manager_.impl().config_snapshot();
     if (const auto* node = settings.findNode("manager"))
         NVUtil::copyFromProperties(profile->properties, *node);
     return profile._retn();
@@ -96,7 +96,7 @@ ManagerProfile* ManagerServant::get_profile() {
 
 NVList* ManagerServant::get_configuration() {
     NVList_var list = new NVList;
-    NVUtil::copyFromProperties(list.inout(), manager_.impl().settings());
+    NVUtil::copyFromProperties(list.inout(), manager_.impl().config_snapshot());
     return list._retn();
 }
 

@@ -10,13 +10,14 @@ namespace {
 
 /// Everything that is registered in this process. Entries are only added, so that pointers to them stay
 /// valid.
-struct Registry {
+struct SignatureRegistry {
     std::mutex mutex;
     std::map<std::string, InterfaceSignatures::Operations> interfaces; // by repository id
     std::map<std::string, std::string> types;                          // by repository id
 };
-Registry& registry() {
-    static auto* instance = new Registry; // static initialisers of plugins come before and after everything
+SignatureRegistry& signature_registry() {
+    // Never destroyed: static initialisers of plugins come before and after everything.
+    static auto* instance = new SignatureRegistry;
     return *instance;
 }
 
@@ -42,7 +43,7 @@ bool ends_with_path(const std::string& path, const std::string& name) {
 
 // The exact repository id, otherwise the first interface whose path ends with the name. The caller holds the
 // mutex.
-auto find_interface(Registry& signatures, const std::string& name) {
+auto find_interface(SignatureRegistry& signatures, const std::string& name) {
     auto exact = signatures.interfaces.find(name);
     if (exact != signatures.interfaces.end()) return exact;
     const std::string wanted = scopes_to_slashes(repository_path(name));
@@ -120,28 +121,28 @@ std::string signature_of(CORBA::TypeCode_ptr code, int depth) {
 InterfaceSignatures::Registration::Registration(
     const std::vector<std::pair<const char*, Operations>>& interfaces,
     const std::vector<std::pair<const char*, const char*>>& types) {
-    Registry& signatures = registry();
+    SignatureRegistry& signatures = signature_registry();
     std::lock_guard<std::mutex> lock(signatures.mutex);
     for (auto& entry : interfaces) signatures.interfaces.emplace(entry.first, entry.second);
     for (auto& entry : types) signatures.types.emplace(entry.first, strip_outer_parentheses(entry.second));
 }
 
 const InterfaceSignatures::Operations* InterfaceSignatures::find(const std::string& interface_name) {
-    Registry& signatures = registry();
+    SignatureRegistry& signatures = signature_registry();
     std::lock_guard<std::mutex> lock(signatures.mutex);
     auto found = find_interface(signatures, interface_name);
     return found == signatures.interfaces.end() ? nullptr : &found->second;
 }
 
 std::string InterfaceSignatures::repositoryId(const std::string& interface_name) {
-    Registry& signatures = registry();
+    SignatureRegistry& signatures = signature_registry();
     std::lock_guard<std::mutex> lock(signatures.mutex);
     auto found = find_interface(signatures, interface_name);
     return found == signatures.interfaces.end() ? "" : found->first;
 }
 
 std::string InterfaceSignatures::type(const std::string& repository_id) {
-    Registry& signatures = registry();
+    SignatureRegistry& signatures = signature_registry();
     std::lock_guard<std::mutex> lock(signatures.mutex);
     auto found = signatures.types.find(repository_id);
     return found == signatures.types.end() ? "" : found->second;
@@ -150,7 +151,7 @@ std::string InterfaceSignatures::type(const std::string& repository_id) {
 // The signature is made before the lock: a TypeCode of another library may take its time.
 void InterfaceSignatures::addType(const char* repository_id, CORBA::TypeCode_ptr code) {
     const std::string text = strip_outer_parentheses(signature(code));
-    Registry& signatures = registry();
+    SignatureRegistry& signatures = signature_registry();
     std::lock_guard<std::mutex> lock(signatures.mutex);
     signatures.types.emplace(repository_id, text);
 }

@@ -29,27 +29,27 @@ void pause_between_polls() {
 /// reference is read the moment it becomes visible: what the trace measures is the transport and not the
 /// phase between two timers. A reference left from the tick before does not end the polling, or ControlComp
 /// would stay one tick behind for the rest of the run.
-ControlBody::Read ControlBody::read_reference(ControlPorts& ports) {
+ControlBody::PollResult ControlBody::poll_reference(ControlPorts& ports) {
     // Real time even in simulation: the time is that of polling. In lock-step poll_us is 0.
     const double give_up = monotonic_seconds() + poll_seconds_;
-    Read read{0, monotonic_seconds()};
+    PollResult poll{0, monotonic_seconds()};
     for (;;) {
         const auto in = ports.references();
         const double now = monotonic_seconds();
         if (in.newest) {
             sender_restarted_ = sender_restarted_ || in.newest->sequence < reference_.sequence;
             reference_ = *in.newest;
-            read = {read.count + in.count, now};
+            poll = {poll.count + in.count, now};
         }
         // By its stamp and not by its sequence number, which a restarted JoystickComp begins anew.
         const bool of_this_tick = in.newest && now - reference_.stamp < 0.5 * tick_seconds;
-        if (of_this_tick || now >= give_up) return read;
+        if (of_this_tick || now >= give_up) return poll;
         pause_between_polls();
     }
 }
 
 void ControlBody::tick(ControlPorts& ports) {
-    const Read read = read_reference(ports);
+    const PollResult poll = poll_reference(ports);
     if (const auto in = ports.wheels(); in.newest) wheels_ = *in.newest;
     const double t = clock_.at(tick_);
     // A message sent before the first tick is not late: this component could not have read it. A stamp from
@@ -67,7 +67,7 @@ void ControlBody::tick(ControlPorts& ports) {
     const Voltage voltage = law_.tick(t, reference, bounded(wheels_));
     ports.send({t, static_cast<double>(tick_), voltage});
     trace_.append({monotonic_seconds(), static_cast<double>(tick_), t, reference_.sequence, reference_.stamp,
-                   read.at, static_cast<double>(read.count), wheels_.sequence, wheels_.stamp,
+                   poll.at, static_cast<double>(poll.count), wheels_.sequence, wheels_.stamp,
                    law_.filtered_direction_deg(), static_cast<double>(law_.state()), voltage.left,
                    voltage.right, voltage.brake ? 1.0 : 0.0});
     ++tick_;

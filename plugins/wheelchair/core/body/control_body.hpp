@@ -20,12 +20,12 @@ class ControlBody {
     ControlState state() const { return law_.state(); }
 
   private:
-    /// Result of read_reference(): how many references came, and when the newest was read.
-    struct Read {
+    /// Result of poll_reference(): how many references came, and when the newest was read.
+    struct PollResult {
         int count;
         double at;
     };
-    Read read_reference(ControlPorts& ports);
+    PollResult poll_reference(ControlPorts& ports);
 
     TickClock clock_;
     double poll_seconds_;

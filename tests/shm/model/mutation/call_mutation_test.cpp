@@ -19,7 +19,7 @@ constexpr const char* one_wins =
 constexpr const char* kernel =
     "the kernel's comparison and its barrier in the wake-up say the same once more";
 constexpr const char* twice =
-    "`interrupted_` and `wake_count` each tell a worker to look again; one of the two suffices";
+    "`waits_ended_` and `wake_count` each tell a worker to look again; one of the two suffices";
 constexpr const char* costs = "costs a needless wake-up or a hint only";
 
 const std::vector<Spared> spared{
@@ -84,8 +84,8 @@ const std::vector<Spared> spared{
     {worker, "const std::uint32_t wake_count = header.wake_count.load(", order, {}, kernel},
     {worker, "header.workers_asleep.fetch_sub", order, {}, costs},
     {worker, "header.workers_asleep.fetch_sub", no_store, {}, costs},
-    {worker, "interrupted_.store(1,", order, {}, twice},
-    {worker, "interrupted_.load(", order, {}, twice},
+    {worker, "waits_ended_.store(1,", order, {}, twice},
+    {worker, "waits_ended_.load(", order, {}, twice},
     {worker, "header->wake_count.fetch_add", order, {}, kernel},
     {worker, "header.wake_count.fetch_add", order, {}, kernel},
     {worker,

@@ -18,7 +18,7 @@ inline std::vector<Case> call_end_cases() {
                          execution.thread("caller", [&] {
                              ends[1] = world.call(1, second);
                              ends[2] = world.call(2, second);
-                             world.worker.interrupt();
+                             world.worker.end_all_waits();
                          });
                          execution.thread("worker", [&] { world.serve(2); });
                          world.run(ends, {End::answered, End::timeout, End::overload});
@@ -115,7 +115,7 @@ inline std::vector<Case> call_end_cases() {
                              if (!world.caller.withdraw(ticket)) world.caller.finish(ticket);
                              ends[2] = world.begin(2, CallWorld::far(2), 0, false, ticket);
                              if (ends[2] == End::answered) ends[2] = world.wait(2, ticket, 0, true);
-                             world.worker.interrupt();
+                             world.worker.end_all_waits();
                          });
                          execution.thread("worker 2", [&] { world.serve(1); });
                          world.run(ends, {End::answered, End::overload});

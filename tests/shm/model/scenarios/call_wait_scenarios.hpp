@@ -40,17 +40,18 @@ inline std::vector<Case> call_wait_cases() {
                          world.run(ends, {End::answered});
                      }});
 
-    cases.push_back({"one caller and two workers of which one is interrupted", [](Execution& execution) {
-                         CallWorld world(execution);
-                         CallWorld::Ends ends;
-                         execution.thread("caller", [&] {
-                             ends[1] = world.call(1, CallWorld::far(1));
-                             world.worker.interrupt();
-                         });
-                         execution.thread("worker 1", [&] { world.serve(2); });
-                         execution.thread("worker 2", [&] { world.serve(2); });
-                         world.run(ends, {End::answered});
-                     }});
+    cases.push_back(
+        {"one caller and two workers, of which one calls end_all_waits()", [](Execution& execution) {
+             CallWorld world(execution);
+             CallWorld::Ends ends;
+             execution.thread("caller", [&] {
+                 ends[1] = world.call(1, CallWorld::far(1));
+                 world.worker.end_all_waits();
+             });
+             execution.thread("worker 1", [&] { world.serve(2); });
+             execution.thread("worker 2", [&] { world.serve(2); });
+             world.run(ends, {End::answered});
+         }});
 
     cases.push_back({"two workers of which one polls",
                      [](Execution& execution) {
@@ -58,7 +59,7 @@ inline std::vector<Case> call_wait_cases() {
                          CallWorld::Ends ends;
                          execution.thread("caller", [&] {
                              ends[1] = world.call(1, CallWorld::far(1));
-                             world.worker.interrupt();
+                             world.worker.end_all_waits();
                          });
                          execution.thread("worker 1", [&] { world.serve(2, true); });
                          execution.thread("worker 2", [&] { world.serve(2, true); });
@@ -90,7 +91,7 @@ inline std::vector<Case> call_wait_cases() {
                          for (const std::uint32_t id : {1U, 2U})
                              execution.thread("caller " + std::to_string(id), [&, id] {
                                  ends[id] = world.call(id, CallWorld::far(id));
-                                 if (finished.fetch_add(1, Order::relaxed) == 1) world.worker.interrupt();
+                                 if (finished.fetch_add(1, Order::relaxed) == 1) world.worker.end_all_waits();
                              });
                          execution.thread("worker 1", [&] { world.serve(9, true); });
                          execution.thread("worker 2", [&] { world.serve(9, true); });
@@ -108,7 +109,7 @@ inline std::vector<Case> call_wait_cases() {
                                  CallTicket ticket;
                                  world.begin(id, CallWorld::far(id), id - 1, false, ticket);
                                  ends[id] = world.wait(id, ticket, 0, true);
-                                 if (finished.fetch_add(1, Order::relaxed) == 1) world.worker.interrupt();
+                                 if (finished.fetch_add(1, Order::relaxed) == 1) world.worker.end_all_waits();
                              });
                          execution.thread("worker 1", [&] { world.serve(9, true); });
                          execution.thread("worker 2", [&] { world.serve(9, true); });
@@ -133,7 +134,7 @@ inline std::vector<Case> call_wait_cases() {
                                  ends[id] = world.call(id, CallWorld::far(id));
                              finished.store(1, Order::seq_cst);
                              A::futex_wake(finished, 1);
-                             world.worker.interrupt();
+                             world.worker.end_all_waits();
                          });
                          world.run(ends, {End::answered});
                      },
@@ -161,7 +162,7 @@ inline std::vector<Case> call_wait_cases() {
                                      ends[id] = world.wait(id, ticket, 0, polls);
                                      const auto before = finished.fetch_add(1, Order::seq_cst);
                                      A::futex_wake(finished, 1);
-                                     if (before == 1) world.worker.interrupt();
+                                     if (before == 1) world.worker.end_all_waits();
                                  });
                              world.run(ends, {End::answered});
                          },
@@ -192,7 +193,7 @@ inline std::vector<Case> call_wait_cases() {
                              execution.thread("caller", [&] {
                                  world.begin(2, CallWorld::far(2), 1, false, second);
                                  ends[2] = world.wait(2, second, 0, true);
-                                 world.worker.interrupt();
+                                 world.worker.end_all_waits();
                              });
                              execution.run();
                              if (held) world.answer(*held);

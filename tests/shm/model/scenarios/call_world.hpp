@@ -68,7 +68,7 @@ class CallWorld {
         return collect(id, ticket);
     }
 
-    /// Serves until interrupted. `polls`: may be the worker that polls.
+    /// Serves until end_all_waits(). `polls`: may be the worker that polls.
     void serve(std::uint32_t calls, bool polls = false) {
         int fruitless = 0;
         for (bool polling = false; calls > 0;) {
@@ -78,7 +78,7 @@ class CallWorld {
                 fruitless = 0;
                 continue;
             }
-            if (worker.interrupted()) break;
+            if (worker.waits_ended()) break;
             // Who finds a call that a colleague is just about to take goes round until that one has.
             if (++fruitless > 2) A::pause();
             polling = polling || (polls && worker.try_become_poller());
