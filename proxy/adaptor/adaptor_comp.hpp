@@ -58,6 +58,7 @@ class AdaptorComp final : public Component, private link::LinkHandler {
     ReturnType drive_rtc(std::string_view command);
     link::Reply send_command(std::string_view command, std::span<const std::byte> arguments = {});
     std::chrono::milliseconds timeout_of(std::string_view command) const;
+    /// Returns why the peer refused the operations, in one line; empty when it accepted them.
     std::string publish_bindings();
     void listen_to(const std::string& port, DataPortListener* listener);
     void publish_listened_ports();

@@ -32,6 +32,7 @@ class MirrorRequiredPort final : public RequiredServicePort {
     link::Reply serve(const link::Request& request);
 
   private:
+    /// Returns as bindProvided() does.
     std::string collect_signatures(ProvidedServicePort& provided);
     link::Reply invoke(const link::Request& request);
 

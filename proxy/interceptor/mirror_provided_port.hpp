@@ -33,6 +33,7 @@ class MirrorProvidedPort final {
         wire::Type arguments, result;
     };
     const Types& parsed_types(std::string_view signature);
+    /// Returns why the call is refused, in one line; empty when the operation fits.
     std::string check_operation(const link::Request& request) const;
 
     const link::Port port_;

@@ -27,6 +27,7 @@ class RtcDriver {
   private:
     class ErrorListener;
     using Operation = RTC::ReturnCode_t (RTC::_objref_ExecutionContext::*)(RTC::LightweightRTObject_ptr);
+    // Both return as the functions above do.
     std::string transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Operation operation,
                            const char* verb);
     std::string wait_for_state(RTC::LifeCycleState wanted, const char* verb) const;

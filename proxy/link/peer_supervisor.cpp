@@ -112,7 +112,7 @@ bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
     return joiner_.peer_chunks_suffice(*limits);
 }
 
-/// Binds the channels and opens the peer's call queue. Returns why the handler refused the peer, or "".
+/// Has the handler check the peer's table, then binds the channels and opens the peer's call queue.
 std::string PeerSupervisor::bind_to_peer(LinkSession& session) {
     const PortTable peer_ports = session.read_peer_table();
     std::string refusal = handler_.check_peer_ports(peer_ports);

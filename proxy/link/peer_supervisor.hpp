@@ -39,9 +39,11 @@ class PeerSupervisor {
     void run();
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason);
+    /// Why the session must end, in one line; empty while it can go on.
     std::string end_reason(const LinkSession& session) const;
     void try_connect(LinkSession& session);
     bool chunks_suffice(const LinkSession& session);
+    /// Returns why the handler refused the peer, in one line; empty when the channels are bound.
     std::string bind_to_peer(LinkSession& session);
     void disconnect(const std::string& reason);
 

@@ -65,7 +65,7 @@ class ComponentHost {
     void warm_up();
 
     /// [any-thread] Runs code that calls the component, under the rule above. `callback` is its name, for
-    /// messages and current_callback(); it must live as long as the call.
+    /// messages and current_callback(); it must live as long as the call. Returns as execute() does.
     std::string run_guarded(const char* callback, const std::function<void()>& code);
 
     /// [any-thread] The callback that the component is in, NULL when it is in none. Of several threads, the one
@@ -93,6 +93,7 @@ class ComponentHost {
 
   private:
     bool run_transition(const char* name, ReturnType (LifecycleInterface::*transition)());
+    /// Logs what the callback threw and puts the component in ERROR. Returns the text that execute() returns.
     std::string enter_error(const char* callback, const std::string& why);
     void mark_failed();
     void configure_input_ports();

@@ -98,7 +98,8 @@ struct Manager::Impl {
                                              [](RTObject_impl&) { return true; }) const;
 };
 
-/// Merges defaults, rtc.conf and command line into impl.config and opens the log. Throws ManagerError.
+/// Merges defaults, rtc.conf and command line into impl.config, opens the log and pins the process to the
+/// processors of manager.cpu_affinity. Throws ManagerError.
 void configure_process(Manager::Impl& impl, int argc, char** argv);
 /// Initializes ORB, POAs and name bindings. Throws ManagerError, for example when the endpoint is in use.
 void start_orb(Manager::Impl& impl);

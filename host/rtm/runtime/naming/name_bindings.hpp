@@ -39,6 +39,7 @@ class NameBindings {
     std::vector<Entry> entries() const;
     std::vector<Server> server_states() const;
     void set_reachable(const std::string& address, bool reachable);
+    /// Returns one line for the log about what it has bound again; empty when it has bound nothing.
     std::string update(const Server& server, bool rebind);
 
     CORBA::ORB_var orb_;
