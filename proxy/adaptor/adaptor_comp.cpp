@@ -50,6 +50,7 @@ ReturnType AdaptorComp::onInitialize() {
         options.name = settings_.link;
         options.rings.large_bytes = settings_.large_bytes;
         options.segment_bytes = settings_.segment_bytes;
+        options.group = settings_.group;
         options.wait = link::wait_options_from_environment();
         link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
                                              static_cast<LinkHandler&>(*this));

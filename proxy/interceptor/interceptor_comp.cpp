@@ -69,6 +69,7 @@ void InterceptorComp::share_rtc_ports() {
     options.name = settings_.link;
     options.rings = {settings_.ring_bytes, settings_.large_bytes};
     options.segment_bytes = settings_.segment_bytes;
+    options.group = settings_.group;
     options.wait = link::wait_options_from_environment();
     link_ = std::make_unique<link::Link>(shm::Side::second, options, table, static_cast<LinkHandler&>(*this));
     // The report waits for the peer, and so must not run in the thread of the RTC's execution context.

@@ -36,6 +36,7 @@ Settings read_settings(coil::Properties& properties) {
     settings.ring_bytes = 1024 * static_cast<std::size_t>(number(properties, "ring_kib", 256));
     settings.large_bytes = 1024 * static_cast<std::size_t>(number(properties, "large_kib", 0));
     settings.segment_bytes = 1024 * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
+    settings.group = properties.getProperty("group");
     return settings;
 }
 

@@ -36,6 +36,7 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     // Most ports whose messages may be long never send a long one: their chunks take no memory until used.
     join_options.sparse = true;
     join_options.contract = protocol_version;
+    join_options.group = options_.group;
     std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
 
     for (const auto& ring : plan.rings) segment->add_ring(ring_name(ring.port), ring.options);

@@ -411,6 +411,11 @@ TEST_CASE("an adaptor without a link name, or with a number that is none, does n
     CHECK_THROWS_WITH(adaptor::read_settings({}), Catch::Contains("'link' is missing"));
 }
 
+TEST_CASE("the property 'group' of an adaptor is optional") {
+    CHECK(adaptor::read_settings({{"link", "x"}}).group.empty());
+    CHECK(adaptor::read_settings({{"link", "x"}, {"group", "robots"}}).group == "robots");
+}
+
 TEST_CASE("an adaptor whose peer never comes gives up after its wait") {
     adaptor::AdaptorComp lonely;
     lonely.setProperty("link", fmt::format("test-adaptor-lonely-{}", getpid()));
