@@ -378,8 +378,8 @@ class RTObject_impl : public virtual POA_OpenRTM::DataFlowComponent,
   private:
     ReturnCode_t finish(); // the last step of exit()
     template <class Callback>
-    ReturnCode_t guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
-                         PostComponentActionListenerType post, Callback callback, bool warm_up = false);
+    ReturnCode_t run_guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
+                             PostComponentActionListenerType post, Callback callback, bool warm_up = false);
     friend class RTC_impl::RTObjectStateMachine;
     ReturnCode_t execute(UniqueId ec_id, bool warm_up);
     void becomeServant();

@@ -25,8 +25,9 @@ ReturnCode_t RTObject_impl::onRateChanged(UniqueId) { return RTC_OK; }
 // Runs one callback between its listeners. Whatever it throws is logged and becomes RTC_ERROR for the state
 // machine, so that a component cannot end its host. OpenRTM-aist catches the exception without a message.
 template <class Callback>
-ReturnCode_t RTObject_impl::guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
-                                    PostComponentActionListenerType post, Callback callback, bool warm_up) {
+ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
+                                        PostComponentActionListenerType post, Callback callback,
+                                        bool warm_up) {
     ReturnCode_t result = RTC_ERROR;
     std::string error;
     auto attempt = [&](auto call) {
@@ -71,7 +72,7 @@ using Post = PostComponentActionListenerType;
 
 // The active configuration set is applied after onInitialize, which has bound the variables.
 ReturnCode_t RTObject_impl::on_initialize() {
-    return guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE, [&] {
+    return run_guarded("onInitialize", 0, Pre::PRE_ON_INITIALIZE, Post::POST_ON_INITIALIZE, [&] {
         const ReturnCode_t result = onInitialize();
         const std::string configured = m_properties.getProperty("configuration.active_config", "default");
         const std::string set = m_configsets.haveConfig(configured.c_str()) ? configured : "default";
@@ -82,24 +83,24 @@ ReturnCode_t RTObject_impl::on_initialize() {
 }
 
 ReturnCode_t RTObject_impl::on_finalize() {
-    return guarded("onFinalize", 0, Pre::PRE_ON_FINALIZE, Post::POST_ON_FINALIZE,
-                   [&] { return onFinalize(); });
+    return run_guarded("onFinalize", 0, Pre::PRE_ON_FINALIZE, Post::POST_ON_FINALIZE,
+                       [&] { return onFinalize(); });
 }
 
 ReturnCode_t RTObject_impl::on_startup(UniqueId ec_id) {
-    return guarded("onStartup", ec_id, Pre::PRE_ON_STARTUP, Post::POST_ON_STARTUP,
-                   [&] { return onStartup(ec_id); });
+    return run_guarded("onStartup", ec_id, Pre::PRE_ON_STARTUP, Post::POST_ON_STARTUP,
+                       [&] { return onStartup(ec_id); });
 }
 
 ReturnCode_t RTObject_impl::on_shutdown(UniqueId ec_id) {
-    return guarded("onShutdown", ec_id, Pre::PRE_ON_SHUTDOWN, Post::POST_ON_SHUTDOWN,
-                   [&] { return onShutdown(ec_id); });
+    return run_guarded("onShutdown", ec_id, Pre::PRE_ON_SHUTDOWN, Post::POST_ON_SHUTDOWN,
+                       [&] { return onShutdown(ec_id); });
 }
 
 // Ports become active after onActivated has returned, whatever it returns, as in OpenRTM-aist: until then
 // providers of services cannot be called.
 ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
-    return guarded("onActivated", ec_id, Pre::PRE_ON_ACTIVATED, Post::POST_ON_ACTIVATED, [&] {
+    return run_guarded("onActivated", ec_id, Pre::PRE_ON_ACTIVATED, Post::POST_ON_ACTIVATED, [&] {
         m_configsets.update();
         const ReturnCode_t result = onActivated(ec_id);
         m_portAdmin.activatePorts();
@@ -109,20 +110,20 @@ ReturnCode_t RTObject_impl::on_activated(UniqueId ec_id) {
 
 // The reverse: no service is called any more when onDeactivated runs.
 ReturnCode_t RTObject_impl::on_deactivated(UniqueId ec_id) {
-    return guarded("onDeactivated", ec_id, Pre::PRE_ON_DEACTIVATED, Post::POST_ON_DEACTIVATED, [&] {
+    return run_guarded("onDeactivated", ec_id, Pre::PRE_ON_DEACTIVATED, Post::POST_ON_DEACTIVATED, [&] {
         m_portAdmin.deactivatePorts();
         return onDeactivated(ec_id);
     });
 }
 
 ReturnCode_t RTObject_impl::on_aborting(UniqueId ec_id) {
-    return guarded("onAborting", ec_id, Pre::PRE_ON_ABORTING, Post::POST_ON_ABORTING,
-                   [&] { return onAborting(ec_id); });
+    return run_guarded("onAborting", ec_id, Pre::PRE_ON_ABORTING, Post::POST_ON_ABORTING,
+                       [&] { return onAborting(ec_id); });
 }
 
 // Configuration changes are applied in the error state, too: they may be what removes the cause.
 ReturnCode_t RTObject_impl::on_error(UniqueId ec_id) {
-    return guarded("onError", ec_id, Pre::PRE_ON_ERROR, Post::POST_ON_ERROR, [&] {
+    return run_guarded("onError", ec_id, Pre::PRE_ON_ERROR, Post::POST_ON_ERROR, [&] {
         const ReturnCode_t result = onError(ec_id);
         m_configsets.update();
         return result;
@@ -130,7 +131,8 @@ ReturnCode_t RTObject_impl::on_error(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_reset(UniqueId ec_id) {
-    return guarded("onReset", ec_id, Pre::PRE_ON_RESET, Post::POST_ON_RESET, [&] { return onReset(ec_id); });
+    return run_guarded("onReset", ec_id, Pre::PRE_ON_RESET, Post::POST_ON_RESET,
+                       [&] { return onReset(ec_id); });
 }
 
 ReturnCode_t RTObject_impl::on_execute(UniqueId ec_id) { return execute(ec_id, false); }
@@ -147,12 +149,12 @@ ReturnCode_t RTObject_impl::execute(UniqueId ec_id, bool warm_up) {
         if (m_writeAll) writeAll();
         return result;
     };
-    return guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, callback, warm_up);
+    return run_guarded("onExecute", ec_id, Pre::PRE_ON_EXECUTE, Post::POST_ON_EXECUTE, callback, warm_up);
 }
 
 // The place where a running component's configuration changes, after onExecute and onStateUpdate.
 ReturnCode_t RTObject_impl::on_state_update(UniqueId ec_id) {
-    return guarded("onStateUpdate", ec_id, Pre::PRE_ON_STATE_UPDATE, Post::POST_ON_STATE_UPDATE, [&] {
+    return run_guarded("onStateUpdate", ec_id, Pre::PRE_ON_STATE_UPDATE, Post::POST_ON_STATE_UPDATE, [&] {
         const ReturnCode_t result = onStateUpdate(ec_id);
         m_configsets.update();
         return result;
@@ -160,8 +162,8 @@ ReturnCode_t RTObject_impl::on_state_update(UniqueId ec_id) {
 }
 
 ReturnCode_t RTObject_impl::on_rate_changed(UniqueId ec_id) {
-    return guarded("onRateChanged", ec_id, Pre::PRE_ON_RATE_CHANGED, Post::POST_ON_RATE_CHANGED,
-                   [&] { return onRateChanged(ec_id); });
+    return run_guarded("onRateChanged", ec_id, Pre::PRE_ON_RATE_CHANGED, Post::POST_ON_RATE_CHANGED,
+                       [&] { return onRateChanged(ec_id); });
 }
 
 // Stops at the first port that has nothing, unless `completion` was asked for.
