@@ -21,7 +21,8 @@ out=${out:-$root/build/wheelchair}
 called_from=$PWD
 
 install_missing_packages
-build_preset release wheelchair_demo
+# The mixed run needs fewer components than what an option may ask for.
+if [ ${#arguments[@]} -eq 0 ]; then build_preset release wheelchair_demo; else build_preset release wheelchair_all; fi
 if [ $build_only = yes ]; then exit 0; fi
 
 mkdir -p "$out"
