@@ -14,7 +14,7 @@ endif()
 # Most of the compile time is headers (CORBA, CLI11, spdlog, Catch2), so files of one library are compiled together. The
 # preset dev compiles each file by itself, which shows a missing #include.
 set(CMAKE_UNITY_BUILD ${TANDEM_UNITY_BUILD})
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 32)
 if(TANDEM_UNITY_BUILD)
   # g++ takes a file that is included for a header, where types of an anonymous namespace would be a mistake.
   add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
