@@ -14,7 +14,6 @@
 #include <atomic>
 #include <mutex>
 
-
 /// The transitions are called by the host, and may be called by the component itself and by tools: [any-thread], one
 /// at a time, each with its callback in the calling thread. What a callback throws passes through.
 class LifecycleInterface {
