@@ -4,6 +4,7 @@
 #define EVENTCODEC_H_
 
 #include <ArchiveFactory.h>
+#include <EncodedPush.h>
 #include <EventData.h>
 
 namespace opros {
@@ -38,17 +39,6 @@ struct event_codec<T, false> {
     }
     static ReturnType marshal(ArchiveFactory&, Event*, std::string&) { return OPROS_UNSUPPORTED_METHOD; }
 };
-
-/// What pushEvent() of a port does.
-template <typename Port>
-ReturnType push_encoded_event(Port& port, ArchiveFactory* factory, unsigned char* data, int size) {
-    if (!factory) return OPROS_UNSUPPORTED_METHOD;
-    std::stringstream bytes(std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)));
-    archive::iarchive* archive = factory->getInputArchive(&bytes);
-    const ReturnType result = port.push(*archive);
-    factory->release(archive);
-    return result;
-}
 
 } // namespace detail
 } // namespace opros

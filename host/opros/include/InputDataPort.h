@@ -2,6 +2,7 @@
 #ifndef INPUTDATAPORT_H_
 #define INPUTDATAPORT_H_
 
+#include <EncodedPush.h>
 #include <InputDataPortInterface.h>
 
 #include <typeinfo>
@@ -35,20 +36,9 @@ class InputDataPort : public InputDataPortInterface {
     }
     /// Decodes a value into the queue. OPROS_UNSUPPORTED_METHOD: the type cannot be archived. Throws what the
     /// archive throws.
-    virtual ReturnType push(opros::archive::iarchive& in) {
-        opros_any value = sample();
-        if (!value.serializable()) return OPROS_UNSUPPORTED_METHOD;
-        value.decode(in);
-        return push(value);
-    }
+    virtual ReturnType push(opros::archive::iarchive& in) { return opros::detail::push_decoded(*this, in); }
     virtual ReturnType pushData(unsigned char* data, int size) {
-        if (!m_arc) return OPROS_UNSUPPORTED_METHOD;
-        std::stringstream bytes(
-            std::string(reinterpret_cast<const char*>(data), static_cast<std::size_t>(size)));
-        opros::archive::iarchive* archive = m_arc->getInputArchive(&bytes);
-        const ReturnType result = push(*archive);
-        m_arc->release(archive);
-        return result;
+        return opros::detail::push_encoded(*this, m_arc, data, size);
     }
     virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
     virtual bool checkType(DataPort* dst) {

@@ -33,7 +33,7 @@ class InputEventPort<dataType, EVENT_OPROS> : public InputEventPortInterface {
         return opros::detail::event_codec<dataType>::push(*this, in);
     }
     virtual ReturnType pushEvent(unsigned char* data, int size) {
-        return opros::detail::push_encoded_event(*this, m_arc, data, size);
+        return opros::detail::push_encoded(*this, m_arc, data, size);
     }
     virtual opros_any sample() const { return opros_any(dataType()); }
 };

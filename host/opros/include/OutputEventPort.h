@@ -38,7 +38,7 @@ class OutputEventPort<dataType, EVENT_OPROS> : public OutputEventPortInterface {
         return opros::detail::event_codec<dataType>::push(*this, in);
     }
     virtual ReturnType pushEvent(unsigned char* data, int size) {
-        return opros::detail::push_encoded_event(*this, m_arc, data, size);
+        return opros::detail::push_encoded(*this, m_arc, data, size);
     }
     virtual ReturnType marshal(Event* data, std::string& outdata) {
         if (!m_arc) return OPROS_UNSUPPORTED_METHOD;

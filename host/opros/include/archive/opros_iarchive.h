@@ -77,28 +77,6 @@ iarchive& load_elements(iarchive& ar, T* p, long size, Way) {
     return ar;
 }
 
-template <typename T>
-void load_class(iarchive& ar, T& value, by_members) {
-    access::load(ar, value);
-}
-template <typename T>
-void load_class(iarchive& ar, T& value, by_free_functions) {
-    load_this(ar, value);
-}
-template <typename T>
-void load_class(iarchive& ar, T& value, by_serialize how) {
-    serialize_class(ar, value, how);
-}
-template <typename T>
-void load_class(iarchive& ar, T& value, by_private_serialize how) {
-    serialize_class(ar, value, how);
-}
-template <typename T>
-void load_class(iarchive&, T&, by_nothing) {
-    static_assert(is_serializable<T>::value,
-                  "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
-}
-
 // An enumeration crosses as an int. Any number may come from outside: the user's code has to expect it.
 template <typename T>
 void load_value(iarchive& ar, T& value, by_enumeration) {
@@ -113,7 +91,7 @@ void load_value(iarchive& ar, T& value, Way how) {
         ar.read_class_head(name);
     else if (ar.keeps_names())
         ar.read_container_name(name);
-    load_class(ar, value, how);
+    serialize_class(ar, value, how);
     if (!is_container<T>::value) ar.read_class_end(name);
 }
 

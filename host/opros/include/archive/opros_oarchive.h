@@ -89,28 +89,6 @@ oarchive& save_elements(oarchive& ar, const T* p, long size, Way) {
     return ar;
 }
 
-template <typename T>
-void save_class(oarchive& ar, T& value, by_members) {
-    access::save(ar, value);
-}
-template <typename T>
-void save_class(oarchive& ar, T& value, by_free_functions) {
-    save_this(ar, value);
-}
-template <typename T>
-void save_class(oarchive& ar, T& value, by_serialize how) {
-    serialize_class(ar, value, how);
-}
-template <typename T>
-void save_class(oarchive& ar, T& value, by_private_serialize how) {
-    serialize_class(ar, value, how);
-}
-template <typename T>
-void save_class(oarchive&, T&, by_nothing) {
-    static_assert(is_serializable<T>::value,
-                  "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
-}
-
 // An enumeration crosses as an int, whatever its underlying type.
 template <typename T>
 void save_value(oarchive& ar, const T& value, by_enumeration) {
@@ -123,7 +101,7 @@ void save_value(oarchive& ar, const T& value, Way how) {
         ar.write_class_head(name);
     else if (ar.keeps_names())
         ar.write_container_name(name);
-    save_class(ar, const_cast<T&>(value), how); // users' save() is not const
+    serialize_class(ar, const_cast<T&>(value), how); // users' save() is not const
     if (!is_container<T>::value) ar.write_class_end(name);
 }
 

@@ -128,6 +128,33 @@ struct is_serializable<void> {
     static const bool value = true;
 };
 
+namespace detail {
+
+// How the content of a class is saved and loaded; the last argument is the class's way.
+template <typename T>
+void serialize_class(oarchive& ar, T& value, by_members) {
+    access::save(ar, value);
+}
+template <typename T>
+void serialize_class(iarchive& ar, T& value, by_members) {
+    access::load(ar, value);
+}
+template <typename T>
+void serialize_class(oarchive& ar, T& value, by_free_functions) {
+    save_this(ar, value);
+}
+template <typename T>
+void serialize_class(iarchive& ar, T& value, by_free_functions) {
+    load_this(ar, value);
+}
+template <typename Archive, typename T>
+void serialize_class(Archive&, T&, by_nothing) {
+    static_assert(is_serializable<T>::value,
+                  "this type has neither save()/load() nor save_this()/load_this(): it cannot be archived");
+}
+
+} // namespace detail
+
 } // namespace archive
 } // namespace opros
 
