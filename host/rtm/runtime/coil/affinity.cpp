@@ -27,20 +27,33 @@ bool to_set(const CpuMask& mask, cpu_set_t& set) {
     return true;
 }
 
+// `get_set(cpu_set_t*)` and `apply_set(const cpu_set_t*)` return 0 when they have succeeded.
+template <typename GetSet>
+bool get_affinity(CpuMask& mask, GetSet get_set) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    if (get_set(&set) != 0) return false;
+    mask = numbers(set);
+    return true;
+}
+
+template <typename ApplySet>
+bool set_affinity(const CpuMask& mask, ApplySet apply_set) {
+    cpu_set_t set;
+    return to_set(mask, set) && apply_set(&set) == 0;
+}
+
 } // namespace
 
 // Linux has no affinity of processes: that of the main thread, which new threads inherit, stands for it.
 bool getProcCpuAffinity(CpuMask& cpu_mask) {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    if (::sched_getaffinity(::getpid(), sizeof set, &set) != 0) return false;
-    cpu_mask = numbers(set);
-    return true;
+    return get_affinity(cpu_mask,
+                        [](cpu_set_t* set) { return ::sched_getaffinity(::getpid(), sizeof *set, set); });
 }
 
 bool setProcCpuAffinity(const CpuMask& cpu_mask) {
-    cpu_set_t set;
-    return to_set(cpu_mask, set) && ::sched_setaffinity(::getpid(), sizeof set, &set) == 0;
+    return set_affinity(
+        cpu_mask, [](const cpu_set_t* set) { return ::sched_setaffinity(::getpid(), sizeof *set, set); });
 }
 
 bool setProcCpuAffinity(const std::string& cpu_mask) {
@@ -49,16 +62,15 @@ bool setProcCpuAffinity(const std::string& cpu_mask) {
 }
 
 bool getThreadCpuAffinity(CpuMask& cpu_mask) {
-    cpu_set_t set;
-    CPU_ZERO(&set);
-    if (::pthread_getaffinity_np(::pthread_self(), sizeof set, &set) != 0) return false;
-    cpu_mask = numbers(set);
-    return true;
+    return get_affinity(cpu_mask, [](cpu_set_t* set) {
+        return ::pthread_getaffinity_np(::pthread_self(), sizeof *set, set);
+    });
 }
 
 bool setThreadCpuAffinity(const CpuMask& cpu_mask) {
-    cpu_set_t set;
-    return to_set(cpu_mask, set) && ::pthread_setaffinity_np(::pthread_self(), sizeof set, &set) == 0;
+    return set_affinity(cpu_mask, [](const cpu_set_t* set) {
+        return ::pthread_setaffinity_np(::pthread_self(), sizeof *set, set);
+    });
 }
 
 bool setThreadCpuAffinity(const std::string& cpu_mask) {

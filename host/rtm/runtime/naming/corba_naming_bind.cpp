@@ -33,78 +33,91 @@ CosNaming::Name last_part(const CosNaming::Name& name) {
     return CorbaNaming::subName(name, static_cast<CORBA::Long>(name.length()) - 1);
 }
 
-// Tries `direct` first, because the contexts exist as a rule; with `force`, `recursive` creates them.
-template <class Direct, class Recursive>
-void bind_with_contexts(bool force, Direct direct, Recursive recursive) {
+// Calls bind_in(parent, last part of the name); the contexts that the name goes through are created.
+template <class BindIn>
+void bind_recursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name, BindIn bind_in) {
+    CosNaming::NamingContext_var parent = find_or_create_parent(context, name);
+    bind_in(parent.in(), last_part(name));
+}
+
+// Tries the whole name first, because the contexts exist as a rule; with `force`, those that do not are created.
+template <class BindIn>
+void bind_name(CosNaming::NamingContext_ptr root, const CosNaming::Name& name, bool force, BindIn bind_in) {
     try {
-        direct();
+        bind_in(root, name);
     } catch (const Context::NotFound&) {
         if (!force) throw;
-        recursive();
+        bind_recursive(root, name, bind_in);
     }
+}
+
+// What is called with a context and the name in it. A context is bound as such, because a name server resolves names
+// through these only.
+auto bind_object(CORBA::Object_ptr object) {
+    return [=](CosNaming::NamingContext_ptr in, const CosNaming::Name& name) { in->bind(name, object); };
+}
+auto rebind_object(CORBA::Object_ptr object) {
+    return [=](CosNaming::NamingContext_ptr in, const CosNaming::Name& name) { in->rebind(name, object); };
+}
+auto bind_context(CosNaming::NamingContext_ptr context) {
+    return [=](CosNaming::NamingContext_ptr in, const CosNaming::Name& name) {
+        in->bind_context(name, context);
+    };
+}
+auto rebind_context(CosNaming::NamingContext_ptr context) {
+    return [=](CosNaming::NamingContext_ptr in, const CosNaming::Name& name) {
+        in->rebind_context(name, context);
+    };
 }
 
 } // namespace
 
-// Throws AlreadyBound when the name is in use.
+// bind throws AlreadyBound when the name is in use; rebind replaces what has the name.
 void CorbaNaming::bind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
-    bind_with_contexts(
-        force, [&] { m_rootContext->bind(name, obj); },
-        [&] { bindRecursive(m_rootContext.in(), name, obj); });
+    bind_name(m_rootContext.in(), name, force, bind_object(obj));
 }
-void CorbaNaming::bindByString(const char* string_name, CORBA::Object_ptr obj, bool force) {
-    bind(toName(string_name), obj, force);
+void CorbaNaming::rebind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
+    bind_name(m_rootContext.in(), name, force, rebind_object(obj));
 }
-void CorbaNaming::bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
-                                CORBA::Object_ptr obj) {
-    CosNaming::NamingContext_var parent = find_or_create_parent(context, name);
-    parent->bind(last_part(name), obj);
+void CorbaNaming::bindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt,
+                              bool force) {
+    bind_name(m_rootContext.in(), name, force, bind_context(name_cxt));
+}
+void CorbaNaming::rebindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt,
+                                bool force) {
+    bind_name(m_rootContext.in(), name, force, rebind_context(name_cxt));
 }
 
-// Replaces another object of the name.
-void CorbaNaming::rebind(const CosNaming::Name& name, CORBA::Object_ptr obj, bool force) {
-    bind_with_contexts(
-        force, [&] { m_rootContext->rebind(name, obj); },
-        [&] { rebindRecursive(m_rootContext.in(), name, obj); });
+// The same four with the name as a string.
+void CorbaNaming::bindByString(const char* string_name, CORBA::Object_ptr obj, bool force) {
+    bind(toName(string_name), obj, force);
 }
 void CorbaNaming::rebindByString(const char* string_name, CORBA::Object_ptr obj, bool force) {
     rebind(toName(string_name), obj, force);
 }
-void CorbaNaming::rebindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
-                                  CORBA::Object_ptr obj) {
-    CosNaming::NamingContext_var parent = find_or_create_parent(context, name);
-    parent->rebind(last_part(name), obj);
-}
-
-// The same two for contexts: a name server resolves names through contexts that are bound as such.
-void CorbaNaming::bindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt,
-                              bool force) {
-    bind_with_contexts(
-        force, [&] { m_rootContext->bind_context(name, name_cxt); },
-        [&] { bindContextRecursive(m_rootContext.in(), name, name_cxt); });
-}
 void CorbaNaming::bindContext(const char* string_name, CosNaming::NamingContext_ptr name_cxt, bool force) {
     bindContext(toName(string_name), name_cxt, force);
-}
-void CorbaNaming::bindContextRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
-                                       CosNaming::NamingContext_ptr name_cxt) {
-    CosNaming::NamingContext_var parent = find_or_create_parent(context, name);
-    parent->bind_context(last_part(name), name_cxt);
-}
-
-void CorbaNaming::rebindContext(const CosNaming::Name& name, CosNaming::NamingContext_ptr name_cxt,
-                                bool force) {
-    bind_with_contexts(
-        force, [&] { m_rootContext->rebind_context(name, name_cxt); },
-        [&] { rebindContextRecursive(m_rootContext.in(), name, name_cxt); });
 }
 void CorbaNaming::rebindContext(const char* string_name, CosNaming::NamingContext_ptr name_cxt, bool force) {
     rebindContext(toName(string_name), name_cxt, force);
 }
+
+// The same four below another context than the root.
+void CorbaNaming::bindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                                CORBA::Object_ptr obj) {
+    bind_recursive(context, name, bind_object(obj));
+}
+void CorbaNaming::rebindRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                                  CORBA::Object_ptr obj) {
+    bind_recursive(context, name, rebind_object(obj));
+}
+void CorbaNaming::bindContextRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
+                                       CosNaming::NamingContext_ptr name_cxt) {
+    bind_recursive(context, name, bind_context(name_cxt));
+}
 void CorbaNaming::rebindContextRecursive(CosNaming::NamingContext_ptr context, const CosNaming::Name& name,
                                          CosNaming::NamingContext_ptr name_cxt) {
-    CosNaming::NamingContext_var parent = find_or_create_parent(context, name);
-    parent->rebind_context(last_part(name), name_cxt);
+    bind_recursive(context, name, rebind_context(name_cxt));
 }
 
 void CorbaNaming::unbind(const CosNaming::Name& name) { m_rootContext->unbind(name); }
@@ -114,12 +127,10 @@ CosNaming::NamingContext_ptr CorbaNaming::newContext() { return m_rootContext->n
 // Creates a context and binds it; the caller releases the reference.
 CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const CosNaming::Name& name, bool force) {
     CosNaming::NamingContext_var created;
-    bind_with_contexts(
-        force, [&] { created = m_rootContext->bind_new_context(name); },
-        [&] {
-            CosNaming::NamingContext_var parent = find_or_create_parent(m_rootContext.in(), name);
-            created = parent->bind_new_context(last_part(name));
-        });
+    bind_name(m_rootContext.in(), name, force,
+              [&](CosNaming::NamingContext_ptr in, const CosNaming::Name& part) {
+                  created = in->bind_new_context(part);
+              });
     return created._retn();
 }
 CosNaming::NamingContext_ptr CorbaNaming::bindNewContext(const char* string_name, bool force) {

@@ -61,6 +61,19 @@ std::string strip_outer_parentheses(const std::string& signature) {
 
 std::string signature_of(CORBA::TypeCode_ptr code, int depth);
 
+struct BasicSignature {
+    CORBA::TCKind kind;
+    const char* signature;
+};
+// The types that contain no other. Constant, because static initialisers of plugins need them before anything runs.
+constexpr BasicSignature basic_signatures[] = {
+    {CORBA::tk_void, ""},      {CORBA::tk_null, ""},       {CORBA::tk_boolean, "b"}, {CORBA::tk_char, "c"},
+    {CORBA::tk_octet, "y"},    {CORBA::tk_short, "n"},     {CORBA::tk_ushort, "q"},  {CORBA::tk_long, "i"},
+    {CORBA::tk_ulong, "u"},    {CORBA::tk_enum, "u"}, // CDR carries the number of an enumerator
+    {CORBA::tk_longlong, "x"}, {CORBA::tk_ulonglong, "t"}, {CORBA::tk_float, "f"},   {CORBA::tk_double, "d"},
+    {CORBA::tk_string, "s"},   {CORBA::tk_wstring, "w"},
+};
+
 // The members' signatures in parentheses; the TypeCode has them in the order of the IDL.
 std::string signature_of_struct(CORBA::TypeCode_ptr code, int depth) {
     std::string parts;
@@ -71,37 +84,9 @@ std::string signature_of_struct(CORBA::TypeCode_ptr code, int depth) {
 
 std::string signature_of(CORBA::TypeCode_ptr code, int depth) {
     if (depth > 64) return "?"; // a type that contains itself would never end
+    for (const auto& basic : basic_signatures)
+        if (basic.kind == code->kind()) return basic.signature;
     switch (code->kind()) {
-    case CORBA::tk_void:
-    case CORBA::tk_null:
-        return "";
-    case CORBA::tk_boolean:
-        return "b";
-    case CORBA::tk_char:
-        return "c";
-    case CORBA::tk_octet:
-        return "y";
-    case CORBA::tk_short:
-        return "n";
-    case CORBA::tk_ushort:
-        return "q";
-    case CORBA::tk_long:
-        return "i";
-    case CORBA::tk_ulong:
-    case CORBA::tk_enum: // CDR carries its number
-        return "u";
-    case CORBA::tk_longlong:
-        return "x";
-    case CORBA::tk_ulonglong:
-        return "t";
-    case CORBA::tk_float:
-        return "f";
-    case CORBA::tk_double:
-        return "d";
-    case CORBA::tk_string:
-        return "s";
-    case CORBA::tk_wstring:
-        return "w";
     case CORBA::tk_alias: // a typedef is the type it names
         return signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
     case CORBA::tk_sequence:
