@@ -101,6 +101,8 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
 
     /// The number of connections at most; negative: any number.
     virtual void setConnectionLimit(int limit_value) { m_connectionLimit = limit_value; }
+    /// Ours: sets the limit to the port's property `connection_limit`; without such a number it stays as it is.
+    void initConnectionLimit();
     /// RTC_ERROR when the connection limit is reached.
     virtual ReturnCode_t _publishInterfaces();
     /// Ours: makes `reason` the connectError() and returns `code`.

@@ -70,9 +70,7 @@ CorbaPort::~CorbaPort() { retire(); }
 void CorbaPort::init(coil::Properties& prop) {
     m_properties << prop;
     NVUtil::mergeFromProperties(m_profile.properties, m_properties);
-    int limit = -1;
-    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
-        setConnectionLimit(limit);
+    initConnectionLimit();
 }
 
 bool CorbaPort::registerProvider(const char* instance_name, const char* type_name,

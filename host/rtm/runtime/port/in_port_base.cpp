@@ -39,9 +39,7 @@ void InPortBase::init(coil::Properties& prop) {
     if (const auto* node = m_properties.findNode("buffer")) m_thebuffer->init(*node);
     NVUtil::mergeFromProperties(m_profile.properties, m_properties);
     append_registered_types(m_profile.properties, true);
-    int limit = -1;
-    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
-        setConnectionLimit(limit);
+    initConnectionLimit();
 }
 
 // Push: the receiver must exist before the OutPort subscribes to it, so its connector is made in this step.

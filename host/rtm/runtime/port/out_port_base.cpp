@@ -37,9 +37,7 @@ void OutPortBase::init(coil::Properties& prop) {
     m_properties << prop;
     NVUtil::mergeFromProperties(m_profile.properties, m_properties);
     append_registered_types(m_profile.properties, false);
-    int limit = -1;
-    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
-        setConnectionLimit(limit);
+    initConnectionLimit();
 }
 
 // Pull: the buffer must exist before the InPort subscribes to it, so its connector is made in this step.

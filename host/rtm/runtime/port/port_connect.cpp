@@ -193,6 +193,12 @@ ReturnCode_t PortBase::notifyNextPort(ConnectorProfile& profile) {
     }
 }
 
+void PortBase::initConnectionLimit() {
+    int limit = -1;
+    if (coil::stringTo(limit, m_properties.getProperty("connection_limit").c_str()))
+        setConnectionLimit(limit);
+}
+
 // Only checks the limit; the ports of each kind publish.
 ReturnCode_t PortBase::_publishInterfaces() {
     std::lock_guard<std::mutex> lock(m_profile_mutex);
