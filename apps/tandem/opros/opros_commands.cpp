@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of `tandem opros`.
+#include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
@@ -8,13 +9,6 @@
 
 namespace tandem::command {
 namespace {
-
-// `brief` is its line in the list of commands, `details` the text below its options in --help.
-CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details) {
-    CLI::App* command = parent.add_subcommand(name, brief);
-    command->footer(details);
-    return command;
-}
 
 // `what` describes FILE, which is the only difference between the two commands.
 void add_inspect_options(CLI::App* command, InspectOptions& options, const char* what) {
@@ -64,22 +58,6 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     });
 }
 
-void add_new(CLI::App& opros, Action& selected) {
-    struct Options {
-        std::string name;
-        std::filesystem::path parent = ".";
-    };
-    auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(
-        opros, "new", "Writes a component that builds and runs without changes",
-        "Creates the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
-        "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.");
-    command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
-    command->add_option("--in", options->parent, "folder in which to create it (.)")->type_name("DIR");
-    command->callback(
-        [=, &selected] { selected = [options] { return opros_new(options->name, options->parent); }; });
-}
-
 void add_build(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosBuildOptions>();
     CLI::App* command = add_command(
@@ -100,7 +78,11 @@ void add_opros_commands(CLI::App& tandem, Action& selected) {
         tandem.add_subcommand("opros", "OPRoS components: inspect, check, create and build them");
     opros->require_subcommand(1);
     add_info_and_check(*opros, selected);
-    add_new(*opros, selected);
+    add_new_command(
+        *opros, "Writes a component that builds and runs without changes",
+        "Creates the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
+        "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.",
+        opros_new, selected);
     add_build(*opros, selected);
 }
 

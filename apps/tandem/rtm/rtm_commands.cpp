@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The command line of `tandem rtm`.
+#include "apps/tandem/build/component_commands.hpp"
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/rtm/commands.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
@@ -8,30 +9,6 @@
 
 namespace tandem::command {
 namespace {
-
-// `brief` is its line in the list of commands, `details` the text below its options in --help.
-CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details) {
-    CLI::App* command = parent.add_subcommand(name, brief);
-    command->footer(details);
-    return command;
-}
-
-void add_new(CLI::App& rtm, Action& selected) {
-    // CLI11 fills the options after this function has returned: the callback shares them.
-    struct Options {
-        std::string name;
-        std::filesystem::path parent = ".";
-    };
-    auto options = std::make_shared<Options>();
-    CLI::App* command = add_command(
-        rtm, "new", "Writes an RT-Component that builds and runs without changes",
-        "Creates the folder NAME with NAME.h, NAME.cpp, rtc.conf, and a CMakeLists.txt that builds it with\n"
-        "find_package(OpenRTM), here and elsewhere. Exit code 1 if the folder exists.");
-    command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
-    command->add_option("--in", options->parent, "folder in which to create it (.)")->type_name("DIR");
-    command->callback(
-        [=, &selected] { selected = [options] { return rtm_new(options->name, options->parent); }; });
-}
 
 void add_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
@@ -52,7 +29,11 @@ void add_rtm_commands(CLI::App& tandem, Action& selected) {
     CLI::App* rtm = tandem.add_subcommand(
         "rtm", "RT-Components: create and build them, inspect and control those that run");
     rtm->require_subcommand(1);
-    add_new(*rtm, selected);
+    add_new_command(
+        *rtm, "Writes an RT-Component that builds and runs without changes",
+        "Creates the folder NAME with NAME.h, NAME.cpp, rtc.conf, and a CMakeLists.txt that builds it with\n"
+        "find_package(OpenRTM), here and elsewhere. Exit code 1 if the folder exists.",
+        rtm_new, selected);
     add_build(*rtm, selected);
     add_running_commands(*rtm, selected);
 }
