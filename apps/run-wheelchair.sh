@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds what the run needs and no more, and drives the wheelchair: joystick an RT-Component, control and hardware OPRoS
-# components, two processes. Prints the latency table, draws the run.
+# Installs what is missing, builds what the run needs and no more, and drives the wheelchair: the joystick is an
+# RT-Component, control and hardware are OPRoS components, in two processes. Prints the latency table, draws the run.
 #   apps/run-wheelchair.sh [--build-only] [--out FOLDER] [options of build/release/bin/wheelchair]
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/setup.sh"

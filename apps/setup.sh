@@ -31,7 +31,8 @@ install_missing_packages() {
 }
 
 # print_progress
-# Reads ninja's lines. Prints those that are not steps (warnings, errors), and every few seconds how many steps are done.
+# Reads ninja's lines. Prints those that are not steps (warnings, errors), and every few seconds how many steps are
+# done.
 print_progress() {
     local line start=$SECONDS printed=$SECONDS pause=5 steps=
     [ -t 1 ] && pause=0

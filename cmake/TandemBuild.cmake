@@ -2,8 +2,8 @@
 # What every target of the tree shares: warnings, sanitizers, output folders, run paths, and the two ways to
 # declare a plugin and a test.
 
-# ccache keeps objects between builds. It can cache what uses a precompiled header only if told that no macro in front of
-# it and no time of day matters, which holds here.
+# ccache keeps objects between builds. It can cache what uses a precompiled header only if told that no macro in front
+# of it and no time of day matters, which holds here.
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})

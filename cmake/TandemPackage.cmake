@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The package that find_package(Tandem) finds: in the installed tree and, at the same place relative to the programs, in
-# the build tree. `cmake --install build --component opros` installs what OPRoS components need and no more, `--component
-# rtm` what RT-Components need.
+# the build tree. `cmake --install build --component opros` installs what OPRoS components need and no more,
+# `--component rtm` what RT-Components need.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
 set(package_source ${PROJECT_SOURCE_DIR}/cmake/package)

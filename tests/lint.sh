@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Checks what no compiler checks: clang-format on every file of ours, the arrows between rooms, the ABI numbers, and
 # clang-tidy on the files that changed.   tests/lint.sh [--all | --since COMMIT]
-# clang-tidy looks at the product files (not the tests) changed since COMMIT (default: the commit before this one, and what
-# is not committed); --all at every one, which takes an hour or more.
+# clang-tidy looks at the product files (not the tests) changed since COMMIT (default: the commit before this one, and
+# what is not committed); --all at every one, which takes an hour or more.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 

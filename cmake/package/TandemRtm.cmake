@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # tandem_add_rtm_component(NAME [FOLDER dir] [SOURCES a.cpp ...] [IDL F.idl ...] [INCLUDE_DIRS dir ...]
 #                          [DEFINITIONS X=1 ...] [LIBRARIES x ...] [CXX_STANDARD 14])
-# The plugin NAME.so of an RT-Component. All but NAME has a default: the sources and IDL files that lie in the folder (the
-# current source folder), as RTCBuilder and rtc-template lay them out. Sources with a main() are programs and stay out.
+# The plugin NAME.so of an RT-Component. All but NAME has a default: the sources and IDL files that lie in the folder
+# (the current source folder), as RTCBuilder and rtc-template lay them out. Sources with a main() are programs and
+# stay out.
 
 # The IDL files of a component's folder; those that come with OpenRTM-aist are compiled in the library already, and
 # omniidl-tmpNUMBER.idl is what older omniidl leaves of another file when it is interrupted.

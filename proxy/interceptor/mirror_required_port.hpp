@@ -15,8 +15,9 @@
 namespace tandem::interceptor {
 
 /// Mirrors a service interface that the RTC requires and an OPRoS component provides: a CORBA object whose
-/// calls cross the link, without a compiled skeleton. A failed call is a CORBA system exception: TIMEOUT, COMM_FAILURE (peer gone), NO_RESOURCES
-/// (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN (the OPRoS method failed; its text is in the log).
+/// calls cross the link, without a compiled skeleton. A failed call is a CORBA system exception: TIMEOUT,
+/// COMM_FAILURE (peer gone), NO_RESOURCES (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN (the OPRoS
+/// method failed; its text is in the log).
 class MirrorRequiredPort final : private CallTarget {
   public:
     MirrorRequiredPort(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout);

@@ -39,7 +39,8 @@ if(CycloneDDS_FOUND AND CYCLONE_IDLC)
   set(cyclone_found TRUE)
   idlc_generate(TARGET tandem_bench_dds FILES peers/cyclone.idl)
 endif()
-tandem_bench_peer(cyclone ${cyclone_found} "cyclonedds-dev cyclonedds-tools" LIBRARIES tandem_bench_dds CycloneDDS::ddsc)
+tandem_bench_peer(cyclone ${cyclone_found} "cyclonedds-dev cyclonedds-tools" LIBRARIES tandem_bench_dds
+  CycloneDDS::ddsc)
 
 # omniORB is one of Tandem's own dependencies.
 pkg_check_modules(OMNIORB REQUIRED IMPORTED_TARGET omniORB4)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The acceptance limits: what Tandem's shared memory and both hosts are held to (--acceptance). Nearly all are ratios of
-// two cases of one run, because absolute times belong to one machine and hour.
+// The acceptance limits: what Tandem's shared memory and both hosts are held to (--acceptance). Nearly all are
+// ratios of two cases of one run, because absolute times belong to one machine and hour.
 #pragma once
 #include "apps/bench/report/report.hpp"
 

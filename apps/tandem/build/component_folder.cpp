@@ -56,7 +56,8 @@ void require_component_name(const std::string& name) {
 
 void create_component_folder(const fs::path& folder, const TemplateFiles& files) {
     std::error_code error;
-    // The component's folder is searched for headers before /usr/include: <string.h> would find a component named string.
+    // The component's folder is searched for headers before /usr/include: <string.h> would find a component
+    // named string.
     const std::string header = folder.filename().string() + ".h";
     if (fs::exists("/usr/include/" + header, error))
         throw std::runtime_error(

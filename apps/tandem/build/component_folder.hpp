@@ -14,8 +14,8 @@ using TemplateFiles = std::vector<std::pair<std::string, std::string>>; ///< fil
 /// Throws std::runtime_error unless the name can be that of a C++ class, a library and files.
 void require_component_name(const std::string& name);
 
-/// Creates the folder with these files; on an error nothing is left behind. Throws std::runtime_error if the folder exists
-/// or cannot be created, or if its header would hide one of the system.
+/// Creates the folder with these files; on an error nothing is left behind. Throws std::runtime_error if the
+/// folder exists or cannot be created, or if its header would hide one of the system.
 void create_component_folder(const std::filesystem::path& folder, const TemplateFiles& files);
 
 /// The text with each @NAME@ replaced by the name.

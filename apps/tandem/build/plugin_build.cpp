@@ -73,8 +73,8 @@ std::string cmake_project(const std::string& model, const std::string& name,
            fmt::format("\n  CXX_STANDARD {})\n", options.standard);
 }
 
-// Runs one step of CMake. On failure all of its output is printed, and its first error is repeated in the exception, where
-// it is the last line on the terminal.
+// Runs one step of CMake. On failure all of its output is printed, and its first error is repeated in the
+// exception, where it is the last line on the terminal.
 void run_cmake(const std::vector<std::string>& command, double timeout_s, const std::string& name,
                const std::string& what) {
     process::CommandOptions options;
@@ -108,8 +108,8 @@ void require_no_semicolon(const fs::path& path) {
                                  "without one");
 }
 
-// Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a copy that
-// fails half-way must not leave half a library.
+// Replaces the library by rename(2), not by writing into it: a running host may have the old file mapped, and a
+// copy that fails half-way must not leave half a library.
 void replace_library(const fs::path& cmake_output, const fs::path& library) {
     const fs::path new_file = library.parent_path() / ("." + library.filename().string() + ".new");
     std::error_code error, ignored;

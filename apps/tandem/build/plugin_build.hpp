@@ -27,9 +27,9 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
 /// Throws std::runtime_error if there is no such folder.
 void require_folder(const std::filesystem::path& folder);
 
-/// Builds NAME.so with tandem_add_<model>_component() and puts it into `default_folder`, or into options.output together
-/// with the files that CMake has put beside it. An old library is replaced only by a complete new one. Returns its path.
-/// Throws std::runtime_error with one line, after the compiler's output has been printed.
+/// Builds NAME.so with tandem_add_<model>_component() and puts it into `default_folder`, or into options.output
+/// together with the files that CMake has put beside it. An old library is replaced only by a complete new one.
+/// Returns its path. Throws std::runtime_error with one line, after the compiler's output has been printed.
 std::filesystem::path build_plugin(const std::string& model, const std::string& name,
                                    const PluginBuildOptions& options,
                                    const std::filesystem::path& default_folder);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The checks of `tandem doctor`, one function each. A check reads the Machine that it is given and nothing else, never
-// throws for what it finds there, and has the same name on every machine. A new one is declared here, defined in the file
-// of its group and listed in run_checks.cpp.
+// throws for what it finds there, and has the same name on every machine. A new one is declared here, defined
+// in the file of its group and listed in run_checks.cpp.
 #pragma once
 #include "apps/tandem/doctor/check_result.hpp"
 #include "apps/tandem/doctor/machine.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // systemd-logind removes what a user has in /dev/shm when that user's last session ends, unless RemoveIPC=no.
-// The setting is looked up as logind does (logind.conf(5)): one main file, then all drop-ins by name; a file in an earlier
-// folder hides those of the same name in later ones; the last assignment counts.
+// The setting is looked up as logind does (logind.conf(5)): one main file, then all drop-ins by name; a file in
+// an earlier folder hides those of the same name in later ones; the last assignment counts.
 #include "apps/tandem/doctor/checks.hpp"
 
 #include <algorithm>
@@ -34,8 +34,8 @@ std::vector<std::string> logind_files(const Machine& machine) {
     return found;
 }
 
-/// What a file assigns to RemoveIPC in its section [Login], "" for an assignment that resets it to the default; empty if
-/// the file does not name it.
+/// What a file assigns to RemoveIPC in its section [Login], "" for an assignment that resets it to the default;
+/// empty if the file does not name it.
 std::optional<std::string> assigned_value(const std::string& content) {
     std::optional<std::string> setting;
     std::string section;

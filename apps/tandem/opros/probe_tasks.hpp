@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Running code of components in a child process of `tandem` (see host/plugin), so that its crash or hang is an error
-// message. Each task has a function for the parent, which starts the child and returns its answer, and one for the child.
+// message. Each task has a function for the parent, which starts the child and returns its answer, and one for
+// the child.
 #pragma once
 
 #include "apps/tandem/opros/commands.hpp"
@@ -14,8 +15,8 @@ namespace tandem::command {
 /// Task of one component library. Argument: JSON with "profile" (file, or "" to set no properties), "initialize" and
 /// "plugin_dirs". Result: describe_component().
 constexpr char describe_task[] = "describe-opros";
-/// Task of an application, whose profile takes the place of the library. Argument: JSON with "plugin_dirs", "initialize"
-/// and "excluded", the names of components to leave out. Result: a list of errors.
+/// Task of an application, whose profile takes the place of the library. Argument: JSON with "plugin_dirs",
+/// "initialize" and "excluded", the names of components to leave out. Result: a list of errors.
 constexpr char connect_task[] = "connect-opros";
 
 /// Describes the component in this library. Throws plugin::Error.

@@ -9,11 +9,10 @@
 
 namespace tandem::command {
 
-/// A profile as JSON that is not of a component: of a composite (with the ports that it exports, typed as in the code of
-/// its components, which is run in a child process), an application, a service type or a data type. Throws
-/// engine::SetupError.
-/// "kind" tells the form: application and composite have "name" and "components", the first with "connections", the
-/// second with "ports"; service types have "types" with "methods", data types "types" with "fields".
+/// The profile of an application, composite, service type or data type as JSON. "kind" is which; application and
+/// composite have "name" and "components", and "connections" or "ports"; the types "types" with "methods" or
+/// "fields". The ports of a composite are typed as in the code of its components, which is run in a child process.
+/// Throws engine::SetupError.
 nlohmann::json describe_profile(engine::ProfileKind kind, const InspectOptions& options);
 /// The same as text.
 std::string format_profile(const nlohmann::json& info);

@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Replaces comments by blanks. String literals are not recognized: a definition of a module function inside of one is not
-// to be expected.
+// Replaces comments by blanks. String literals are not recognized: a definition of a module function inside of
+// one is not to be expected.
 std::string strip_comments(std::string text) {
     // A state machine over pairs of characters; the last character cannot begin or end a comment.
     enum { code, line, block } in = code;

@@ -151,8 +151,8 @@ nlohmann::json observation_json(const shm::Observation& observation) {
     return json;
 }
 
-/// One observation of --watch: the rates since the previous one, or the counters if there are no rates (the first time, or
-/// after a new generation). No segment is not an error here: the hosts may be restarting.
+/// One observation of --watch: the rates since the previous one, or the counters if there are no rates (the
+/// first time, or after a new generation). No segment is not an error here: the hosts may be restarting.
 void print_observation(const StatsOptions& options, const std::optional<shm::Observation>& observation,
                        const std::optional<Rates>& rates) {
     if (options.json) {
@@ -174,8 +174,8 @@ void print_observation(const StatsOptions& options, const std::optional<shm::Obs
     if (observation) report_if_unreadable(observation->segment);
 }
 
-// The first observation is made at once. Sleeps until absolute times, so that the period does not drift by the time that
-// an observation takes.
+// The first observation is made at once. Sleeps until absolute times, so that the period does not drift by the
+// time that an observation takes.
 int watch_segment(const StatsOptions& options) {
     shm::check_link_name(options.link);
     const auto period = std::chrono::nanoseconds(static_cast<std::int64_t>(options.period_s * 1e9));

@@ -24,8 +24,8 @@ ReturnType push_encoded(Port& port, ArchiveFactory* factory, unsigned char* data
     return result;
 }
 
-/// What push() of a data port does with an archive. OPROS_UNSUPPORTED_METHOD: the port's type cannot be archived. Throws
-/// what the archive throws.
+/// What push() of a data port does with an archive. OPROS_UNSUPPORTED_METHOD: the port's type cannot be
+/// archived. Throws what the archive throws.
 template <typename Port>
 ReturnType push_decoded(Port& port, archive::iarchive& in) {
     opros_any value = port.sample();

@@ -31,8 +31,8 @@ ComponentEntry query_component(const std::string& address, CORBA::Object_ptr obj
     return entry;
 }
 
-// Adds the components below a naming context. Contexts may contain each other in a circle: `depth` bounds the recursion.
-// OpenRTM-aist binds components with the kind "rtc"; other objects are not components.
+// Adds the components below a naming context. Contexts may contain each other in a circle: `depth` bounds the
+// recursion. OpenRTM-aist binds components with the kind "rtc"; other objects are not components.
 void list_context(CosNaming::NamingContext_ptr context, const std::string& path, int depth,
                   unsigned long timeout_ms, std::vector<ComponentEntry>& out) {
     CosNaming::BindingList_var list;

@@ -22,9 +22,9 @@ struct ComponentSource {
     std::vector<ComponentEntry> components;
 };
 
-/// Asks all name servers and managers of the client. A component that several of them know is listed with each; one that
-/// does not answer (its process has died and left its name behind) is listed with its error. Does not throw for a source
-/// that does not answer.
+/// Asks all name servers and managers of the client. A component that several of them know is listed with each;
+/// one that does not answer (its process has died and left its name behind) is listed with its error. Does not
+/// throw for a source that does not answer.
 std::vector<ComponentSource> enumerate_components(const RtmClient& client);
 
 /// Throws std::runtime_error, in one line, if no source has answered, or if one that the user has named has not.

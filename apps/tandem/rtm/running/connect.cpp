@@ -30,8 +30,8 @@ std::string port_property(const RemotePort& port, const char* key) {
     return NVUtil::toString(port.profile->properties, key);
 }
 
-// Throws if the two ports cannot be connected: they themselves refuse with a return code that does not tell why. Types may
-// differ if the connection names a serializer that converts.
+// Throws if the two ports cannot be connected: they themselves refuse with a return code that does not tell
+// why. Types may differ if the connection names a serializer that converts.
 void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::ConnectorProfile& profile) {
     const std::string kind_a = port_property(a, "port.port_type"),
                       kind_b = port_property(b, "port.port_type");

@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Inode of the socket -> IPv4 address and port, of all listening TCP sockets. A socket that listens on every interface is
-// reached by the loopback address. The format is that of proc_pid_net(5).
+// Inode of the socket -> IPv4 address and port, of all listening TCP sockets. A socket that listens on every
+// interface is reached by the loopback address. The format is that of proc_pid_net(5).
 std::map<std::string, std::string> listening_sockets() {
     std::map<std::string, std::string> sockets;
     std::ifstream table("/proc/net/tcp");

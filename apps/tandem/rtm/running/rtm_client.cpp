@@ -13,8 +13,8 @@
 namespace tandem::command {
 namespace {
 
-// A client only: an end point on the loopback interface is enough, and omniORB's own log lines must not come between the
-// lines of the output. 64 MiB hold the largest images.
+// A client only: an end point on the loopback interface is enough, and omniORB's own log lines must not come
+// between the lines of the output. 64 MiB hold the largest images.
 coil::vstring orb_arguments(unsigned long timeout_ms) {
     return {"tandem",
             "-ORBclientCallTimeOutPeriod",
@@ -130,8 +130,8 @@ RemotePort get_port(const RemoteComponent& component, const std::string& port) {
 }
 
 RemotePort find_port(const RtmClient& client, const std::string& name) {
-    // rtcname://host:2809/a.host_cxt/Name0.rtc:out, Name0:out, Name0.out. The port follows the last ':' or '.' behind the
-    // last '/': before it these characters belong to addresses and to the kinds of names.
+    // rtcname://host:2809/a.host_cxt/Name0.rtc:out, Name0:out, Name0.out. The port follows the last ':' or '.'
+    // behind the last '/': before it these characters belong to addresses and to the kinds of names.
     const std::size_t last = name.rfind('/') == std::string::npos ? 0 : name.rfind('/');
     std::size_t at = name.find(':', last);
     if (at == std::string::npos) at = name.rfind('.');

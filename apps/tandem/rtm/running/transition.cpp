@@ -47,8 +47,8 @@ std::string apply_transition(const RemoteComponent& component, Transition transi
         return "exited";
     }
     const std::string wanted = target_state(transition);
-    // Asking an active component to activate would be refused. A reset is requested in any state: only the component knows
-    // whether it applies.
+    // Asking an active component to activate would be refused. A reset is requested in any state: only the
+    // component knows whether it applies.
     if (component_state(component.object.in()) == wanted && transition != Transition::reset) return wanted;
     const auto contexts = execution_contexts(component.object.in());
     const RTC::ReturnCode_t code =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The equations of docs/wheelchair.md, section 4. The order of the floating-point operations is part of the model: every
-// build and the Python reference must agree to the last encoder count, so terms must not be regrouped.
+// The equations of docs/wheelchair.md, section 4. The order of the floating-point operations is part of the
+// model: every build and the Python reference must agree to the last encoder count, so terms must not be
+// regrouped.
 #include "plugins/wheelchair/core/plant/plant.hpp"
 
 #include <cmath>

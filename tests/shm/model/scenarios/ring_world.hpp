@@ -66,8 +66,8 @@ class RingWorld {
     /// Another writer goes on from where the one before it has ended.
     void new_writer() { writer = std::make_unique<RingProducer<A>>(view_); }
 
-    /// At rest: all that can be read is read, and everything adds up. `whole`: no end was killed. `newest_first`: begins
-    /// with the newest.
+    /// At rest: all that can be read is read, and everything adds up. `whole`: no end was killed.
+    /// `newest_first`: begins with the newest.
     void check_at_end(bool whole = true, bool newest_first = false) {
         require(!writer->corrupt() && !reader->corrupt(), "no honest end makes a ring corrupt");
         const std::uint64_t seen_before = last_;
