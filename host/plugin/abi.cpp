@@ -86,7 +86,7 @@ void require_abi(const std::filesystem::path& library, const LibraryContents& co
 
 void require_abi_of_process(ComponentModel model, std::uint32_t expected,
                             const std::filesystem::path& plugin) {
-    NoteSearch search{note_owner(model), expected, plugin.string()};
+    NoteSearch search{elf_note_name(model), expected, plugin.string()};
     dl_iterate_phdr(search_object, &search);
     if (search.others.empty()) return;
     std::error_code none;

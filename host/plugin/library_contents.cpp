@@ -16,7 +16,7 @@ bool uses_class(const ElfContents& elf, const std::string& mangled) {
 }
 
 HeaderUse header_use(ElfContents& elf, ComponentModel model, const std::string& mangled) {
-    return {std::move(elf.note_numbers[note_owner(model)]), uses_class(elf, mangled)};
+    return {std::move(elf.note_numbers[elf_note_name(model)]), uses_class(elf, mangled)};
 }
 
 // An RTC module's init function is named after its file, NAMEInit. The file may have been renamed since, so
@@ -54,7 +54,7 @@ const char* remedy(LibraryKind kind) {
 
 } // namespace
 
-const char* note_owner(ComponentModel model) {
+const char* elf_note_name(ComponentModel model) {
     return model == ComponentModel::opros ? "TandemOPRoS" : "TandemRTM";
 }
 

@@ -24,7 +24,7 @@ const char* kind_text(LibraryKind kind);
 enum class ComponentModel { opros, rtm };
 
 /// Name of the owner of the ELF notes in which the model's headers put their ABI number (TandemAbi.h).
-const char* note_owner(ComponentModel model);
+const char* elf_note_name(ComponentModel model);
 
 /// How a library uses the headers of one component model.
 struct HeaderUse {

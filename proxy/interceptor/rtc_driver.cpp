@@ -71,28 +71,28 @@ std::string RtcDriver::activate() {
     if (state() == RTC::ACTIVE_STATE) return "";
     // Not reset here: whether an error may be ignored is the user's decision.
     if (state() == RTC::ERROR_STATE) return name_ + " is in ERROR; reset it first";
-    return transition(RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,
-                      &RTC::_objref_ExecutionContext::activate_component, "activated");
+    return transition_and_wait(RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,
+                               &RTC::_objref_ExecutionContext::activate_component, "activated");
 }
 
 std::string RtcDriver::deactivate() {
     const std::lock_guard lock(mutex_);
     if (state() != RTC::ACTIVE_STATE) return "";
-    return transition(RTC::ACTIVE_STATE, RTC::INACTIVE_STATE,
-                      &RTC::_objref_ExecutionContext::deactivate_component, "deactivated");
+    return transition_and_wait(RTC::ACTIVE_STATE, RTC::INACTIVE_STATE,
+                               &RTC::_objref_ExecutionContext::deactivate_component, "deactivated");
 }
 
 std::string RtcDriver::reset() {
     const std::lock_guard lock(mutex_);
     if (state() != RTC::ERROR_STATE) return "";
-    return transition(RTC::ERROR_STATE, RTC::INACTIVE_STATE, &RTC::_objref_ExecutionContext::reset_component,
-                      "reset");
+    return transition_and_wait(RTC::ERROR_STATE, RTC::INACTIVE_STATE,
+                               &RTC::_objref_ExecutionContext::reset_component, "reset");
 }
 
 /// Asks the execution context for a transition and waits until it is done. Asks again while the context does
 /// not accept it: a host that has just started may have created the RTC but not yet started its context.
-std::string RtcDriver::transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Operation operation,
-                                  const char* verb) {
+std::string RtcDriver::transition_and_wait(RTC::LifeCycleState from, RTC::LifeCycleState to,
+                                           Operation operation, const char* verb) {
     const auto deadline = std::chrono::steady_clock::now() + timeout_;
     try {
         auto result = RTC::PRECONDITION_NOT_MET;

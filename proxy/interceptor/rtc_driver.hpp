@@ -28,8 +28,8 @@ class RtcDriver {
     class ErrorListener;
     using Operation = RTC::ReturnCode_t (RTC::_objref_ExecutionContext::*)(RTC::LightweightRTObject_ptr);
     // Both return as the functions above do.
-    std::string transition(RTC::LifeCycleState from, RTC::LifeCycleState to, Operation operation,
-                           const char* verb);
+    std::string transition_and_wait(RTC::LifeCycleState from, RTC::LifeCycleState to, Operation operation,
+                                    const char* verb);
     std::string wait_for_state(RTC::LifeCycleState wanted, const char* verb) const;
     RTC::LifeCycleState state() const;
 

@@ -30,19 +30,20 @@ void StampedStream::throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_N
 
 // Alignment in CDR counts from the start of the message. The time takes 8 bytes, the largest alignment, so
 // the body may be aligned as if it followed them, though it lies elsewhere.
-std::byte* StampedStream::advance(void*& mark, void*& end, std::size_t bytes, omni::alignment_t alignment) {
-    if (in_time_ && mark == end) {
+std::byte* StampedStream::align_and_advance(void*& cursor, void*& end, std::size_t bytes,
+                                            omni::alignment_t alignment) {
+    if (in_time_ && cursor == end) {
         in_time_ = false;
-        mark = body_.data();
+        cursor = body_.data();
         end = body_.data() + body_.size();
     }
-    const auto place = reinterpret_cast<omni::ptr_arith_t>(mark);
+    const auto place = reinterpret_cast<omni::ptr_arith_t>(cursor);
     const auto padding = static_cast<std::size_t>(omni::align_to(place, alignment) - place);
-    const std::size_t left = distance(mark, end);
+    const std::size_t left = distance(cursor, end);
     // Subtracted, not added: the sum could overflow with a hostile length.
     if (padding > left || bytes > left - padding) throw_marshal();
-    std::byte* const begin = byte_at(mark) + padding;
-    mark = begin + bytes;
+    std::byte* const begin = byte_at(cursor) + padding;
+    cursor = begin + bytes;
     return begin;
 }
 
@@ -66,7 +67,7 @@ std::uint64_t StampedOutStream::packed_time() const {
 
 void StampedOutStream::put_octet_array(const _CORBA_Octet* from, int size, omni::alignment_t alignment) {
     const auto bytes = static_cast<std::size_t>(size);
-    std::memcpy(advance(pd_outb_mkr, pd_outb_end, bytes, alignment), from, bytes);
+    std::memcpy(align_and_advance(pd_outb_mkr, pd_outb_end, bytes, alignment), from, bytes);
 }
 
 _CORBA_Boolean StampedOutStream::checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count,
@@ -82,7 +83,7 @@ _CORBA_ULong StampedOutStream::currentOutputPtr() const {
 
 _CORBA_Boolean StampedOutStream::reserveOutputSpaceForPrimitiveType(omni::alignment_t alignment,
                                                                     std::size_t bytes) {
-    pd_outb_mkr = advance(pd_outb_mkr, pd_outb_end, bytes, alignment);
+    pd_outb_mkr = align_and_advance(pd_outb_mkr, pd_outb_end, bytes, alignment);
     return true;
 }
 
@@ -104,10 +105,12 @@ StampedInStream::StampedInStream(std::span<const std::byte> body, bool timed, st
 
 void StampedInStream::get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) {
     const auto bytes = static_cast<std::size_t>(size);
-    std::memcpy(to, advance(pd_inb_mkr, pd_inb_end, bytes, alignment), bytes);
+    std::memcpy(to, align_and_advance(pd_inb_mkr, pd_inb_end, bytes, alignment), bytes);
 }
 
-void StampedInStream::skipInput(_CORBA_ULong size) { advance(pd_inb_mkr, pd_inb_end, size, omni::ALIGN_1); }
+void StampedInStream::skipInput(_CORBA_ULong size) {
+    align_and_advance(pd_inb_mkr, pd_inb_end, size, omni::ALIGN_1);
+}
 
 _CORBA_Boolean StampedInStream::checkInputOverrun(_CORBA_ULong size, _CORBA_ULong count, omni::alignment_t) {
     const std::size_t body_left = in_time_ ? body_.size() : 0;
@@ -120,7 +123,7 @@ _CORBA_ULong StampedInStream::currentInputPtr() const {
 }
 
 void StampedInStream::fetchInputData(omni::alignment_t alignment, std::size_t bytes) {
-    pd_inb_mkr = advance(pd_inb_mkr, pd_inb_end, bytes, alignment);
+    pd_inb_mkr = align_and_advance(pd_inb_mkr, pd_inb_end, bytes, alignment);
 }
 
 } // namespace tandem::interceptor

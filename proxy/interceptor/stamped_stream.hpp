@@ -33,9 +33,9 @@ class StampedStream : public cdrStream {
     }
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t, std::size_t) override { throw_marshal(); }
 
-    /// Returns where the next `bytes` bytes at that alignment begin, and moves `mark` behind them. When the
-    /// time is used up, `mark` and `end` move to the body.
-    std::byte* advance(void*& mark, void*& end, std::size_t bytes, omni::alignment_t alignment);
+    /// Returns where the next `bytes` bytes at that alignment begin, and moves `cursor` behind them. When the
+    /// time is used up, `cursor` and `end` move to the body.
+    std::byte* align_and_advance(void*& cursor, void*& end, std::size_t bytes, omni::alignment_t alignment);
 
     alignas(8) std::byte time_[8];
     std::span<std::byte> body_;

@@ -26,7 +26,7 @@ struct HistogramCounts {
         for (std::size_t bucket = 0; bucket < counts.size(); ++bucket) {
             seen += counts[bucket];
             if (seen != 0 && seen >= wanted)
-                return layout::Histogram::begin_of(std::min(bucket + 1, counts.size() - 1));
+                return layout::Histogram::lower_bound_of(std::min(bucket + 1, counts.size() - 1));
         }
         return 0;
     }

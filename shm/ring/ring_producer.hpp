@@ -47,7 +47,7 @@ class alignas(layout::line_pair) RingProducer {
     std::byte* chunk() const { return ring_.chunk(chunks_.current()); }
     bool is_open() const { return reservation_ != Reservation::refused; }
     std::size_t reserved_bytes() const { return reserved_bytes_; }
-    void abandon() { reservation_ = Reservation::refused; }
+    void cancel_reservation() { reservation_ = Reservation::refused; }
 
     /// Publishes the first `used` bytes of what was reserved. False: refused and counted after all.
     bool commit(const void* scratch, std::size_t used, std::uint64_t stamp);

@@ -23,7 +23,7 @@ class RingWriter {
 
     /// Publishes the first `used` bytes of what was reserved. False: dropped after all (ring damaged).
     bool commit(std::size_t used, std::uint64_t stamp_ns);
-    void abandon() { producer_.abandon(); } ///< Forgets what was reserved, uncounted.
+    void cancel_reservation() { producer_.cancel_reservation(); } ///< Forgets what was reserved, uncounted.
 
     /// reserve(), copy, commit(). False: dropped.
     bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {

@@ -19,7 +19,7 @@ struct Histogram {
         return bucket < buckets ? bucket : buckets - 1;
     }
     /// The shortest duration that falls into a bucket, ns.
-    static constexpr std::uint64_t begin_of(std::size_t bucket) {
+    static constexpr std::uint64_t lower_bound_of(std::size_t bucket) {
         return bucket == 0 ? 0 : (4 + (bucket - 1) % 4) << ((bucket - 1) / 4 + 4);
     }
 
@@ -32,8 +32,8 @@ struct Histogram {
     std::atomic<std::uint64_t> counts[buckets];
 };
 static_assert(sizeof(Histogram) == 1024);
-static_assert(Histogram::bucket_of(64) == 1 && Histogram::begin_of(1) == 64);
+static_assert(Histogram::bucket_of(64) == 1 && Histogram::lower_bound_of(1) == 64);
 static_assert(Histogram::bucket_of(127) == 4 && Histogram::bucket_of(128) == 5);
-static_assert(Histogram::begin_of(5) == 128 && Histogram::begin_of(4) == 112);
+static_assert(Histogram::lower_bound_of(5) == 128 && Histogram::lower_bound_of(4) == 112);
 
 } // namespace tandem::shm::layout

@@ -143,7 +143,7 @@ void FuzzTargets::produce(Input& input, const Object& object) {
             if (reserved == Reservation::refused) break;
             if (reserved == Reservation::chunk) std::memset(producer.chunk(), 1, bytes);
             if (what % 3 == 0)
-                producer.abandon();
+                producer.cancel_reservation();
             else
                 producer.commit(payload.data(), bytes / (1 + what % 5), i);
             break;

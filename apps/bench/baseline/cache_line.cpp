@@ -14,7 +14,8 @@ namespace {
 class LineEndpoint {
   public:
     explicit LineEndpoint(Session& session)
-        : out_(words(session, session.is_a() ? 0 : 1)), in_(words(session, session.is_a() ? 1 : 0)) {}
+        : out_(words(session, session.is_side_a() ? 0 : 1)),
+          in_(words(session, session.is_side_a() ? 1 : 0)) {}
     void send(std::uint64_t sequence) { word(out_, sent_++).store(sequence, std::memory_order_release); }
     std::uint64_t receive() {
         auto& incoming = word(in_, received_);

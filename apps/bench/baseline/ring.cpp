@@ -29,8 +29,8 @@ template <std::size_t bytes, Wake wake>
 class RingEndpoint {
   public:
     explicit RingEndpoint(Session& session, std::size_t region = 0)
-        : out_(memory(session, 2 * region + (session.is_a() ? 0 : 1))),
-          in_(memory(session, 2 * region + (session.is_a() ? 1 : 0))) {}
+        : out_(memory(session, 2 * region + (session.is_side_a() ? 0 : 1))),
+          in_(memory(session, 2 * region + (session.is_side_a() ? 1 : 0))) {}
     void send(std::uint64_t sequence) { write_slot<bytes>(out_, sequence); }
     std::uint64_t receive() { return read_slot<bytes>(in_); }
 

@@ -53,7 +53,7 @@ template <class Endpoint>
 void measure_round_trips(Session& session) {
     Endpoint endpoint(session);
     session.arrive_and_wait();
-    if (!session.is_a()) return echo_until_stop(endpoint);
+    if (!session.is_side_a()) return echo_until_stop(endpoint);
     time_round_trips(session, [&](std::uint64_t sequence) {
         endpoint.send(sequence);
         return endpoint.receive();
@@ -71,7 +71,7 @@ void measure_round_trips_in_regions(Session& session, std::size_t regions) {
             return endpoint.receive();
         };
         session.arrive_and_wait();
-        if (session.is_a())
+        if (session.is_side_a())
             time_round_trips(session, exchange, regions);
         else
             echo_until_stop(endpoint);
@@ -81,7 +81,7 @@ void measure_round_trips_in_regions(Session& session, std::size_t regions) {
 /// Calls, one after the other: A is the client, B the server.
 template <class Client, class Server>
 void measure_calls(Session& session) {
-    if (session.is_a()) {
+    if (session.is_side_a()) {
         Client client(session);
         session.arrive_and_wait();
         time_round_trips(session, [&](std::uint64_t sequence) { return client.call(sequence); });
@@ -101,7 +101,7 @@ template <class Endpoint>
 void measure_paced(Session& session) {
     Endpoint endpoint(session);
     session.arrive_and_wait();
-    if (!session.is_a()) return echo_until_stop(endpoint);
+    if (!session.is_side_a()) return echo_until_stop(endpoint);
     const std::uint64_t interval = to_ticks(1e6);
     session.begin_measuring();
     std::uint64_t due = ticks() + interval;
@@ -124,7 +124,7 @@ template <class Endpoint>
 void measure_publish(Session& session) {
     Endpoint endpoint(session);
     session.arrive_and_wait();
-    if (!session.is_a()) {
+    if (!session.is_side_a()) {
         while (endpoint.receive() != stop_sequence) {
         }
         return;
@@ -157,7 +157,7 @@ void measure_stream(Session& session) {
     session.arrive_and_wait();
     // Of short messages the clock and the stop flag are looked at once for 64: either costs as much as a message.
     const std::uint64_t batch = session.bytes() <= 4096 ? 64 : 1;
-    if (session.is_a()) {
+    if (session.is_side_a()) {
         for (std::uint64_t sequence = 1; !session.stop_requested();)
             for (std::uint64_t i = 0; i < batch; ++i) endpoint.send(sequence++);
         endpoint.send(stop_sequence);

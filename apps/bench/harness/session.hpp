@@ -46,7 +46,7 @@ class Session {
 
     const Case& bench_case() const { return case_; }
     const Budget& budget() const { return budget_; }
-    bool is_a() const { return role_ == Role::a; }
+    bool is_side_a() const { return role_ == Role::a; }
     std::size_t bytes() const { return case_.bytes; }       ///< of a message
     const std::string& name() const { return name_; }       ///< the same in both sides; no other case has it
     std::span<std::byte> memory() const { return memory_; } ///< zero at first, 64 MiB, one for both sides

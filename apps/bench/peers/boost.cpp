@@ -16,8 +16,10 @@ template <std::size_t bytes, Wake wake>
 class BoostEndpoint {
   public:
     explicit BoostEndpoint(Session& session)
-        : out_(bip::open_or_create, (session.name() + (session.is_a() ? "-0" : "-1")).c_str(), depth, bytes),
-          in_(bip::open_or_create, (session.name() + (session.is_a() ? "-1" : "-0")).c_str(), depth, bytes) {}
+        : out_(bip::open_or_create, (session.name() + (session.is_side_a() ? "-0" : "-1")).c_str(), depth,
+               bytes),
+          in_(bip::open_or_create, (session.name() + (session.is_side_a() ? "-1" : "-0")).c_str(), depth,
+              bytes) {}
     void send(std::uint64_t sequence) {
         message_.fill(sequence);
         out_.send(message_.data(), bytes, 0);

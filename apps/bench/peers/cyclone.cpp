@@ -43,7 +43,7 @@ const dds_topic_descriptor_t& descriptor<TandemBench_SixMebibytes>() {
 }
 
 /// The result; throws std::runtime_error if it is an error code.
-dds_entity_t require_ok(dds_return_t result, const char* operation) {
+dds_entity_t entity_or_throw(dds_return_t result, const char* operation) {
     if (result < 0)
         throw std::runtime_error(fmt::format("Cyclone DDS: {}: {}", operation, dds_strretcode(result)));
     return result;
@@ -57,7 +57,7 @@ class CycloneEndpoint {
         // Read when the first participant is made.
         setenv("CYCLONEDDS_URI", configuration, 1);
         participant_ =
-            require_ok(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr), "participant");
+            entity_or_throw(dds_create_participant(DDS_DOMAIN_DEFAULT, nullptr, nullptr), "participant");
         dds_qos_t* qos = dds_create_qos();
         dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(10));
         dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
@@ -65,19 +65,21 @@ class CycloneEndpoint {
         const int depth = sizeof(T) <= 4096 ? 256 : 4;
         dds_qset_resource_limits(qos, depth, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
         const auto topic = [&](const char* end) {
-            return require_ok(dds_create_topic(participant_, &descriptor<T>(),
-                                               topic_name(session, end).c_str(), qos, nullptr),
-                              "topic");
+            return entity_or_throw(dds_create_topic(participant_, &descriptor<T>(),
+                                                    topic_name(session, end).c_str(), qos, nullptr),
+                                   "topic");
         };
-        writer_ = require_ok(
-            dds_create_writer(participant_, topic(session.is_a() ? "_0" : "_1"), qos, nullptr), "writer");
-        reader_ = require_ok(
-            dds_create_reader(participant_, topic(session.is_a() ? "_1" : "_0"), qos, nullptr), "reader");
+        writer_ = entity_or_throw(
+            dds_create_writer(participant_, topic(session.is_side_a() ? "_0" : "_1"), qos, nullptr),
+            "writer");
+        reader_ = entity_or_throw(
+            dds_create_reader(participant_, topic(session.is_side_a() ? "_1" : "_0"), qos, nullptr),
+            "reader");
         dds_delete_qos(qos);
         if constexpr (wake == Wake::blocking) {
-            wait_set_ = require_ok(dds_create_waitset(participant_), "wait set");
-            require_ok(dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS), "status mask");
-            require_ok(dds_waitset_attach(wait_set_, reader_, 0), "wait set");
+            wait_set_ = entity_or_throw(dds_create_waitset(participant_), "wait set");
+            entity_or_throw(dds_set_status_mask(reader_, DDS_DATA_AVAILABLE_STATUS), "status mask");
+            entity_or_throw(dds_waitset_attach(wait_set_, reader_, 0), "wait set");
         }
         wait_for_match();
     }
@@ -88,21 +90,21 @@ class CycloneEndpoint {
     // dds_write() serializes the sample; a reliable writer blocks while its history is full.
     void send(std::uint64_t sequence) {
         fill_message(message_->words, sizeof(T), sequence);
-        require_ok(dds_write(writer_, message_.get()), "write");
+        entity_or_throw(dds_write(writer_, message_.get()), "write");
     }
     // Takes one sample at a time, without a copy out of the reader's cache.
     std::uint64_t receive() {
         for (;;) {
             void* sample = nullptr; // lent by the reader
             dds_sample_info_t info{};
-            if (require_ok(dds_take(reader_, &sample, &info, 1, 1), "take") > 0) {
+            if (entity_or_throw(dds_take(reader_, &sample, &info, 1, 1), "take") > 0) {
                 const bool valid = info.valid_data; // false: a change of state without data, as at the end
                 const std::uint64_t sequence =
                     valid ? checked_sequence(static_cast<const T*>(sample)->words, sizeof(T)) : 0;
-                require_ok(dds_return_loan(reader_, &sample, 1), "return loan");
+                entity_or_throw(dds_return_loan(reader_, &sample, 1), "return loan");
                 if (valid) return sequence;
             } else if constexpr (wake == Wake::blocking) {
-                require_ok(dds_waitset_wait(wait_set_, nullptr, 0, DDS_SECS(1)), "wait");
+                entity_or_throw(dds_waitset_wait(wait_set_, nullptr, 0, DDS_SECS(1)), "wait");
             }
         }
     }
@@ -121,8 +123,8 @@ class CycloneEndpoint {
         dds_subscription_matched_status_t writers{};
         while (readers.current_count == 0 || writers.current_count == 0) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            require_ok(dds_get_publication_matched_status(writer_, &readers), "status");
-            require_ok(dds_get_subscription_matched_status(reader_, &writers), "status");
+            entity_or_throw(dds_get_publication_matched_status(writer_, &readers), "status");
+            entity_or_throw(dds_get_subscription_matched_status(reader_, &writers), "status");
         }
     }
 

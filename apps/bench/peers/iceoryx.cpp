@@ -27,7 +27,7 @@ constexpr std::uint32_t alignment = 64;
 void start_runtime(const Session& session) {
     iox::log::LogManager::GetLogManager().SetDefaultLogLevel(iox::log::LogLevel::kError,
                                                              iox::log::LogLevelOutput::kHideLogLevel);
-    const std::string name = session.name() + (session.is_a() ? "-a" : "-b");
+    const std::string name = session.name() + (session.is_side_a() ? "-a" : "-b");
     iox::runtime::PoshRuntime::initRuntime({iox::cxx::TruncateToCapacity, name.c_str()});
 }
 
@@ -54,8 +54,8 @@ template <std::size_t bytes, Wake wake>
 class IceoryxEndpoint {
   public:
     explicit IceoryxEndpoint(Session& session)
-        : IceoryxEndpoint((start_runtime(session), session), session.is_a() ? "0" : "1",
-                          session.is_a() ? "1" : "0") {}
+        : IceoryxEndpoint((start_runtime(session), session), session.is_side_a() ? "0" : "1",
+                          session.is_side_a() ? "1" : "0") {}
 
     // Zero-copy: the message is written where the subscriber will read it.
     void send(std::uint64_t sequence) {

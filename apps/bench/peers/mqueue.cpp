@@ -17,8 +17,8 @@ template <std::size_t bytes, Wake wake>
 class MqueueEndpoint {
   public:
     explicit MqueueEndpoint(Session& session)
-        : out_(open(session, session.is_a() ? "-0" : "-1", O_WRONLY)),
-          in_(open(session, session.is_a() ? "-1" : "-0",
+        : out_(open(session, session.is_side_a() ? "-0" : "-1", O_WRONLY)),
+          in_(open(session, session.is_side_a() ? "-1" : "-0",
                    wake == Wake::spin ? O_RDONLY | O_NONBLOCK : O_RDONLY)) {}
     ~MqueueEndpoint() {
         mq_close(out_);

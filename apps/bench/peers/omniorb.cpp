@@ -70,7 +70,8 @@ template <Transport transport>
 class OrbSide {
   public:
     explicit OrbSide(Session& session)
-        : orb_(start_orb(session)), echoes_(!session.is_a() && session.bench_case().operation == "one-way"),
+        : orb_(start_orb(session)),
+          echoes_(!session.is_side_a() && session.bench_case().operation == "one-way"),
           servant_(new PeerServant(inbox_, echoes_)) {
         const CORBA::Object_var root = orb_->resolve_initial_references("RootPOA");
         const PortableServer::POA_var poa = PortableServer::POA::_narrow(root);
@@ -81,9 +82,10 @@ class OrbSide {
         const CORBA::Object_var own = poa->id_to_reference(id);
         const CORBA::String_var text = orb_->object_to_string(own);
         char* shared = reinterpret_cast<char*>(session.memory().data());
-        std::strcpy(shared + (session.is_a() ? 0 : text_bytes), text);
+        std::strcpy(shared + (session.is_side_a() ? 0 : text_bytes), text);
         session.arrive_and_wait();
-        const CORBA::Object_var other = orb_->string_to_object(shared + (session.is_a() ? text_bytes : 0));
+        const CORBA::Object_var other =
+            orb_->string_to_object(shared + (session.is_side_a() ? text_bytes : 0));
         peer_ = TandemBench::Peer::_narrow(other);
         servant_->peer = TandemBench::Peer::_duplicate(peer_);
         session.arrive_and_wait();
@@ -101,7 +103,7 @@ class OrbSide {
     static constexpr std::size_t text_bytes = 4096;
     /// Options: large messages are allowed, and the client uses the transport that is measured.
     static CORBA::ORB_ptr start_orb(const Session& session) {
-        const std::string path = "giop:unix:/tmp/" + session.name() + (session.is_a() ? "-a" : "-b");
+        const std::string path = "giop:unix:/tmp/" + session.name() + (session.is_side_a() ? "-a" : "-b");
         const char* options[][2] = {
             {"endPoint", transport == Transport::tcp ? "giop:tcp:127.0.0.1:" : path.c_str()},
             {"clientTransportRule", transport == Transport::tcp ? "* tcp" : "* unix"},

@@ -34,7 +34,7 @@ int connect_sides(const Session& session, int type) {
     const socklen_t size = address_of(session.name(), address);
     const int fd = socket(AF_UNIX, type | SOCK_CLOEXEC, 0);
     if (fd < 0) fail("socket");
-    if (session.is_a()) {
+    if (session.is_side_a()) {
         while (connect(fd, reinterpret_cast<const sockaddr*>(&address), size) != 0) {
             if (errno != ECONNREFUSED) fail("connect");
             std::this_thread::sleep_for(std::chrono::milliseconds(1)); // B does not listen yet

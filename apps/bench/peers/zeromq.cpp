@@ -24,8 +24,8 @@ class Socket {
         const std::string address = "ipc://@" + session.name(); // abstract name: there is no file
         const int linger = 1000; // ms: the last message is still sent when the socket is closed
         zmq_setsockopt(socket_, ZMQ_LINGER, &linger, sizeof linger);
-        if ((session.is_a() ? zmq_connect(socket_, address.c_str()) : zmq_bind(socket_, address.c_str())) !=
-            0)
+        if ((session.is_side_a() ? zmq_connect(socket_, address.c_str())
+                                 : zmq_bind(socket_, address.c_str())) != 0)
             fail("zmq_connect/zmq_bind");
     }
     ~Socket() {
@@ -45,7 +45,7 @@ class Socket {
 template <std::size_t bytes, Wake wake, int type_a = ZMQ_PAIR, int type_b = ZMQ_PAIR>
 class ZmqEndpoint {
   public:
-    explicit ZmqEndpoint(Session& session) : socket_(session, session.is_a() ? type_a : type_b) {}
+    explicit ZmqEndpoint(Session& session) : socket_(session, session.is_side_a() ? type_a : type_b) {}
     void send(std::uint64_t sequence) {
         zmq_msg_t message;
         zmq_msg_init_size(&message, bytes);

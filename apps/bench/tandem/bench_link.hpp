@@ -36,7 +36,7 @@ class BenchLink {
 
     /// Joins the case's segment; A is the first side. Throws shm::Error.
     BenchLink(Session& session, std::size_t arena_bytes)
-        : side_(session.is_a() ? shm::Side::first : shm::Side::second) {
+        : side_(session.is_side_a() ? shm::Side::first : shm::Side::second) {
         shm::JoinOptions options;
         options.arena_bytes = arena_bytes;
         segment_ = shm::Segment::join(session.name(), side_, options);

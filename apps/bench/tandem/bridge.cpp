@@ -60,14 +60,14 @@ void write_rtc_conf(const Session& session, const fs::path& folder) {
 /// The hosts are in the folder of this program. --parent-death: they end if this side is killed.
 std::vector<std::string> host_command(const Session& session, const fs::path& folder) {
     const fs::path programs = fs::read_symlink("/proc/self/exe").parent_path();
-    if (session.is_a())
+    if (session.is_side_a())
         return {(programs / "opros_host").string(), (folder / "app.xml").string(), "--strict",
                 "--parent-death"};
     return {(programs / "rtm_host").string(), "-f", (folder / "rtc.conf").string(), "--parent-death"};
 }
 
 /// BenchPing's samples: doubles, in ns.
-void add_samples(Session& session, const fs::path& file) {
+void read_samples_from(Session& session, const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     double value = 0;
     while (in.read(reinterpret_cast<char*>(&value), sizeof value)) session.add_result(value);
@@ -76,24 +76,24 @@ void add_samples(Session& session, const fs::path& file) {
 /// Each side starts its host and watches it until BenchPing has written its samples.
 void measure_bridge(Session& session) {
     const fs::path folder = fs::temp_directory_path() / session.name(); // removed with the case's leftovers
-    if (session.is_a()) {
+    if (session.is_side_a()) {
         fs::create_directory(folder);
         write_application_profile(session, folder);
         write_rtc_conf(session, folder);
     }
     session.arrive_and_wait();
-    const fs::path log = folder / (session.is_a() ? "opros.log" : "rtm.log");
+    const fs::path log = folder / (session.is_side_a() ? "opros.log" : "rtm.log");
     const process::FileDescriptor out(open(log.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600));
     process::ChildProcess host(host_command(session, folder), {-1, out.get(), out.get(), ""});
     while (!session.stop_requested()) {
         if (host.poll()) { // the first line of its log says why
             std::string line;
             std::getline(std::ifstream(log), line);
-            throw std::runtime_error(fmt::format("{} {}: {}", session.is_a() ? "opros_host" : "rtm_host",
+            throw std::runtime_error(fmt::format("{} {}: {}", session.is_side_a() ? "opros_host" : "rtm_host",
                                                  host.poll()->text(), line));
         }
-        if (session.is_a() && fs::exists(folder / "samples")) {
-            add_samples(session, folder / "samples");
+        if (session.is_side_a() && fs::exists(folder / "samples")) {
+            read_samples_from(session, folder / "samples");
             session.request_stop();
         }
         std::this_thread::sleep_for(20ms);

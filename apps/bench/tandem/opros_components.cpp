@@ -94,7 +94,7 @@ void push_double(Session& session) {
     BenchParts& from = components.part("From");
     time_each_call(session, [&](double value) { from.push(value); });
     double last = -1; // the port keeps the newest only
-    for (double value = 0; value >= 0; value = components.part("To").pop()) last = value;
+    for (double value = 0; value >= 0; value = components.part("To").pop_value()) last = value;
     if (last <= 0) throw std::runtime_error("the input port has none of the pushed values");
 }
 
@@ -105,7 +105,8 @@ void push_and_pop(Session& session) {
     BenchParts& to = components.part("To");
     time_each_call(session, [&](double value) {
         from.push(value);
-        if (to.pop() != value) throw std::runtime_error("the input port has another value than was pushed");
+        if (to.pop_value() != value)
+            throw std::runtime_error("the input port has another value than was pushed");
     });
 }
 

@@ -45,7 +45,7 @@ void count_publishes(Session& session) {
     using Endpoint = RingEndpoint<64, wake>;
     Endpoint endpoint(session, std::chrono::seconds(10)); // of polling: the reader never sleeps
     session.arrive_and_wait();
-    if (!session.is_a()) {
+    if (!session.is_side_a()) {
         while (endpoint.receive() != stop_sequence) {
         }
         return;

@@ -19,7 +19,7 @@ class StreamEndpoint {
   public:
     explicit StreamEndpoint(Session& session)
         : link_(session, BenchLink::ring_bytes(bytes, capacity)),
-          out_(link_.add_ring("out", session.is_a() ? bytes : sizeof(std::uint64_t), capacity)),
+          out_(link_.add_ring("out", session.is_side_a() ? bytes : sizeof(std::uint64_t), capacity)),
           in_((link_.publish_and_wait(), link_.peer_ring("out"))) {}
 
     void send(std::uint64_t sequence) {

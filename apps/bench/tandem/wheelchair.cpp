@@ -20,7 +20,7 @@ constexpr std::size_t settling_samples = 100; // that many messages come in this
 /// The cores that A and B are pinned to. [both sides]
 std::pair<int, int> cores_of_both(Session& session) {
     auto* cores = reinterpret_cast<int*>(session.memory().data());
-    cores[session.is_a() ? 0 : 1] = sched_getcpu();
+    cores[session.is_side_a() ? 0 : 1] = sched_getcpu();
     session.arrive_and_wait();
     return {cores[0], cores[1]};
 }
@@ -29,7 +29,7 @@ std::pair<int, int> cores_of_both(Session& session) {
 template <wheelchair::Configuration configuration>
 void drive(Session& session) {
     const auto [a, b] = cores_of_both(session);
-    if (session.is_a()) {
+    if (session.is_side_a()) {
         // The run prints its progress for a user; it would spoil the report.
         if (std::freopen("/dev/null", "w", stdout) == nullptr)
             throw std::runtime_error("cannot open /dev/null");

@@ -41,7 +41,7 @@ std::vector<std::filesystem::path> plugin_dirs(const json& request) {
 }
 
 // What opros_host does before it connects ports.
-void initialize(Component& component, const std::string& name, plugin::ProbeReport& report) {
+void initialize_and_report(Component& component, const std::string& name, plugin::ProbeReport& report) {
     report.begin_stage("onInitialize() of " + name);
     // Device components ask dlerror() after their dlsym(); an error that others have left would be taken for theirs.
     dlerror();
@@ -81,7 +81,7 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
         loaded.component->setId(profile.name);
         engine::set_component_properties(*loaded.component, profile, {}, plugin_dirs(request));
     }
-    if (request["initialize"]) initialize(*loaded.component, task.library, report);
+    if (request["initialize"]) initialize_and_report(*loaded.component, task.library, report);
     report.begin_stage("its ports");
     json description = describe_component(*loaded.component);
     // The host sets these for the component's use; they are not properties of the profile.

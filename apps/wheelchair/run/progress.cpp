@@ -15,10 +15,10 @@ Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(
     next_ = monotonic_seconds() + (terminal_ ? 0.5 : 10.0);
 }
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() { erase_line(); }
 
 // \r and the escape sequence for "erase to the end of the line".
-void Progress::clear() {
+void Progress::erase_line() {
     if (visible_) fmt::print(stderr, "\r\033[K");
     visible_ = false;
     std::fflush(stderr);
@@ -34,7 +34,7 @@ void Progress::show(double seconds, double of) {
 }
 
 void Progress::print_line(const std::string& line) {
-    clear();
+    erase_line();
     fmt::print(stderr, "wheelchair: {}\n", line);
     std::fflush(stderr);
 }

@@ -17,7 +17,7 @@ class Progress {
     void print_line(const std::string& line);
 
   private:
-    void clear();
+    void erase_line();
 
     std::string what_;
     bool terminal_, visible_ = false;

@@ -49,7 +49,7 @@ class ChannelWriter {
             wire::CdrWriter writer(room);
             encode(writer);
             if (writer.fits()) return publish(writer.size(), stamp);
-            bound_->ring.abandon();
+            bound_->ring.cancel_reservation();
             bytes = writer.size();
         }
         return false; // encode wrote more the second time: the value was changed meanwhile
@@ -64,7 +64,7 @@ class ChannelWriter {
         const auto room = bound_->ring.reserve(bytes);
         if (room.data() == nullptr) return report_refusal(bytes);
         if (fill(room)) return publish(bytes, stamp);
-        bound_->ring.abandon();
+        bound_->ring.cancel_reservation();
         return false;
     }
 

@@ -144,7 +144,7 @@ TEST_CASE("a percentile is the end of the bucket in which it falls") {
     CHECK(times.percentile(0.98) == 1024);
     CHECK(times.percentile(0.99) > 50'000);
     CHECK(times.percentile(0.99) <= 62'500);
-    CHECK(times.percentile(1) == Histogram::begin_of(Histogram::buckets - 1));
+    CHECK(times.percentile(1) == Histogram::lower_bound_of(Histogram::buckets - 1));
 }
 
 TEST_CASE("an observer tells absent late and dead sides apart") {

@@ -56,7 +56,7 @@ TEST_CASE("what is reserved but not committed is not visible and costs nothing")
     RingPair ring({});
     REQUIRE(ring.writer.reserve(100).size() == 100);
     CHECK(ring.reader.empty());
-    ring.writer.abandon();
+    ring.writer.cancel_reservation();
     auto room = ring.writer.reserve(1000);
     std::memcpy(room.data(), "abc", 3);
     ring.writer.commit(3, 0);

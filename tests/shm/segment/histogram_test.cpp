@@ -7,10 +7,10 @@ using tandem::shm::layout::Histogram;
 
 TEST_CASE("every duration falls into the bucket whose bounds enclose it") {
     for (std::size_t bucket = 0; bucket + 1 < Histogram::buckets; ++bucket) {
-        CHECK(Histogram::bucket_of(Histogram::begin_of(bucket)) == bucket);
-        CHECK(Histogram::bucket_of(Histogram::begin_of(bucket + 1) - 1) == bucket);
+        CHECK(Histogram::bucket_of(Histogram::lower_bound_of(bucket)) == bucket);
+        CHECK(Histogram::bucket_of(Histogram::lower_bound_of(bucket + 1) - 1) == bucket);
     }
-    CHECK(Histogram::begin_of(Histogram::buckets - 1) > 70'000'000'000);
+    CHECK(Histogram::lower_bound_of(Histogram::buckets - 1) > 70'000'000'000);
     CHECK(Histogram::bucket_of(~std::uint64_t{0}) == Histogram::buckets - 1);
 }
 

@@ -86,7 +86,7 @@ class Parts : public Component, public BenchParts, public IDoubler {
         events_out_.push(&event_);
     }
     virtual double last_event() const { return last_event_.load(std::memory_order_acquire); }
-    virtual double pop() {
+    virtual double pop_value() {
         opros_any* data = in_.pop(); // the caller owns it
         if (!data) return -1;
         const double value = in_.getContent(*data);

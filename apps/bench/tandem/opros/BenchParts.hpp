@@ -20,7 +20,7 @@ class BenchParts {
     /// [any-thread] The value of the last event that onEvent() was called with.
     virtual double last_event() const = 0;
     /// Takes the oldest value out of the input port; -1 when there is none.
-    virtual double pop() = 0;
+    virtual double pop_value() = 0;
     /// [while the component does not run] What its onExecute() has recorded.
     virtual const tandem::bench::TickRecord& tick_record() const = 0;
 };

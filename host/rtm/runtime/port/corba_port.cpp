@@ -11,7 +11,7 @@ namespace {
 // The time limit of service calls, in ms. A service may take long (an arm moves, a user is asked), so the
 // default is 600 s, far longer than that of the framework's own calls. Bounded by what the ORB's ULong of ms
 // can hold.
-CORBA::ULong service_call_timeout_ms() {
+CORBA::ULong configured_call_timeout_ms() {
     double seconds = 600;
     const auto& config = Manager::instance().getConfig();
     if (!coil::stringTo(seconds, config.getProperty("manager.service_call_timeout").c_str()) ||
@@ -161,7 +161,7 @@ bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
     try {
         CORBA::Object_var object = Manager::instance().theORB()->string_to_object(ior.c_str());
         omniORB::setClientCallTimeout(object.in(),
-                                      service_call_timeout_ms()); // setObject()'s _narrow keeps it
+                                      configured_call_timeout_ms()); // setObject()'s _narrow keeps it
         if (!consumer.consumer->setObject(object.in())) {
             RTC_ERROR(("%s: what %s was given is not a %s", getName(), consumer.instance.c_str(),
                        consumer.type.c_str()));

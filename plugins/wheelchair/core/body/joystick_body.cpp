@@ -7,7 +7,7 @@ namespace tandem::wheelchair {
 
 namespace {
 
-JoystickParameters parameters_for(const Scenario& scenario, const std::vector<double>& chair_limits) {
+JoystickParameters joystick_parameters(const Scenario& scenario, const std::vector<double>& chair_limits) {
     JoystickParameters p;
     const ChairLimits limits = chair_limits_from(chair_limits);
     p.max_forward = limits.forward;
@@ -22,7 +22,7 @@ JoystickParameters parameters_for(const Scenario& scenario, const std::vector<do
 
 JoystickBody::JoystickBody(const Settings& settings, const std::vector<double>& chair_limits)
     : scenario_(settings.scenario), clock_(settings.simulated), trace_(settings.trace),
-      law_(parameters_for(settings.scenario, chair_limits)) {}
+      law_(joystick_parameters(settings.scenario, chair_limits)) {}
 
 void JoystickBody::tick(JoystickPorts& ports) {
     const auto in = ports.positions();

@@ -48,7 +48,7 @@ class RingWorld {
         ++tried_;
         require(writer->reserve(reserved) == Reservation::scratch,
                 "a short payload is made in scratch memory");
-        writer->abandon();
+        writer->cancel_reservation();
         require(writer->reserve(reserved) == Reservation::scratch,
                 "what was abandoned can be reserved again");
         note_place(bytes);
