@@ -21,6 +21,7 @@ class Call final : public omniCallDescriptor {
           arguments_type_(arguments_type), result_type_(result_type), arguments_(arguments) {}
 
     void marshalArguments(cdrStream& stream) override {
+        // From the beginning each time: the ORB marshals again when it repeats a request.
         wire::CdrReader reader(arguments_);
         from_cdr(arguments_type_, reader, stream);
     }

@@ -126,6 +126,7 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
 }
 
 void InterceptorComp::create_service_mirror(const RtcPort& port) {
+    // One CorbaPort for all interfaces of a service port, so that one connection joins them all.
     auto& mirror = service_ports_[port.service_port];
     if (!mirror) mirror = std::make_unique<RTC::CorbaPort>(port.service_port.c_str());
     const auto& entry = port.entry;

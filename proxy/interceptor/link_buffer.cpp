@@ -42,6 +42,7 @@ void LinkBuffer::unregister_channel(const std::string& key) {
 
 void LinkBuffer::init(const coil::Properties& properties) {
     const std::lock_guard lock(channels_mutex);
+    // A key that is not registered leaves both ends empty: write() and read() then say PRECONDITION_NOT_MET.
     const auto found = channels().find(properties.getProperty("channel"));
     if (found != channels().end()) channel_ = found->second;
 }
@@ -94,6 +95,7 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
 
 BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
+    // false: messages in their order, as RTM's own ring buffer returns them.
     const bool found =
         channel_.reader->read(false, [&](const shm::Record& record) { copy_message(record, message); });
     return found ? BufferStatus::OK : BufferStatus::EMPTY;

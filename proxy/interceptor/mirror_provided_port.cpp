@@ -47,6 +47,7 @@ const MirrorProvidedPort::Types& MirrorProvidedPort::parsed_types(std::string_vi
 /// Returns an error if the interface has no such operation, or with another signature. AdaptorComp has checked
 /// the same at connection, but it is another process and not trusted.
 std::string MirrorProvidedPort::check_operation(const link::Request& request) const {
+    // Without the IDL there is nothing to compare with: the CORBA object refuses what it does not know.
     if (port_.operations.empty()) return "";
     const auto known =
         std::find_if(port_.operations.begin(), port_.operations.end(),

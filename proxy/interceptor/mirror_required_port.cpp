@@ -23,7 +23,8 @@ std::string repository_id(const std::string& type) {
     return "IDL:" + path + ":1.0";
 }
 
-/// Maps a failed reply to the CORBA system exception that tells the caller most about it.
+/// Maps a failed reply to the CORBA system exception that tells the caller most about it. COMPLETED_NO: the
+/// operation was refused before it ran; COMPLETED_MAYBE: it may have run before the failure.
 [[noreturn]] void throw_system_exception(const link::Reply& reply) {
     using link::CallStatus;
     switch (reply.status) {

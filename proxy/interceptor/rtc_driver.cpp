@@ -36,8 +36,9 @@ class RtcDriver::ErrorListener final : public RTC::PostComponentActionListener {
 };
 
 namespace {
+// onAborting() is the callback of the transition to ERROR; the listener is called after it.
 constexpr auto entering_error = RTC::PostComponentActionListenerType::POST_ON_ABORTING;
-}
+} // namespace
 
 RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
                      std::function<void()> on_error)

@@ -70,12 +70,14 @@ void StampedOutStream::put_octet_array(const _CORBA_Octet* from, int size, omni:
     std::memcpy(align_and_advance(pd_outb_mkr, pd_outb_end, bytes, alignment), from, bytes);
 }
 
+// While the time is written, the whole body is still to come.
 _CORBA_Boolean StampedOutStream::checkOutputOverrun(_CORBA_ULong size, _CORBA_ULong count,
                                                     omni::alignment_t) {
     const std::size_t body_left = in_time_ ? body_.size() : 0;
     return std::size_t{size} * count <= distance(pd_outb_mkr, pd_outb_end) + body_left;
 }
 
+// As if the body followed the time. An untimed message counts 8 bytes more, which changes no alignment.
 _CORBA_ULong StampedOutStream::currentOutputPtr() const {
     return static_cast<_CORBA_ULong>(in_time_ ? distance(time_, pd_outb_mkr)
                                               : sizeof time_ + distance(body_.data(), pd_outb_mkr));

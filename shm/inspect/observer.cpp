@@ -14,6 +14,7 @@
 namespace tandem::shm {
 namespace {
 
+/// By the effective group and the supplementary ones, as the kernel checks it.
 bool member_of(gid_t group) {
     if (group == getegid()) return true;
     std::vector<gid_t> groups(static_cast<std::size_t>(std::max(0, getgroups(0, nullptr))));
@@ -41,6 +42,7 @@ std::optional<ObservedSegment> read_file_status(const std::string& link, std::ui
     view.generation = generation;
     view.path = segment_path(link, generation);
     struct stat file {};
+    // Not stat(): a symbolic link under the name of a segment is damage, and is not followed.
     if (lstat(view.path.c_str(), &file) != 0) return std::nullopt;
     set_sizes(file, view);
     view.owner = file.st_uid;
@@ -110,6 +112,7 @@ void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which,
     side.heartbeat_ns = copy.get<std::uint64_t>(offsetof(SideHeader, heartbeat_ns));
     side.published = copy.get<std::uint32_t>(offsetof(SideHeader, published)) != 0;
     const std::uint64_t now = now_ns(), bound = static_cast<std::uint64_t>(late_after.count());
+    // Unsigned: a heartbeat that was stored after `now` was read is a little ahead, not late.
     const bool late = now - side.heartbeat_ns > bound && side.heartbeat_ns - now > bound;
     side.state = copy.get<std::uint32_t>(offsetof(SideHeader, taken)) == 0 ? PeerState::absent
                  : !side.held                                              ? PeerState::dead
@@ -142,6 +145,7 @@ std::set<std::string> list_links() {
     for (std::filesystem::directory_iterator at(shm_directory, failure), end; !failure && at != end;
          at.increment(failure)) {
         const std::string name = at->path().filename();
+        // The name of a link contains no dot, so the last one separates the generation.
         const auto dot = name.rfind('.');
         if (name.compare(0, prefix.size(), prefix) != 0 || dot <= prefix.size()) continue;
         const std::string link = name.substr(prefix.size(), dot - prefix.size());

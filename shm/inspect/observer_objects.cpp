@@ -35,6 +35,7 @@ bool copy_histogram(const ReadOnlySnapshot& file, std::uint64_t base, HistogramC
 /// Bytes that a ring of these sizes takes in the arena; 0 for sizes that no ring has.
 std::uint64_t ring_bytes(const ObservedRing& ring) {
     constexpr std::uint64_t largest = std::uint64_t{1} << 36, max_chunks = 64;
+    // First, so that the sums below cannot overflow.
     if (ring.capacity > largest || ring.chunk_bytes > largest || ring.chunks > max_chunks) return 0;
     const std::uint64_t records = sizeof(RingHeader) + ring.capacity;
     if (ring.chunks == 0) return records;
@@ -116,6 +117,7 @@ ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject o
     queue.callers = static_cast<Side>(word32(offsetof(CallQueueHeader, callers)));
     queue.max_bytes = word(offsetof(CallQueueHeader, max_bytes));
     queue.closed = word32(offsetof(CallQueueHeader, closed)) != 0;
+    // Bounds the number of slots, over which count_slots() loops, by the bytes of the object.
     const std::uint64_t bytes = call_queue_size({queue.callers, queue.slots, queue.max_bytes});
     if (bytes == 0 || queue.bytes != bytes) {
         queue.damage = "its header is not that of a call queue of " + std::to_string(queue.bytes) + " bytes";
@@ -151,6 +153,7 @@ void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std
     const auto offset = copy.get<std::uint64_t>(offsetof(DirectoryEntry, offset));
     const auto bytes = copy.get<std::uint64_t>(offsetof(DirectoryEntry, bytes));
     const std::uint64_t arena = segment.arena_bytes[index_of(owner)];
+    // Checked before the name is used as a string and the offset as a place in the file.
     if (name[layout::name_bytes - 1] != '\0' || kind < 1 || kind > 3 || offset % layout::line_pair != 0 ||
         offset > arena || bytes > arena - offset) {
         into.damage.push_back(where + ": names no object within the arena");

@@ -33,6 +33,7 @@ class ReadOnlySnapshot {
     }
 
   private:
+    /// O_NONBLOCK: a FIFO that has taken the place of the file must not make open() wait for a writer.
     static FileDescriptor open(const std::string& path, int flags) {
         return FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags));
     }

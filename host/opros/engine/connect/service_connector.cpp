@@ -42,6 +42,7 @@ class QueuedConnector : public Connector {
     ReturnType requestService(const std::string& name, std::vector<opros_params>& params, opros_params&,
                               int) override {
         const bool accepted = provider_.task_queue()->submit([this, method = name, params]() mutable {
+            // Stopped or failed since the call was accepted: it is dropped, as its caller waits for nothing.
             if (!provider_.is_active()) return;
             provider_.run_guarded(method.c_str(), [&] {
                 opros_params none;
