@@ -56,8 +56,7 @@ class CallCaller {
         request.submitted_ns.store(now, std::memory_order_relaxed);
         request.deadline_ns.store(ticket.deadline_ns, std::memory_order_relaxed);
         request.calls.store(++own.calls, std::memory_order_relaxed);
-        // seq_cst: release for the worker that takes it; and before the loads of `closed` and
-        // `workers_asleep`
+        // seq_cst: release for the worker that takes it; and before the loads of `closed` and `workers_asleep`
         //
         //     caller: word = submitted | closed? workers_asleep?
         //     server: closed = 1, ++workers_asleep | look at slots

@@ -2,11 +2,10 @@
 // A call queue carries calls from many threads of one side to many workers of the other. It is bounded: a
 // fixed number of slots, a deadline on every call, no queue behind the slots. Each call runs at most once.
 //
-// Calls may be nested: a worker may call back through a queue of the other direction, to any depth. Each
-// level holds one slot and one worker of its queue until the levels below have returned, so a chain that
-// enters a queue n times needs n slots and n workers there (for each such chain at a time). With too few
-// slots the innermost call ends at once with overload, with too few workers at its deadline with timeout:
-// never in a deadlock.
+// Calls may be nested: a worker may call back through a queue of the other direction, to any depth. Each level holds
+// one slot and one worker of its queue until the levels below have returned, so a chain that enters a queue n times
+// needs n slots and n workers there (for each such chain at a time). With too few slots the innermost call ends at
+// once with overload, with too few workers at its deadline with timeout: never in a deadlock.
 #pragma once
 #include "shm/call/call_view.hpp"
 #include "shm/segment/mapping.hpp"

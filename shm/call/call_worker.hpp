@@ -71,8 +71,7 @@ class CallWorker {
         // Before the reply: after it the caller may submit again, and another worker may enter the slot.
         busy_[taken.slot].store(0, std::memory_order_release);
         if (taken.by_poller) announce_return();
-        // seq_cst: release for the caller that reads the results; and before the look whether the caller
-        // sleeps
+        // seq_cst: release for the caller that reads the results; and before the look whether the caller sleeps
         slot.reply.word.store(call_word(status, sequence_of(taken.word), bytes), std::memory_order_seq_cst);
         return wake_sleeper<A>(slot.request.caller_asleep);
     }
@@ -126,8 +125,7 @@ class CallWorker {
     }
     bool waits_ended() const { return waits_ended_.load(std::memory_order_seq_cst) != 0; }
 
-    /// Callers that begin after close() see it; calls submitted before are seen by take()
-    /// (CallCaller::begin()).
+    /// Callers that begin after close() see it; calls submitted before are seen by take() (CallCaller::begin()).
     void open() { view_.header->closed.store(0, std::memory_order_relaxed); }
     void close() { view_.header->closed.store(1, std::memory_order_seq_cst); }
     bool closed() const { return view_.header->closed.load(std::memory_order_relaxed) != 0; }
@@ -191,9 +189,8 @@ class CallWorker {
             polling.store(static_cast<std::uint32_t>(layout::WorkerPolling::soon), std::memory_order_relaxed);
     }
 
-    /// This worker goes off to run a call. If all others are awake, nothing has to be done. Otherwise callers
-    /// have to wake one from now on, and this worker wakes one for the calls whose callers still relied on
-    /// it.
+    /// This worker goes off to run a call. If all others are awake, nothing has to be done. Otherwise callers have to
+    /// wake one from now on, and this worker wakes one for the calls whose callers still relied on it.
     void leave_with_call(bool was_polling) {
         auto& header = *view_.header;
         if (was_polling) has_poller_.store(0, std::memory_order_seq_cst);

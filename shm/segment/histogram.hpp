@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts durations in shared memory. One writer at a time; any process may read at any time.
+// Counts durations in shared memory. One writer at a time: add() is not a read-modify-write. Any process may read.
 #pragma once
 #include <atomic>
 #include <bit>
@@ -23,7 +23,6 @@ struct Histogram {
         return bucket == 0 ? 0 : (4 + (bucket - 1) % 4) << ((bucket - 1) / 4 + 4);
     }
 
-    /// [one thread at a time] Not a read-modify-write: two writers at once would lose counts.
     void add(std::uint64_t ns) {
         auto& count = counts[bucket_of(ns)];
         count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);

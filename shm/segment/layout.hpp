@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the bytes of a segment mean. This header is the ABI between two processes that may have been built
-// apart: any change of a field, its meaning or its place raises layout_version, and a process of another
-// version is refused when it joins.
+// What the bytes of a segment mean: the ABI between two processes that may have been built apart. Any change of a
+// field, its meaning or its place raises layout_version; a process of another version is refused when it joins.
 //
 // A segment is one *generation* of a link: the file /dev/shm/tandem.<link>.<generation>, joined by two sides.
 // Each side owns a SideHeader (its identity, its doorbell, the directory of its objects) and an arena that
@@ -20,20 +19,14 @@
 //        | arena of second           |
 //        +---------------------------+  total_bytes = size of the file
 //
-// The memory of the file is reserved and touched at creation. In a sparse segment it is reserved object by
-// object when they are added, and for the chunks of rings (below) when they are first used.
+// Memory is reserved and touched at creation; in a sparse segment, when an object is added or a chunk first used.
 //
-// Three bytes of the file serve as locks (OFD byte-range locks, liveness.hpp); their values mean nothing.
-// Byte 0 is locked for life by first, byte 1 by second, byte 2 while somebody creates, joins, leaves or
-// removes.
+// Bytes 0 to 2 of the file serve as locks (liveness.hpp); their values mean nothing.
 //
-// All code that reads a segment assumes that the peer changes any byte at any time: sizes and offsets are
-// copied once, checked, and then only the copy is used. The size of the file is the exception: whoever may
-// write the file may also truncate it, which ends its users by SIGBUS, unless they have called
-// install_truncation_guard(), as proxy/link does. Mode 0600 keeps that among processes of one user.
+// All code that reads a segment assumes that the peer changes any byte at any time: sizes and offsets are copied
+// once, checked, and then only the copy is used. For the size of the file see truncation_guard.hpp.
 //
-// Words that change while both sides read them are std::atomic. They lie on cache-line pairs of their own,
-// because the hardware fetches lines in pairs.
+// Atomic words lie on cache-line pairs of their own, because the hardware fetches lines in pairs.
 #pragma once
 #include "shm/os/atomics.hpp"
 #include "shm/segment/histogram.hpp"
@@ -130,14 +123,12 @@ static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % pa
 //      | commit | stamp | payload: up to 48 bytes share the commit word's line, longer ones go on
 //      +--------+-------+-------------------------------------+--------------
 //
-// The commit word is stored last, and 0 lies where the next record will begin. So a reader polls that one
-// line, and the record arrives with the line. A record that would cross the end of data is preceded by
-// padding up to there (kind = padding).
+// The commit word is stored last, and 0 lies where the next record will begin: a reader polls that line only. A
+// record that would cross the end of data is preceded by padding up to there (kind = padding).
 //
 //      commit:  63 .. 32 sequence, low 32 bits | 31 .. 30 kind | 29 .. 0 payload bytes
 //
-// A payload longer than max_record lies in a chunk: the record (kind = chunk) then holds { chunk number,
-// bytes }.
+// A payload longer than max_record lies in a chunk: the record (kind = chunk) then holds { chunk number, bytes }.
 enum class RecordKind : std::uint32_t { none, data, padding, chunk };
 
 template <class A>
@@ -150,8 +141,7 @@ struct BasicRingHeader {
     std::uint32_t chunks;
     std::uint32_t writer; // Side
     std::byte unused1[96];
-    // The writer's line. Its counters share the line of its index, so a message touches no more of the header
-    // than this line and the reader's, however many rings there are.
+    // The writer's line, with its counters: a message touches no more of the header than this line and the reader's.
     alignas(line_pair) Word64 head; // end of the newest record; moved by the writer only
     Word64 newest;                  // start of the newest record; for readers that skip to it
     Word64 sent;                    // counters, see RingCounters
@@ -178,14 +168,12 @@ static_assert(offsetof(RingHeader, age) == 384 && sizeof(RingHeader) == 384 + si
 
 constexpr std::size_t record_header = 16;
 
-// Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. Who may
-// touch a chunk: the writer, until it has published a record that refers to it; then whoever takes that
-// record off the ring (the reader to read it, the writer to drop it). The reader gives the chunk back by
-// storing the record's sequence, or, having skipped that record, any later one up to the one before the
-// record it took.
+// Chunks: behind data, the ChunkWords of all chunks, then the chunks, each at a page of the file. Who may touch a
+// chunk: the writer, until it has published a record that refers to it; then whoever takes that record off the ring
+// (the reader to read it, the writer to drop it). The reader gives the chunk back by storing the record's sequence,
+// or, having skipped that record, any later one up to the one before the record it took.
 template <class A>
 struct BasicChunkWords {
-    // The chunk is free again if it was lent to a record up to this sequence.
     alignas(line_pair) typename A::template Atomic<std::uint64_t> returned;
     std::byte unused[120];
 };
@@ -200,8 +188,7 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //   request  word (64)   submitted_ns        deadline    caller_asleep  calls   arguments (88)
 //   reply    word (64)   answered            results (112)
 //
-// Longer arguments and results continue in the slot's overflow buffer (arguments from their byte 88 on,
-// results from 112 on).
+// What is longer continues in the slot's overflow buffer.
 //
 //      request word:  63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallState
 //      reply word:    63 .. 32 payload bytes | 31 .. 4 sequence | 3 .. 0 CallStatus
@@ -215,9 +202,8 @@ static_assert(sizeof(ChunkWords) == line_pair);
 //                         v                   v                                             |
 //                     cancelled (idle)    abandoned ----------------------------------------+
 //
-// Which slots are idle is known to the callers' process alone: all callers live in one process, its death
-// ends them all, and the generation of a dead process gets no other callers. So nothing has to be cleaned up
-// after it.
+// Which slots are idle is known to the callers' process alone: all callers live in one process, its death ends them
+// all, and the generation of a dead process gets no other callers. So nothing has to be cleaned up after it.
 enum class CallState : std::uint32_t { none, submitted, running, cancelled, abandoned };
 
 template <class A>

@@ -71,8 +71,7 @@ PeerState Mapping::peer_state() const {
     if (!held_by_other(file_.get(), life_byte(other(side_)))) return PeerState::dead;
     const std::uint64_t beat = peer.heartbeat_ns.load(std::memory_order_relaxed);
     const std::uint64_t now = now_ns();
-    // A beat far in the future is as late as an old one; one that is a little ahead was stored after `now`
-    // was read.
+    // A beat far in the future is as late as an old one; one a little ahead was stored after `now` was read.
     return now - beat > late_after_ns_ && beat - now > late_after_ns_ ? PeerState::late : PeerState::alive;
 }
 

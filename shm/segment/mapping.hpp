@@ -16,8 +16,7 @@ namespace tandem::shm {
 /// and doorbell object share one, so the memory stays mapped as long as one of them may touch it.
 class Mapping {
   public:
-    /// `checked`: the header as read_header() has copied and checked it. Throws Error if the file cannot be
-    /// mapped.
+    /// `checked`: the header from read_header(). Throws Error if the file cannot be mapped.
     Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked, Side side,
             std::chrono::nanoseconds late_after);
 

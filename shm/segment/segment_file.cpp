@@ -12,10 +12,9 @@
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
-// Plain open() and linkat() instead of boost::interprocess::shared_memory_object: a segment is created as an
-// unnamed file (O_TMPFILE) and gets its name when it is complete. So no process ever sees half of one, and a
-// creator that is killed half-way leaves nothing behind. shared_memory_object offers none of O_TMPFILE,
-// O_NOFOLLOW and O_CLOEXEC.
+// Plain open() and linkat() instead of boost::interprocess::shared_memory_object, which offers none of O_TMPFILE,
+// O_NOFOLLOW and O_CLOEXEC. A segment is created as an unnamed file and gets its name when it is complete: no process
+// ever sees half of one, and a creator that is killed half-way leaves nothing behind.
 
 namespace tandem::shm {
 namespace {
@@ -222,9 +221,8 @@ bool remove_if_dead(const std::string& path) {
     struct stat status {};
     if (fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
         return false;
-    // A file is unlinked only under its hand-over byte, and its name cannot pass to another file before that.
-    // So while the file has a name, that name is `path`, and unlink() cannot remove a younger file of the
-    // same name.
+    // A file is unlinked only under its hand-over byte: while it has a name, that name is `path`, and unlink() cannot
+    // remove a younger file of the same name.
     const HandOverLock hand_over(file.get(), std::chrono::milliseconds(0));
     if (!hand_over.held()) return false;
     if (held_by_other(file.get(), LockByte::first) || held_by_other(file.get(), LockByte::second))

@@ -31,8 +31,7 @@ struct Access {
 };
 Access access_of_this_process(const std::string& group); ///< Throws Error for an unknown group.
 
-/// Opens a segment's file and checks type, owner and mode of what was opened. Empty: there is no such file.
-/// Throws Error if this process may not use it.
+/// Opens a segment's file; empty if there is none. Throws Error unless its type, owner and mode are right.
 FileDescriptor open_segment(const std::string& path, const Access& access);
 
 /// Which locks of a segment's file are held. probe_segment() opens the file for reading only, because closing
@@ -43,9 +42,8 @@ struct Probe {
 };
 Probe probe_segment(const std::string& path);
 
-/// Creates an unnamed file of that many bytes. create_unnamed() reserves all of it; create_sparse() reserves
-/// the headers only, and throws if there is no room for `required_bytes`. Both throw Error naming needed and
-/// available bytes.
+/// Creates an unnamed file of that many bytes. create_unnamed() reserves all of it; create_sparse() the headers only,
+/// if there is room for `required_bytes`. Both throw Error naming needed and available bytes.
 FileDescriptor create_unnamed(const std::string& path, std::uint64_t bytes, const Access& access);
 FileDescriptor create_sparse(const std::string& path, std::uint64_t bytes, std::uint64_t required_bytes,
                              const Access& access);
@@ -64,8 +62,7 @@ bool link_unnamed(int fd, const std::string& path);
 /// Whether the file has not been unlinked.
 bool still_named(int fd);
 
-/// Reads the header and checks it against the file's size, this build's layout version and the caller's
-/// contract. Throws Error if one does not fit.
+/// Reads the header. Throws Error unless file size, layout version and the caller's contract are right.
 layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t contract);
 
 /// Unlinks the file if it is this user's and no side lives in it. False: it is still there.

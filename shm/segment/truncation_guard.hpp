@@ -6,10 +6,9 @@
 
 namespace tandem::shm {
 
-/// [any-thread] Installs a handler of SIGBUS that replaces a lost part of a segment by zeros in this process.
-/// Readers of shared words take zeros for damage or for nothing new, and Segment::superseded() says to leave.
-/// A SIGBUS for another reason is passed on to the handler that was there before. Off unless called, because
-/// signals are the program's choice.
+/// [any-thread] Installs a handler of SIGBUS that replaces a lost part of a segment by zeros in this process. Readers
+/// take zeros for damage or for nothing new, and Segment::superseded() says to leave. Another SIGBUS is passed on to
+/// the handler that was there before. Not installed by default, because signals are the program's choice.
 void install_truncation_guard();
 
 /// Used by Mapping: registers memory for the handler.

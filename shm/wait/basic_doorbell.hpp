@@ -10,8 +10,7 @@
 
 namespace tandem::shm {
 
-/// The doorbell of one side, the owner. The owner waits; the peer, and threads of the owner's own process,
-/// ring.
+/// The doorbell of one side, the owner. The owner waits; the peer, and threads of the owner's own process, ring.
 template <class A>
 class BasicDoorbell {
   public:
@@ -26,16 +25,14 @@ class BasicDoorbell {
     void ring(unsigned bit);
     void ring_all(const ReadyBits& bits);
 
-    /// [one thread] For many ports: takes the bits rung so far, or waits for the first at most `bound`.
-    /// Empty: none came. A set bit says that its port may have data; the first call after wait_for() sets all
-    /// of the user's.
+    /// [one thread] For many ports: takes the bits rung so far, or waits for the first at most `bound`. Empty: none
+    /// came. A set bit says that its port may have data; the first call after wait_for() sets all of the user's.
     ReadyBits wait(std::chrono::nanoseconds bound, const WaitOptions& how = {});
     ReadyBits poll(); ///< Takes the bits rung so far.
 
     /// [one thread] For few ports: waits until ready() holds, at most `bound`, or until attention_bit or
-    /// interrupt_bit is rung: only these two bits are returned. ready() looks at the rings
-    /// (RingReader::empty()) and is called often. From here until the next wait() or poll() the peer rings
-    /// user bits only to wake.
+    /// interrupt_bit is rung: only these two bits are returned. ready() looks at the rings (RingReader::empty()) and
+    /// is called often. From here until the next wait() or poll() the peer rings user bits only to wake.
     template <class Ready>
     ReadyBits wait_for(Ready&& ready, std::chrono::nanoseconds bound, const WaitOptions& how = {});
 
@@ -81,8 +78,7 @@ void BasicDoorbell<A>::announce(Owner state) {
 
 template <class A>
 void BasicDoorbell<A>::ring(unsigned bit) {
-    // An owner that was polling last time most likely still is, and then its line is only read. Otherwise the
-    // line has to be written, and the write brings it here.
+    // An owner that polled last time probably still does. Then its line is only read, not taken for writing.
     constexpr auto polling = static_cast<std::uint32_t>(Owner::polling);
     if (bit < user_bits && last_seen_owner_.load(std::memory_order_relaxed) == polling) {
         A::fence(); // after the data, whose stores are only release
@@ -168,8 +164,7 @@ ReadyBits BasicDoorbell<A>::wait(std::chrono::nanoseconds bound, const WaitOptio
     return wait_until_done([&] { return any_rung(); }, bound, how, Owner::awake) ? take_all() : ReadyBits{};
 }
 
-/// Polls for a while, unless the mode says otherwise, and then sleeps. `afterwards` is the owner's state when
-/// it returns.
+/// Polls, then sleeps, as the mode says. `afterwards` is the owner's state when it returns.
 template <class A>
 template <class Done>
 bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bound, const WaitOptions& how,
@@ -190,12 +185,8 @@ bool BasicDoorbell<A>::wait_until_done(Done&& done, std::chrono::nanoseconds bou
     return found;
 }
 
-// Owner and ringer each store one word and then load the other's (as in sleep_until.hpp):
-//
-//     owner: word = asleep or awake | fence | done()?        ringer: data | fence | word == polling?
-//
-// At least one of the two sees the other: either done() holds at once, or the ringer sets the bit and, if the
-// owner is asleep, wakes it.
+// The order of sleep_until.hpp: the owner stores its state, a ringer its data, and then each loads the other's. Either
+// done() holds at once, or the ringer sets the bit and, if the owner is asleep, wakes it.
 template <class A>
 template <class Done>
 bool BasicDoorbell<A>::sleep_until_done(Done&& done, std::chrono::nanoseconds bound, Owner afterwards) {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// One sleeper and any number of wakers on one word, so that the waker makes a system call only if there is a
-// sleeper.
+// One sleeper and any number of wakers on one word, so that the waker makes a system call only if there is a sleeper.
 //
 // The sleeper announces itself (word = 1), looks again, and sleeps. The waker makes its data visible by a
 // seq_cst write and then calls wake_sleeper(). All four accesses are seq_cst, so of the two orders
 //
 //     sleeper: word = 1 | ready()?            waker: data | word == 1?
 //
-// at least one side sees the other: either ready() holds and nobody sleeps, or the waker sees the
-// announcement. The kernel compares the word again, so a wake-up between ready() and the sleep is not lost
-// either.
+// at least one side sees the other: either ready() holds and nobody sleeps, or the waker sees the announcement. The
+// kernel compares the word again, so a wake-up between ready() and the sleep is not lost either.
 #pragma once
 #include "shm/os/bounded_sleep.hpp"
 

@@ -4,9 +4,8 @@
 
 namespace tandem::shm {
 
-/// Polls ready() until it holds or A::now() reaches `deadline` (then false). Reads the clock seldom, and
-/// pauses between rounds only after it has polled for long: a pause takes 50 ns, by which the reaction would
-/// be late.
+/// Polls ready() until it holds or A::now() reaches `deadline` (then false). Reads the clock seldom, and pauses
+/// between rounds only after it has polled for long: a pause takes 50 ns, by which the reaction would be late.
 template <class A = RealAtomics, class Ready>
 bool spin_until(std::uint64_t deadline, Ready&& ready) {
     for (unsigned round = 1;; ++round) {

@@ -14,10 +14,9 @@
 
 namespace tandem::link {
 
-/// Tells event-driven consumers that messages have arrived. Its thread sleeps on this side's doorbell in the
-/// segment, which the peer rings after each message of the ports that it was asked for
-/// (ChannelWriter::set_peer_listens). The thread starts with the first listener: a link whose consumers all
-/// poll has none, and its writers ring nothing.
+/// Tells event-driven consumers that messages have arrived. Its thread sleeps on this side's doorbell in the segment,
+/// which the peer rings after each message of the ports that it was asked for (ChannelWriter::set_peer_listens). The
+/// thread starts with the first listener: a link whose consumers all poll has none, and its writers ring nothing.
 class ArrivalNotifier {
   public:
     /// All references must outlive this object.

@@ -55,8 +55,7 @@ class ChannelWriter {
         return false; // encode wrote more the second time: the value was changed meanwhile
     }
 
-    /// The same for a message of known length: `fill(std::span<std::byte>)` writes all of it, or returns
-    /// false to send nothing after all.
+    /// The same for a message of known length; `fill(std::span<std::byte>)` returns false to send nothing after all.
     template <class Fill>
     bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);

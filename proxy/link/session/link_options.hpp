@@ -9,8 +9,7 @@
 
 namespace tandem::link {
 
-/// What the owner of a Link chooses. The two sides need the same name and group,
-/// and nothing else in common.
+/// What the owner of a Link chooses. The two sides need the same name and group, and nothing else in common.
 struct LinkOptions {
     std::string name;  ///< of the link; both sides use the same
     RingSizes rings{}; ///< of the data ports; where the two sides ask for different large_bytes, the larger

@@ -45,8 +45,7 @@ class LinkSession {
     /// Nothing if the peer has published no limits that can be read.
     std::optional<LargeMessageLimits> read_peer_limits() const;
 
-    /// Opens the peer's call queue. Throws LinkError if there is none. [supervisor-thread], before other
-    /// threads learn from LinkState that the link is up.
+    /// Opens the peer's call queue, before the link is up. Throws LinkError if there is none. [supervisor-thread]
     void open_outgoing_calls();
 
     shm::CallServer& incoming_calls() { return incoming_calls_; }
@@ -54,8 +53,7 @@ class LinkSession {
     shm::CallClient* outgoing_calls() { return outgoing_calls_ ? &*outgoing_calls_ : nullptr; }
     /// Makes threads that wait in this session for calls or messages return. [any-thread]
     void interrupt();
-    /// The same for good: ends the calls under way, in both directions, with CallStatus::shut_down, and
-    /// refuses all later ones. [any-thread]
+    /// The same for good: ends all calls under way with CallStatus::shut_down and refuses later ones. [any-thread]
     void shut_down();
 
   private:

@@ -37,7 +37,6 @@ class LinkState {
     UpResult wait_until_up(std::chrono::milliseconds timeout) const;
     /// The same for work that belongs to the current session: returns also when there is none any more.
     void wait_until_session_is_up(std::chrono::milliseconds timeout) const;
-    /// Sleeps for `timeout`, or until the link is closing.
     void wait_until_closing(std::chrono::milliseconds timeout) const;
 
     // [supervisor-thread]
