@@ -4,11 +4,11 @@
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/program/shutdown_watcher.hpp"
-#include "host/plugin/probe_cli_options.hpp"
+#include "host/options/probe_cli_options.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
-#include "host/rt/real_time_options.hpp"
+#include "host/options/real_time_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -25,8 +25,8 @@ using tandem::engine::ApplicationOptions;
 struct Options {
     std::filesystem::path application;
     ApplicationOptions host;
-    tandem::rt::RealTimeOptions real_time;
-    tandem::plugin::ProbeCliOptions probe;
+    tandem::options::RealTimeOptions real_time;
+    tandem::options::ProbeCliOptions probe;
     double grace_s = 10;
     bool stats = false;
 };
@@ -43,8 +43,8 @@ void declare(CLI::App& cli, Options& options) {
                    "Seconds that the end waits for each callback of a component to return")
         ->check(CLI::Range(0.01, 3600.));
     cli.add_flag("--stats", options.stats, "Print the executors' ticks and overruns at the end");
-    tandem::plugin::add_library_probe_options(cli, options.probe);
-    tandem::rt::add_real_time_options(cli, options.real_time);
+    tandem::options::add_library_probe_options(cli, options.probe);
+    tandem::options::add_real_time_options(cli, options.real_time);
 }
 
 sigset_t shutdown_signals() {
@@ -58,7 +58,7 @@ sigset_t shutdown_signals() {
 int run(Options options) {
     const sigset_t signals = shutdown_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr); // before any thread exists: all inherit it
-    for (const auto& notice : tandem::rt::apply(options.real_time)) spdlog::warn("{}", notice);
+    for (const auto& notice : tandem::options::apply(options.real_time)) spdlog::warn("{}", notice);
     tandem::engine::ShutdownWatcher shutdown_watcher(signals, options.host.grace);
     options.host.on_setup_step = [&shutdown_watcher](const std::string& component, const char* callback) {
         shutdown_watcher.begin_step(component, callback);

@@ -3,10 +3,10 @@
 // It prints `ready` on standard output when all of rtc.conf has been carried out, and ends on SIGINT, SIGTERM
 // and SIGHUP. Exit code 0: ended in order, or a component that hangs was left behind; 1: bad input, or a static
 // destructor that hangs; any other: what a component gave to exit().
-#include "host/plugin/probe_cli_options.hpp"
+#include "host/options/probe_cli_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
-#include "host/rt/real_time_options.hpp"
+#include "host/options/real_time_options.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
@@ -37,8 +37,8 @@ struct Arguments {
     std::vector<std::string> settings;
     std::vector<fs::path> plugin_path;
     bool master = false, conf_file_may_be_missing = false, no_corba_servant = false;
-    tandem::plugin::ProbeCliOptions probe;
-    tandem::rt::RealTimeOptions real_time;
+    tandem::options::ProbeCliOptions probe;
+    tandem::options::RealTimeOptions real_time;
 };
 
 // -f -o -p -d -i -a are those of OpenRTM-aist's managers, the long options are ours.
@@ -55,8 +55,8 @@ void declare_options(CLI::App& app, Arguments& a) {
                    "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
     app.add_option("--plugin-path", a.plugin_path, "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);
-    tandem::plugin::add_library_probe_options(app, a.probe);
-    tandem::rt::add_real_time_options(app, a.real_time);
+    tandem::options::add_library_probe_options(app, a.probe);
+    tandem::options::add_real_time_options(app, a.real_time);
 }
 
 // Folders in which component libraries are searched after manager.modules.load_path: --plugin-path,
@@ -144,7 +144,7 @@ void bound_static_destructors(RTC::Manager& manager) {
 
 // From the start of the manager to its end; the exit code. Throws std::runtime_error before the manager runs.
 int run(const Arguments& a, char** argv_of_program) {
-    for (const auto& notice : tandem::rt::apply(a.real_time)) spdlog::warn("{}", notice);
+    for (const auto& notice : tandem::options::apply(a.real_time)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep_socket.empty();
     options.can_restart = true; // by restart() below

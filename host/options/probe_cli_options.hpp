@@ -10,17 +10,17 @@ namespace CLI {
 class App;
 }
 
-namespace tandem::plugin {
+namespace tandem::options {
 
 /// Values of these options as parsed.
 struct ProbeCliOptions {
     bool disabled = false; ///< --no-probe
     double timeout_s = 10; ///< --probe-timeout
 
-    std::optional<ProbeOptions> probe_options() const; ///< nothing if probes are disabled
+    std::optional<plugin::ProbeOptions> probe_options() const; ///< nothing if probes are disabled
 };
 
 /// Declares the options; parsing writes to `options`, which must live as long as `cli`.
 void add_library_probe_options(CLI::App& cli, ProbeCliOptions& options);
 
-} // namespace tandem::plugin
+} // namespace tandem::options

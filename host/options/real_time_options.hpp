@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace tandem::rt {
+namespace tandem::options {
 
 /// Values of these options as parsed.
 struct RealTimeOptions {
@@ -35,4 +35,4 @@ void add_real_time_options(CLI::App& cli, RealTimeOptions& options);
 /// inherit]
 std::vector<std::string> apply(const RealTimeOptions& options);
 
-} // namespace tandem::rt
+} // namespace tandem::options

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rt/real_time_options.hpp"
+#include "host/options/real_time_options.hpp"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -10,8 +10,8 @@
 #include <thread>
 #include <unistd.h>
 
-using tandem::rt::apply;
-using tandem::rt::RealTimeOptions;
+using tandem::options::apply;
+using tandem::options::RealTimeOptions;
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/rt/real_time_options.hpp"
+#include "host/options/real_time_options.hpp"
 
 #include "host/rt/thread.hpp"
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <sys/prctl.h>
 
-namespace tandem::rt {
+namespace tandem::options {
 
 void add_real_time_options(CLI::App& cli, RealTimeOptions& options) {
     cli.add_option("--cpu", options.cpu, "Pin tick threads to this processor");
@@ -33,12 +33,12 @@ std::vector<std::string> apply(const RealTimeOptions& options) {
         if (refusal) notices.push_back(std::move(*refusal));
     };
     prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-    if (same_core) note(pin_this_thread("the process", options.cpu));
-    if (options.lock_memory) note(lock_memory());
-    if (options.low_latency_idle) note(hold_low_latency_idle());
-    if (options.parent_death) note(terminate_with_parent());
+    if (same_core) note(rt::pin_this_thread("the process", options.cpu));
+    if (options.lock_memory) note(rt::lock_memory());
+    if (options.low_latency_idle) note(rt::hold_low_latency_idle());
+    if (options.parent_death) note(rt::terminate_with_parent());
     if (!options.wait_mode.empty()) setenv("TANDEM_WAIT_MODE", options.wait_mode.c_str(), 1);
     return notices;
 }
 
-} // namespace tandem::rt
+} // namespace tandem::options

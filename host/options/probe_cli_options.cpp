@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/plugin/probe_cli_options.hpp"
+#include "host/options/probe_cli_options.hpp"
 
 #include <CLI/CLI.hpp>
 
-namespace tandem::plugin {
+namespace tandem::options {
 
-std::optional<ProbeOptions> ProbeCliOptions::probe_options() const {
+std::optional<plugin::ProbeOptions> ProbeCliOptions::probe_options() const {
     if (disabled) return std::nullopt;
-    ProbeOptions options;
+    plugin::ProbeOptions options;
     options.timeout = std::chrono::milliseconds(static_cast<long>(timeout_s * 1000));
     return options;
 }
@@ -20,4 +20,4 @@ void add_library_probe_options(CLI::App& cli, ProbeCliOptions& options) {
         ->check(CLI::Range(0.1, 3600.));
 }
 
-} // namespace tandem::plugin
+} // namespace tandem::options
