@@ -31,7 +31,19 @@ ALLOWED = {
                                   "host/process", "host/rt"],
     "host/opros/engine": ["host/opros/engine/*", "host/plugin", "host/process", "host/rt"],
     "host/opros/program": ["host/opros/engine/*", "host/options", "host/plugin", "host/process", "host/rt"],
-    "host/rtm/runtime/*": ["host/rtm/runtime/*", "host/plugin", "host/process", "host/rt"],
+    "host/rtm/runtime": [],
+    "host/rtm/runtime/coil": ["host/process"],
+    "host/rtm/runtime/configuration": [],
+    "host/rtm/runtime/naming": [],
+    "host/rtm/runtime/sdo": [],
+    "host/rtm/runtime/transport": [],
+    "host/rtm/runtime/manager": ["host/rtm/runtime/configuration", "host/rtm/runtime/naming", "host/rtm/runtime/sdo",
+                                 "host/plugin", "host/process", "host/rt"],
+    "host/rtm/runtime/logging": ["host/rtm/runtime/manager"],
+    "host/rtm/runtime/port": ["host/rtm/runtime/manager", "host/rtm/runtime/naming", "host/rtm/runtime/transport"],
+    "host/rtm/runtime/execution": ["host/rtm/runtime/manager", "host/rtm/runtime/naming", "host/rt"],
+    "host/rtm/runtime/component": ["host/rtm/runtime/execution", "host/rtm/runtime/naming", "host/rtm/runtime/sdo",
+                                   "host/rt"],
     "host/rtm/program": ["host/rtm/runtime/*", "host/options", "host/plugin", "host/process", "host/rt"],
     "proxy/wire": [],
     "proxy/link/protocol": ["proxy/wire", "shm/*"],
@@ -84,15 +96,16 @@ def room_of(path):
     return next((room for room in ROOMS if matches(path, room)), None)
 
 
+def arrow(room, target):
+    """Whether the table has an arrow from the room to the other one."""
+    return any(target == allowed or (allowed.endswith("/*") and matches(target.removesuffix("/*"), allowed))
+               for allowed in ALLOWED[room])
+
+
 def may_include(room, header):
     """Whether a file of the room may include this header of the tree."""
     target = room_of(header)
-    if target is None or target == room:
-        return True
-    if room == "apps" and header in PUBLIC_TO_APPS:
-        return True
-    return any(target == allowed or (allowed.endswith("/*") and matches(target.removesuffix("/*"), allowed))
-               for allowed in ALLOWED[room])
+    return target is None or target == room or (room == "apps" and header in PUBLIC_TO_APPS) or arrow(room, target)
 
 
 def faults_of(root, file):

@@ -45,6 +45,22 @@ class Includes(unittest.TestCase):
     def test_one_model_does_not_see_the_other(self):
         self.assertEqual(len(self.faults("proxy/adaptor/a.cpp", "<rtm/RTObject.h>")), 1)
 
+    def test_a_component_does_not_stand_below_the_context_that_runs_it(self):
+        header = '"host/rtm/runtime/component/a.hpp"'
+        self.assertEqual(len(self.faults("host/rtm/runtime/execution/execution_cycle.cpp", header)), 1)
+        self.assertEqual(len(self.faults("host/rtm/runtime/new_room/a.cpp", header)), 2)
+
+    def test_no_room_reaches_itself_over_others(self):
+        for start in check_includes.ALLOWED:
+            reached, open_rooms = set(), [start]
+            while open_rooms:
+                room = open_rooms.pop()
+                further = {other for other in check_includes.ALLOWED
+                           if other != room and check_includes.arrow(room, other)} - reached
+                reached |= further
+                open_rooms += further
+            self.assertNotIn(start, reached)
+
     def test_every_public_header_exists(self):
         for header in check_includes.PUBLIC_TO_APPS:
             self.assertTrue((ROOT / header).is_file(), header)

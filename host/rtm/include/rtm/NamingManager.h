@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <rtm/RTC.h>
+#include <rtm/SystemLogger.h>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ class ManagerServant;
 
 namespace RTC {
 class Manager;
+class NameBindings;
 class PortBase;
 class RTObject_impl;
 
@@ -21,7 +23,8 @@ class RTObject_impl;
 /// it answers again. [any-thread]
 class NamingManager {
   public:
-    explicit NamingManager(Manager* manager) : m_manager(manager) {}
+    /// Ours: `bindings`, which must outlive this object, calls the name servers.
+    NamingManager(Manager* manager, NameBindings& bindings) : m_manager(manager), m_bindings(bindings) {}
     virtual ~NamingManager() = default;
 
     /// Adds a name server, `host` or `host:port`, which gets all names. `method` must be `corba`.
@@ -43,7 +46,9 @@ class NamingManager {
   private:
     void bind(const std::string& name, CORBA::Object_ptr object, const RTObject_impl* component);
 
+    Logger rtclog{"manager"};
     Manager* m_manager;
+    NameBindings& m_bindings;
     std::mutex m_mutex;
     std::map<std::string, const RTObject_impl*> m_bound; // NULL: not a component
 };

@@ -35,8 +35,8 @@ class PeriodicECOrganization : public Organization_impl {
   private:
     RTC::ExecutionContextBase& context();
     void runOwnContexts(RTC::RTObject_ptr member, bool run);
-    bool takeIn(RTC::RTObject_ptr member);
-    void letGo(RTC::RTObject_ptr member);
+    bool attachMember(RTC::RTObject_ptr member);
+    void detachMember(RTC::RTObject_ptr member);
     void exportPortsOf(RTC::RTObject_ptr member, bool is_member);
 };
 

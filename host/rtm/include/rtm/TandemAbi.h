@@ -4,7 +4,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 7 // headers: f421c5a92b17d432
+#define TANDEM_RTM_ABI 8 // headers: 70f5a45842b78b51
 
 // Written into every object file as an ELF note, which the loader of modules reads before it loads one. A
 // note rather than a symbol: it need not be linked and cannot clash, and no linker option or strip removes it

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A component as a CORBA object: construction, initialize() to exit(), and its execution contexts.
 // OpenRTM-aist: class RTObject_impl; interface RTC::RTObject of the OMG RTC specification.
-#include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/execution/configured_contexts.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
 #include "host/rtm/runtime/sdo/sdo_configuration.hpp"
 #include <rtm/DataFlowComponentBase.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
-#include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include <rtm/RTObject.h>
 #include <type_traits>
 

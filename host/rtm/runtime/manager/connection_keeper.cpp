@@ -2,8 +2,8 @@
 // Supervision of connections with other processes. OpenRTM-aist has none: it finds a dead peer when somebody
 // asks for a port's profile (PortBase::updateConnectors(), checkPorts()), and tries a preconnect entry once.
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
-#include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include <algorithm>
 

@@ -59,7 +59,8 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
     CdrBufferFactory::instance().addFactory("ring_buffer", coil::Creator<CdrBufferBase, CdrRingBuffer>,
                                             coil::Destructor<CdrBufferBase, CdrRingBuffer>);
     register_shared_composite(*manager);
-    manager->m_impl->naming_manager = std::make_unique<NamingManager>(manager.get());
+    manager->m_impl->naming_manager =
+        std::make_unique<NamingManager>(manager.get(), *manager->m_impl->name_bindings);
     the_manager = manager.release();
     // From here on other threads and other processes call the manager.
     start_connection_keeper(*the_manager, *the_manager->m_impl);

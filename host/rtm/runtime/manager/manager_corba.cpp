@@ -138,6 +138,7 @@ void start_connection_keeper(Manager& manager, Manager::Impl& impl) {
 }
 
 RTM::ManagerServant& Manager::getManagerServant() { return *m_impl->servant; }
+NamingManager* Manager::getNaming() { return m_impl->naming_manager.get(); }
 
 CORBA::ORB_ptr Manager::theORB() { return m_impl->orb.in(); }
 CORBA::ORB_ptr Manager::getORB() { return CORBA::ORB::_duplicate(m_impl->orb.in()); }

@@ -2,8 +2,8 @@
 // Syntax of a preconnect entry, and the connection of its ports. OpenRTM-aist: Manager::initPreConnection()
 // and CORBA_RTCUtil::connect().
 #include "host/rtm/runtime/manager/preconnect_entry.hpp"
-#include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/RTObject.h>

@@ -1,31 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // The public API for names in name servers, as OpenRTM-aist's class NamingManager, on top of NameBindings. It
 // remembers what it has bound itself; names that the manager binds are not in its lists.
-#include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/naming/name_bindings.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include <rtm/Manager.h>
+#include <rtm/ManagerServant.h>
 #include <rtm/NamingManager.h>
 
 namespace RTC {
 
 // CORBA is the only method; OpenRTM-aist also has `manager`, which rtcloc:// names replace here.
 void NamingManager::registerNameServer(const char* method, const char* name_server) {
-    Logger& rtclog = m_manager->impl().log;
     if (coil::normalize(method) != "corba") {
         RTC_ERROR(("name server %s: unknown method %s, expected corba", name_server, method));
         return;
     }
-    m_manager->impl().name_bindings->add_server(name_server);
+    m_bindings.add_server(name_server);
     update();
 }
 
 void NamingManager::bind(const std::string& name, CORBA::Object_ptr object, const RTObject_impl* component) {
-    Logger& rtclog = m_manager->impl().log;
     {
         std::lock_guard<std::mutex> lock(m_mutex);
         m_bound[name] = component;
     }
-    for (const auto& error : m_manager->impl().name_bindings->bind(name, object))
-        RTC_WARN(("%s", error.c_str()));
+    for (const auto& error : m_bindings.bind(name, object)) RTC_WARN(("%s", error.c_str()));
 }
 
 void NamingManager::bindObject(const char* name, const RTObject_impl* rtobj) {
@@ -42,12 +41,11 @@ void NamingManager::bindObject(const char* name, const RTM::ManagerServant* mgr)
 
 // On request of the program; the connection keeper does the same every naming.update.interval.
 void NamingManager::update() {
-    Logger& rtclog = m_manager->impl().log;
-    for (const auto& line : m_manager->impl().name_bindings->update(true)) RTC_INFO(("%s", line.c_str()));
+    for (const auto& line : m_bindings.update(true)) RTC_INFO(("%s", line.c_str()));
 }
 
 void NamingManager::unbindObject(const char* name) {
-    m_manager->impl().name_bindings->unbind(name);
+    m_bindings.unbind(name);
     std::lock_guard<std::mutex> lock(m_mutex);
     m_bound.erase(name);
 }
@@ -59,7 +57,7 @@ void NamingManager::unbindAll() {
         std::lock_guard<std::mutex> lock(m_mutex);
         all.swap(m_bound);
     }
-    for (const auto& entry : all) m_manager->impl().name_bindings->unbind(entry.first);
+    for (const auto& entry : all) m_bindings.unbind(entry.first);
 }
 
 // Only components that still exist: m_bound may hold pointers to others, which are compared but not used.
@@ -79,10 +77,8 @@ RTCList NamingManager::string_to_component(const std::string& name) {
     if (parse_remote_name(name).scheme.empty()) {
         if (RTObject_impl* local = m_manager->getComponent(name.c_str())) component = local->getObjRef();
     } else {
-        Logger& rtclog = m_manager->impl().log;
         try {
-            component = resolve_component(m_manager->impl().orb.in(), name,
-                                          m_manager->impl().name_bindings->servers());
+            component = resolve_component(m_manager->theORB(), name, m_bindings.servers());
         } catch (const RemoteUnavailable& e) {
             RTC_WARN(("%s", e.what()));
         }
@@ -90,7 +86,5 @@ RTCList NamingManager::string_to_component(const std::string& name) {
     if (!CORBA::is_nil(component.in())) CORBA_SeqUtil::push_back(found, component);
     return found;
 }
-
-NamingManager* Manager::getNaming() { return m_impl->naming_manager.get(); }
 
 } // namespace RTC

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/port/custom_serializer.hpp"
-#include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include <coil/stringutil.h>
 #include <rtm/NVUtil.h>
 #include <rtm/PortBase.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // InPortBase: makes the connectors of an InPort when it is connected, and chooses the one to read from.
-#include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/in_port_connectors.hpp"

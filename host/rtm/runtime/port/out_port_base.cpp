@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // OutPortBase: makes the connectors of an OutPort when it is connected.
-#include "host/rtm/runtime/component/local_object.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/out_port_connectors.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"

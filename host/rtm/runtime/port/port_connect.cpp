@@ -2,8 +2,8 @@
 // The connection protocol of the OMG RTC specification's introspection services, as OpenRTM-aist does it:
 // connect() and disconnect() call the first port of the profile, and each port passes notify_connect() or
 // notify_disconnect() on to the next one. The profile collects on its way what the ports publish.
-#include "host/rtm/runtime/component/local_object.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
 #include <coil/stringutil.h>

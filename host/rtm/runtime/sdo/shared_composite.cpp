@@ -20,7 +20,7 @@ CORBA::Boolean PeriodicECOrganization::add_members(const SDOList& sdos) {
     SDOList accepted;
     for (CORBA::ULong i = 0; i < sdos.length(); ++i) {
         RTC::RTObject_var member = RTC::RTObject::_narrow(sdos[i]);
-        if (CORBA::is_nil(member.in()) || !takeIn(member.in())) continue;
+        if (CORBA::is_nil(member.in()) || !attachMember(member.in())) continue;
         SDO_var sdo = SDO::_duplicate(sdos[i]);
         CORBA_SeqUtil::push_back(accepted, sdo);
     }
@@ -39,7 +39,7 @@ CORBA::Boolean PeriodicECOrganization::remove_member(const char* id) {
         CORBA::String_var member_id = present[i]->get_sdo_id();
         if (std::string(id) != member_id.in()) continue;
         RTC::RTObject_var member = RTC::RTObject::_narrow(present[i]);
-        if (!CORBA::is_nil(member.in())) letGo(member.in());
+        if (!CORBA::is_nil(member.in())) detachMember(member.in());
     }
     return Organization_impl::remove_member(id);
 }
@@ -91,7 +91,7 @@ void PeriodicECOrganization::runOwnContexts(RTC::RTObject_ptr member, bool run) 
 }
 
 // Stops the member's own contexts before it joins this one, so that it never runs in two at once.
-bool PeriodicECOrganization::takeIn(RTC::RTObject_ptr member) {
+bool PeriodicECOrganization::attachMember(RTC::RTObject_ptr member) {
     if (m_rtobj->getOwnContexts().empty()) return false;
     runOwnContexts(member, false);
     Configuration_var configuration = member->get_configuration();
@@ -107,8 +107,8 @@ bool PeriodicECOrganization::takeIn(RTC::RTObject_ptr member) {
     return true;
 }
 
-// The reverse of takeIn().
-void PeriodicECOrganization::letGo(RTC::RTObject_ptr member) {
+// The reverse of attachMember().
+void PeriodicECOrganization::detachMember(RTC::RTObject_ptr member) {
     exportPortsOf(member, false);
     // Called by a callback within a cycle of the context, these transitions are only requested; the member is
     // still active then, and removeComponent() refuses it.
