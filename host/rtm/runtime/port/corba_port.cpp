@@ -163,13 +163,12 @@ bool CorbaPort::bindConsumer(const std::string& ior, Consumer& consumer) {
         omniORB::setClientCallTimeout(object.in(),
                                       configured_call_timeout_ms()); // setObject()'s _narrow keeps it
         if (!consumer.consumer->setObject(object.in())) {
-            RTC_ERROR(("%s: what %s was given is not a %s", getName(), consumer.instance.c_str(),
+            RTC_ERROR(("consumer %s: the object of the other side is not a %s", consumer.instance.c_str(),
                        consumer.type.c_str()));
             return false;
         }
     } catch (const CORBA::SystemException& e) {
-        RTC_ERROR(("%s: the provider for %s cannot be reached: %s", getName(), consumer.instance.c_str(),
-                   e._name()));
+        RTC_ERROR(("consumer %s: the provider cannot be reached: %s", consumer.instance.c_str(), e._name()));
         return false;
     }
     consumer.ior = ior;

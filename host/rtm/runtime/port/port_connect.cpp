@@ -84,12 +84,12 @@ ReturnCode_t notify_disconnect_at(PortService_ptr port, const char* connector_id
 // Notifies the first port from position `begin` on that can be reached; it passes the call on to those behind
 // it. Empty when there is none.
 std::optional<ReturnCode_t> notify_disconnect_from(CORBA::ULong begin, const ConnectorProfile& profile,
-                                                   const char* port_name, const Logger& rtclog) {
+                                                   const Logger& rtclog) {
     for (CORBA::ULong i = begin; i < profile.ports.length(); ++i) {
         try {
             return notify_disconnect_at(profile.ports[i], profile.connector_id);
         } catch (const CORBA::SystemException& e) {
-            RTC_WARN(("disconnecting %s: a peer: %s", port_name, describe_exception(e).c_str()));
+            RTC_WARN(("disconnecting: a peer cannot be called: %s", describe_exception(e).c_str()));
         }
     }
     return std::nullopt;
@@ -244,7 +244,7 @@ ReturnCode_t PortBase::disconnect(const char* connector_id) {
     const ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0)
         return refuse(BAD_PARAMETER, std::string(getName()) + " has no connection with id " + connector_id);
-    const auto result = notify_disconnect_from(0, profile, getName(), rtclog);
+    const auto result = notify_disconnect_from(0, profile, rtclog);
     // Still connected: a peer has not passed the call on to this port. This side ends all the same.
     if (releaseConnection(connector_id)) return RTC_OK;
     return result.value_or(RTC_ERROR);
@@ -279,7 +279,7 @@ bool PortBase::releaseConnection(const char* connector_id) {
 void PortBase::dropLostConnection(const char* connector_id) {
     ConnectorProfile profile = findConnProfile(connector_id);
     if (profile.ports.length() == 0) return;
-    RTC_WARN(("%s: the other side of connection %s is gone", getName(), connector_id));
+    RTC_WARN(("the other side of connection %s is gone", connector_id));
     if (m_onConnectionLost != nullptr) (*m_onConnectionLost)(profile);
     // Ports of this process are not reached through the lost one, which would have passed the call on.
     for (CORBA::ULong i = 0; i < profile.ports.length(); ++i)
@@ -291,7 +291,7 @@ ReturnCode_t PortBase::disconnectNext(ConnectorProfile& profile) {
     const CORBA::Long position = position_of(m_objref.in(), profile);
     if (position < 0) return BAD_PARAMETER;
     const auto next = static_cast<CORBA::ULong>(position) + 1;
-    return notify_disconnect_from(next, profile, getName(), rtclog).value_or(RTC_OK);
+    return notify_disconnect_from(next, profile, rtclog).value_or(RTC_OK);
 }
 
 // The result is that of the last one that has failed; the others are disconnected all the same.

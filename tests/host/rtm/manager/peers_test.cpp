@@ -69,6 +69,36 @@ TEST_CASE("A kept connection that is disconnected on purpose stays disconnected"
     CHECK(connections(accumulator.in_) == 0);
 }
 
+TEST_CASE("A lost connection is logged once and the line names the port once") {
+    struct Lines : coil::LogStreamBuffer {
+        void write(int, const std::string& name, const std::string&, const std::string& message) override {
+            if (message.find("is gone") == std::string::npos) return;
+            const std::lock_guard<std::mutex> lock(mutex);
+            text += name + ": " + message + "\n";
+        }
+        std::string get() {
+            const std::lock_guard<std::mutex> lock(mutex);
+            return text;
+        }
+        std::mutex mutex;
+        std::string text;
+    } lines;
+    RemoteHost other("Counter");
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false, {short_check_interval, "logger.log_level:WARN"});
+    fixture.manager().getLogStreamBuf().addStream(&lines);
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out");
+    REQUIRE(connections(accumulator.in_) == 1);
+    RTC::ConnectorProfileList_var profiles = accumulator.in_.get_connector_profiles();
+    const std::string id(profiles[0].connector_id);
+    other.host.send_signal(SIGKILL);
+    other.host.wait_for_exit();
+    CHECK(eventually([&] { return connections(accumulator.in_) == 0; }));
+    CHECK(lines.get() == "Accumulator0.in: the other side of connection " + id + " is gone\n");
+    fixture.manager().getLogStreamBuf().removeStream(&lines);
+}
+
 TEST_CASE("A malformed name is an error and an unavailable one is not") {
     ManagerFixture fixture;
     fixture.create<Accumulator>("Accumulator");
