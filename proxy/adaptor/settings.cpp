@@ -33,7 +33,8 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
     settings.wait = milliseconds(1000 * number(properties, "wait", 10));
     settings.call_timeout = milliseconds(number(properties, "call_timeout", 1000));
     settings.large_bytes = 1024 * static_cast<std::size_t>(number(properties, "large_kib", 0));
-    settings.segment_bytes = 1024 * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
+    settings.segment_bytes =
+        std::size_t{1024} * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
     if (const auto group = properties.find("group"); group != properties.end())
         settings.group = group->second;
     return settings;

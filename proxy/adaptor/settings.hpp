@@ -15,8 +15,8 @@ struct Settings {
     std::chrono::milliseconds call_timeout{1'000}; ///< `call_timeout` [ms]: of each call across the link
     std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port, see README
     std::size_t segment_bytes =
-        4 * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
-    std::string group;   ///< `group`: may join the link beside the owner; empty: the owner only
+        std::size_t{4} * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
+    std::string group;                ///< `group`: may join the link beside the owner; empty: the owner only
 };
 
 /// Throws std::runtime_error, one line, when `link` is missing or another property is not a number above 0.

@@ -35,7 +35,8 @@ Settings read_settings(coil::Properties& properties) {
         std::chrono::milliseconds(static_cast<long>(number(properties, "call_timeout", 1000)));
     settings.ring_bytes = 1024 * static_cast<std::size_t>(number(properties, "ring_kib", 256));
     settings.large_bytes = 1024 * static_cast<std::size_t>(number(properties, "large_kib", 0));
-    settings.segment_bytes = 1024 * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
+    settings.segment_bytes =
+        std::size_t{1024} * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
     settings.group = properties.getProperty("group");
     return settings;
 }

@@ -13,12 +13,12 @@ namespace tandem::interceptor {
 struct Settings {
     std::string link; ///< `link`: the name of the link, the same as AdaptorComp's
     std::string rtc;  ///< `rtc`: instance name of the RTC whose ports are shared
-    std::chrono::milliseconds call_timeout{1'000}; ///< `call_timeout` [ms]: of each call across the link
-    std::size_t ring_bytes = 256 * 1024;           ///< `ring_kib`: of each data port
-    std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port, see README
+    std::chrono::milliseconds call_timeout{1'000};    ///< `call_timeout` [ms]: of each call across the link
+    std::size_t ring_bytes = std::size_t{256} * 1024; ///< `ring_kib`: of each data port
+    std::size_t large_bytes = 0;                      ///< `large_kib`: longest message of a port, see README
     std::size_t segment_bytes =
-        4 * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
-    std::string group;   ///< `group`: may join the link beside the owner; empty: the owner only
+        std::size_t{4} * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
+    std::string group;                ///< `group`: may join the link beside the owner; empty: the owner only
 };
 
 /// Throws std::runtime_error, one line, when `link` or `rtc` is missing or another parameter is not a number

@@ -14,7 +14,7 @@ struct LinkOptions {
     std::string name;  ///< of the link; both sides use the same
     RingSizes rings{}; ///< of the data ports; where the two sides ask for different large_bytes, the larger
     /// Shared memory for each side's objects, without the chunks of its rings.
-    std::size_t segment_bytes = 4 * 1024 * 1024;
+    std::size_t segment_bytes = std::size_t{4} * 1024 * 1024;
     shm::WaitOptions wait{}; ///< how calls wait, in both directions, and how the doorbell is waited for
     /// Users that may join beside the owner (shm::JoinOptions::group); empty: none. A side that finds a segment
     /// made for one group by a side that names none, or the reverse, is refused with shm::Error.

@@ -11,7 +11,7 @@ namespace tandem::link {
 
 /// The sizes that the user asked for, with `ring_kib` and `large_kib`.
 struct RingSizes {
-    std::size_t ring_bytes = 256 * 1024; ///< of each data port's ring
+    std::size_t ring_bytes = std::size_t{256} * 1024; ///< of each data port's ring
     /// The longest message of a port whose type sets no bound; it travels in one of four chunks. 0: the user
     /// did not ask. Then it is default_large_bytes, and no memory for it is required in advance.
     std::size_t large_bytes = 0;
