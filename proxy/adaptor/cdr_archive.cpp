@@ -66,20 +66,26 @@ void get_all(wire::CdrReader& in, T* p, long size) {
 /// so the first two words that the value writes are known to be RTM's seconds and nanoseconds.
 template <class T>
 bool CdrOarchive::store_time_word(T value) {
-    if (!std::is_same_v<T, unsigned int> || time_words_left_ == 0) return false;
-    const bool seconds = time_words_left_-- == 2;
-    const auto word = static_cast<std::uint32_t>(value);
-    *time_ = seconds ? wire::pack_time(word, 0) : *time_ | wire::pack_time(0, word);
-    return true;
+    if constexpr (std::is_same_v<T, unsigned int>) {
+        if (time_words_left_ == 0) return false;
+        const bool seconds = time_words_left_-- == 2;
+        *time_ = seconds ? wire::pack_time(value, 0) : *time_ | wire::pack_time(0, value);
+        return true;
+    } else {
+        return false;
+    }
 }
 
 /// The same in the other direction.
 template <class T>
 bool CdrIarchive::load_time_word(T& value) {
-    if (!std::is_same_v<T, unsigned int> || time_words_left_ == 0) return false;
-    value =
-        static_cast<T>(time_words_left_-- == 2 ? wire::stamp_seconds(time_) : wire::stamp_nanoseconds(time_));
-    return true;
+    if constexpr (std::is_same_v<T, unsigned int>) {
+        if (time_words_left_ == 0) return false;
+        value = time_words_left_-- == 2 ? wire::stamp_seconds(time_) : wire::stamp_nanoseconds(time_);
+        return true;
+    } else {
+        return false;
+    }
 }
 
 #define TANDEM_SAVE(type)                                                                                    \

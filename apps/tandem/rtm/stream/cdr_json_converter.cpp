@@ -112,7 +112,7 @@ Json read_value(DynAny_ptr value, const std::string& path) {
     case CORBA::tk_octet:
         return value->get_octet();
     case CORBA::tk_char:
-        return std::string(1, value->get_char());
+        return std::string(1, static_cast<char>(value->get_char()));
     case CORBA::tk_wchar:
         return static_cast<unsigned>(value->get_wchar());
     case CORBA::tk_string:

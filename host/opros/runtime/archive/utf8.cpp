@@ -9,7 +9,7 @@ namespace opros::archive {
 
 // RFC 3629: the first byte says by its highest bits how many follow, each of those has 6 bits of the character.
 std::string to_utf8(wchar_t character) {
-    const auto code = static_cast<unsigned long>(character);
+    const auto code = static_cast<char32_t>(character);
     const auto tail = [code](int shift) { return static_cast<char>(0x80 | ((code >> shift) & 0x3f)); };
     if (code > 0x10ffff) throw archive_format_exception();
     if (code < 0x80) return {static_cast<char>(code)};
