@@ -32,16 +32,17 @@ void TaskQueue::run() {
 }
 
 bool TaskQueue::submit(Task task) {
-    const bool run_here = mode_ == Mode::in_caller;
-    {
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (interrupted_ || (!run_here && tasks_.size() >= capacity_)) return false;
-        if (!run_here) tasks_.push_back(std::move(task));
-    }
-    if (run_here)
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (interrupted_) return false;
+    if (mode_ == Mode::in_caller) {
+        lock.unlock();
         task();
-    else
-        wake_.notify_one();
+        return true;
+    }
+    if (tasks_.size() >= capacity_) return false;
+    tasks_.push_back(std::move(task));
+    lock.unlock();
+    wake_.notify_one();
     return true;
 }
 
