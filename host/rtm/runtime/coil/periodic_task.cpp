@@ -32,6 +32,7 @@ void PeriodicTask::activate() {
         if (!m_func || m_alive) return;
         m_alive = true;
     }
+    // NOLINTNEXTLINE(bugprone-parent-virtual-call): that of PeriodicTaskBase is pure
     Task::activate();
 }
 

@@ -101,7 +101,7 @@ double ExecutionContextBase::getRate() const {
 }
 
 std::chrono::nanoseconds ExecutionContextBase::getPeriod() const {
-    return std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / getRate() + 0.5));
+    return std::chrono::nanoseconds(std::llround(1e9 / getRate()));
 }
 
 // The hook and the callbacks run without m_mutex: they may ask for the rate.
