@@ -142,8 +142,9 @@ Machine this_machine() {
     machine.cores = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
     machine.clock = Clock::name();
     const std::time_t now = std::time(nullptr);
+    std::tm local{};
     char date[32] = "";
-    std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S", std::localtime(&now));
+    std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S", localtime_r(&now, &local));
     machine.date = date;
     return machine;
 }
