@@ -66,6 +66,7 @@ int search_object(dl_phdr_info* object, std::size_t, void* argument) {
     for (int i = 0; i < object->dlpi_phnum; ++i) {
         const auto& segment = object->dlpi_phdr[i];
         if (segment.p_type != PT_NOTE) continue; // notes are mapped, section headers are not
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): the dynamic linker gives addresses as numbers
         const char* const start = reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr);
         search.search_notes(start, start + segment.p_memsz, segment.p_align == 8 ? 8 : 4);
     }

@@ -65,8 +65,7 @@ std::filesystem::path find_library(const std::string& name,
     if (!name.empty())
         for (const auto& dir : dirs)
             for (const std::string& candidate : candidates)
-                if (const auto file = dir / candidate; std::filesystem::is_regular_file(file, ignored))
-                    return file;
+                if (auto file = dir / candidate; std::filesystem::is_regular_file(file, ignored)) return file;
     throw_not_found(name, dirs);
 }
 

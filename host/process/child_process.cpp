@@ -87,7 +87,7 @@ void ChildProcess::open_pidfd(const std::string& name) {
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : pid_(std::exchange(other.pid_, -1)), group_(std::exchange(other.group_, -1)),
-      pidfd_(std::move(other.pidfd_)), ended_(std::move(other.ended_)) {}
+      pidfd_(std::move(other.pidfd_)), ended_(other.ended_) {}
 
 ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
     std::swap(pid_, other.pid_);

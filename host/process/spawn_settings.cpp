@@ -40,6 +40,7 @@ void SpawnSettings::set_folder(const std::string& folder) {
 
 int SpawnSettings::spawn(pid_t& pid, const std::vector<std::string>& command) const {
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (const auto& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
     return posix_spawnp(&pid, arguments[0], &actions_, &attributes_, arguments.data(), environ);

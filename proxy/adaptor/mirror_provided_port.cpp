@@ -21,7 +21,7 @@ std::string MirrorProvidedPort::bindMethod(Method* required) {
             "service port '{}': method '{}' has an argument or result that cannot cross the link", peer_.name,
             required->getName());
     // Compared now, once, so that a call need not carry anything but CDR.
-    const std::string error = check_method(peer_, required->getName(), *signature);
+    std::string error = check_method(peer_, required->getName(), *signature);
     if (error.empty()) signatures_[required->getName()] = *signature;
     return error;
 }

@@ -23,7 +23,7 @@ std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
     signatures_.clear();
     provided_ = nullptr;
     if (!provided) return "";
-    const std::string error = collect_signatures(*provided);
+    std::string error = collect_signatures(*provided);
     if (error.empty()) provided_ = provided;
     return error;
 }
@@ -39,7 +39,7 @@ std::string MirrorRequiredPort::collect_signatures(ProvidedServicePort& provided
                 "service port '{}': the peer requires operation '{}' ({}), which the connected port "
                 "does not provide with types that can cross the link",
                 peer_.name, required.name, required.signature);
-        const auto error = check_method(peer_, provided_method->first, provided_method->second);
+        auto error = check_method(peer_, provided_method->first, provided_method->second);
         if (!error.empty()) return error;
     }
     return "";

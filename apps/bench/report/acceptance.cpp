@@ -207,6 +207,7 @@ bool needed_for_acceptance(const std::vector<AcceptanceLimit>& limits, const std
 std::vector<AcceptanceResult> check_acceptance(const std::vector<AcceptanceLimit>& limits,
                                                const Report& report) {
     std::vector<AcceptanceResult> results;
+    results.reserve(limits.size());
     for (const AcceptanceLimit& limit : limits) results.push_back(check_limit(limit, report));
     return results;
 }

@@ -32,7 +32,7 @@ RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTO
 std::string wait_for_state(const RemoteComponent& component, const std::string& wanted, double timeout_s) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
     for (;;) {
-        const std::string state = component_state(component.object.in());
+        std::string state = component_state(component.object.in());
         if (state == wanted || state == "ERROR" || std::chrono::steady_clock::now() > end) return state;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -46,7 +46,7 @@ std::string apply_transition(const RemoteComponent& component, Transition transi
             throw std::runtime_error(component.instance + " does not exit: " + to_string(code));
         return "exited";
     }
-    const std::string wanted = target_state(transition);
+    std::string wanted = target_state(transition);
     // Asking an active component to activate would be refused. A reset is requested in any state: only the
     // component knows whether it applies.
     if (component_state(component.object.in()) == wanted && transition != Transition::reset) return wanted;
@@ -54,7 +54,7 @@ std::string apply_transition(const RemoteComponent& component, Transition transi
     const RTC::ReturnCode_t code =
         request_transition(contexts.front().in(), component.object.in(), transition);
     // After a refusal the state is looked at once: another client may have brought the component there.
-    const std::string state = wait_for_state(component, wanted, code == RTC::RTC_OK ? timeout_s : 0);
+    std::string state = wait_for_state(component, wanted, code == RTC::RTC_OK ? timeout_s : 0);
     if (state == wanted) return state;
     const char* hint = state == "ERROR" ? "; see its log, then tandem rtm reset" : "";
     throw std::runtime_error(fmt::format("{} is {}, expected {}{}{}", component.instance, state, wanted,

@@ -47,7 +47,7 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
 }
 
 std::string ComponentHost::enter_error(const char* callback, const std::string& why) {
-    const std::string text = "component " + name_ + ": " + callback + " threw an exception: " + why;
+    std::string text = "component " + name_ + ": " + callback + " threw an exception: " + why;
     spdlog::error("{}; it goes to ERROR, the other components continue", text);
     error_logged_ = true;
     try {

@@ -91,6 +91,7 @@ std::vector<std::unique_ptr<Executor>> make_executors(const std::vector<Componen
         groups.push_back({component});
     }
     std::vector<std::unique_ptr<Executor>> executors;
+    executors.reserve(groups.size());
     for (auto& group : groups) executors.push_back(std::make_unique<Executor>(std::move(group), options));
     return executors;
 }

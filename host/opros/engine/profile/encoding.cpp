@@ -76,6 +76,7 @@ class Utf8Converter {
     Utf8Converter(const Utf8Converter&) = delete;
     Utf8Converter& operator=(const Utf8Converter&) = delete;
     /// False when iconv does not know the encoding.
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the result that POSIX gives iconv_open() for an error
     bool is_open() const { return handle_ != iconv_t(-1); }
 
     /// Replaces each code unit of `unit_size` bytes that is not valid by '?'; `all_valid` tells whether there
@@ -116,12 +117,12 @@ bool is_utf8(std::string_view bytes) {
 std::string convert_to_utf8(std::string_view bytes, const std::string& from, std::size_t unit_size) {
     bool all_valid = false;
     Utf8Converter converter(from);
-    const std::string text = converter.is_open() ? converter.convert(bytes, unit_size, all_valid)
-                                                 : Utf8Converter("UTF-8").convert(bytes, 1, all_valid);
+    std::string text = converter.is_open() ? converter.convert(bytes, unit_size, all_valid)
+                                           : Utf8Converter("UTF-8").convert(bytes, 1, all_valid);
     if (all_valid || unit_size > 1) return text;
     // OPRoS tools are Korean: their code page is a better guess than question marks, if all bytes are valid in
     // it.
-    const std::string korean = Utf8Converter("CP949").convert(bytes, 1, all_valid);
+    std::string korean = Utf8Converter("CP949").convert(bytes, 1, all_valid);
     return all_valid ? korean : text;
 }
 

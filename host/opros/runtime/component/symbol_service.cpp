@@ -28,7 +28,7 @@ class SymbolPort : public ProvidedServicePort {
     }
 
     /// Takes the object.
-    void addSymbol(std::string name, SymbolObject* object) { symbols_[name].reset(object); }
+    void addSymbol(const std::string& name, SymbolObject* object) { symbols_[name].reset(object); }
     /// An encoded call may carry any number for the enumeration: one that is neither rule is ignored.
     void setEncodingRule(SymbolEncodingRule rule) {
         if (rule == OPROS_SYMBOL_ENCODING_STR || rule == OPROS_SYMBOL_ENCODING_BIN) rule_ = rule;
@@ -42,7 +42,7 @@ class SymbolPort : public ProvidedServicePort {
     }
 
     /// The encoded value; empty when there is no such symbol.
-    std::string getSymbolValue(std::string name) {
+    std::string getSymbolValue(const std::string& name) {
         const auto found = symbols_.find(name);
         if (found == symbols_.end()) return "";
         std::ostringstream bytes;
@@ -57,7 +57,7 @@ class SymbolPort : public ProvidedServicePort {
     }
 
     /// 0, or -1 when there is no such symbol. Throws an archive exception when the value cannot be decoded.
-    int setSymbolvalue(std::string name, std::string value) {
+    int setSymbolvalue(const std::string& name, const std::string& value) {
         const auto found = symbols_.find(name);
         if (found == symbols_.end()) return -1;
         std::istringstream bytes(value);

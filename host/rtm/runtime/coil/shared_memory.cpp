@@ -27,6 +27,7 @@ int SharedMemory::map(int descriptor, unsigned long long size, const std::string
 }
 
 // Opens the object when it exists already, and sets its size: the form of OpenRTM-aist's.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): signature of OpenRTM-aist
 int SharedMemory::create(std::string shm_address, unsigned long long memory_size) {
     SharedMemory::close();
     const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
@@ -41,6 +42,7 @@ int SharedMemory::create(std::string shm_address, unsigned long long memory_size
 }
 
 // The object must have been created, with at least that size.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): signature of OpenRTM-aist
 int SharedMemory::open(std::string shm_address, unsigned long long memory_size) {
     SharedMemory::close();
     const int descriptor = ::shm_open(shm_address.c_str(), O_RDWR | O_CLOEXEC, 0);

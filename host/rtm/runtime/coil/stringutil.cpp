@@ -142,8 +142,8 @@ vstring split(const std::string& input, const std::string& delimiter, bool ignor
 // Finds the words anywhere in the text, `yes` first: "YES, please" is true.
 bool toBool(std::string str, std::string yes, std::string no, bool default_value) {
     str = toUpper(str);
-    if (str.find(toUpper(yes)) != std::string::npos) return true;
-    if (str.find(toUpper(no)) != std::string::npos) return false;
+    if (str.find(toUpper(std::move(yes))) != std::string::npos) return true;
+    if (str.find(toUpper(std::move(no))) != std::string::npos) return false;
     return default_value;
 }
 
@@ -216,6 +216,7 @@ vstring parseArgs(const std::string& args) {
 }
 
 // Keeps the first of equal strings, in their order.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): signature of OpenRTM-aist
 vstring unique_sv(vstring sv) {
     vstring out;
     for (auto& s : sv)
@@ -266,6 +267,7 @@ std::string sprintf(const char* fmt, ...) {
 }
 
 // ${NAME} becomes the variable's value, or nothing when it is not set; an unclosed ${ stays as it is.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): signature of OpenRTM-aist
 std::string replaceEnv(std::string str) {
     std::string out;
     for (std::size_t at = 0; at < str.size();) {

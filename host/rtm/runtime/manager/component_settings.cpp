@@ -13,7 +13,7 @@ namespace {
 coil::Properties inherited_settings(const coil::Properties& config, const coil::Properties& profile) {
     coil::Properties out;
     auto inherit = [&](const std::string& key) {
-        const std::string value = config.getProperty(key);
+        const std::string& value = config.getProperty(key);
         const bool is_default = value == config.getDefault(key);
         if (value.empty() || (is_default && !profile.getProperty(key).empty())) return;
         out.setProperty(key, value);

@@ -94,7 +94,7 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
 
 // Undoes the creation of a component that could not be set up.
 void Manager::Impl::discard_component(RTObject_impl& component, std::shared_ptr<FactoryBase> factory) {
-    destroy_component(component.getInstanceName(), [&component, factory] {
+    destroy_component(component.getInstanceName(), [&component, factory = std::move(factory)] {
         component.finalizePorts();
         component.finalizeContexts();
         factory->destroy(&component);

@@ -13,6 +13,7 @@ template <class Connectors, class Get>
 auto collect(std::mutex& mutex, Connectors& connectors, Get get) {
     std::lock_guard<std::mutex> lock(mutex);
     std::vector<std::decay_t<decltype(get(*connectors.front()))>> all;
+    all.reserve(connectors.size());
     for (auto* connector : connectors) all.push_back(get(*connector));
     return all;
 }

@@ -134,8 +134,7 @@ ReturnCode_t CorbaPort::publishInterfaces(ConnectorProfile& profile) {
 // of the same type and instance name. Empty when there is none; `nil` or `null` when the mapping leaves it
 // without.
 std::string CorbaPort::findProviderIor(const NVList& properties, const Consumer& consumer) const {
-    const std::string mapped =
-        NVUtil::toString(properties, propertyKey("required", consumer.descriptor()).c_str());
+    std::string mapped = NVUtil::toString(properties, propertyKey("required", consumer.descriptor()).c_str());
     if (mapped == "nil" || mapped == "null") return mapped;
     const std::string ior = mapped.empty() ? "" : NVUtil::toString(properties, mapped.c_str());
     return ior.empty() ? NVUtil::toString(properties, ("port." + consumer.descriptor()).c_str()) : ior;
