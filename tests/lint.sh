@@ -45,6 +45,6 @@ for file in "${files[@]}"; do
 done
 say "clang-tidy: ${#known[@]} of ${#files[@]} changed files are part of the build"
 if [ ${#known[@]} -gt 0 ]; then
-    build_preset dev rtm_idl_headers
+    build_preset dev rtm_idl_headers bench_idl_headers
     printf '%s\0' "${known[@]}" | xargs -0 -n 1 -P "$(nproc)" clang-tidy -p build/dev --quiet --warnings-as-errors='*'
 fi

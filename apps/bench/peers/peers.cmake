@@ -55,6 +55,8 @@ set_source_files_properties(${stubs}/omniorbSK.cc PROPERTIES COMPILE_OPTIONS -w 
 tandem_bench_peer(omniorb TRUE libomniorb4-dev
   SOURCES ${stubs}/omniorb.hh ${stubs}/omniorbSK.cc LIBRARIES PkgConfig::OMNIORB)
 target_include_directories(tandem_bench_suite SYSTEM PRIVATE ${stubs})
+add_custom_target(bench_idl_headers DEPENDS ${stubs}/omniorb.hh) # for tests/lint.sh, as rtm_idl_headers
+add_dependencies(tandem_bench_suite bench_idl_headers)
 
 # Written only when it changes, so that peers.cpp is not compiled at each configuration.
 file(CONFIGURE OUTPUT peers/peer_list.inc CONTENT "${TANDEM_BENCH_PEER_LIST}" @ONLY)
