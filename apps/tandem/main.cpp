@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <exception>
 
+// NOLINTNEXTLINE(bugprone-exception-escape): outside of try only a mistake in the declaration of an option throws
 int main(int argc, char** argv) {
     // This program is also the child process in which it tries out component libraries: then this call ends it.
     tandem::plugin::serve_probe(argc, argv, tandem::command::opros_probe_tasks());

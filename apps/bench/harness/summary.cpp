@@ -47,6 +47,7 @@ double median(std::vector<double> values) {
 Summary median_of(const std::vector<Summary>& runs) {
     const auto median_over = [&](auto&& value) {
         std::vector<double> all;
+        all.reserve(runs.size());
         for (const Summary& run : runs) all.push_back(value(run));
         return median(std::move(all));
     };

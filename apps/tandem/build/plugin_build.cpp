@@ -166,7 +166,7 @@ fs::path build_plugin(const std::string& model, const std::string& name, const P
     // Two steps, each with its own time limit and its own message.
     run_cmake({"cmake", "--build", bin, "--parallel"}, options.timeout_s, name, "does not compile");
     fs::create_directories(output);
-    const fs::path library = output / (name + ".so");
+    fs::path library = output / (name + ".so");
     replace_library(cmake_output / library.filename(), library);
     // tandem_add_opros_component() copies the profiles beside the library: another folder needs them, too.
     if (!options.output.empty())

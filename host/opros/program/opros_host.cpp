@@ -84,6 +84,7 @@ int run(Options options) {
 
 } // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): outside of try only a mistake in the declaration of an option throws
 int main(int argc, char** argv) {
     // First of all: as the child process of a probe this does not return.
     tandem::plugin::serve_probe(argc, argv,

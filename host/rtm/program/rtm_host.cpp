@@ -188,6 +188,7 @@ int run(const Arguments& a, char** argv_of_program) {
 
 } // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): outside of try only a mistake in the declaration of an option throws
 int main(int argc, char** argv) {
     // In the child process of a module probe this does the probe and does not return.
     tandem::plugin::serve_probe(argc, argv, {{RTC::module_probe_task, RTC::run_module_probe}});
