@@ -23,7 +23,7 @@ shm::CallQueueHandle open_queue(BenchLink& link, bool is_client) {
         shm::CallQueueOptions options;
         options.callers = link.side();
         options.max_bytes = max_bytes;
-        const auto queue = link.segment().add_call_queue(queue_name, options);
+        auto queue = link.segment().add_call_queue(queue_name, options);
         link.publish_and_wait();
         return queue;
     }

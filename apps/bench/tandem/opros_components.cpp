@@ -94,7 +94,11 @@ void push_double(Session& session) {
     BenchParts& from = components.part("From");
     time_each_call(session, [&](double value) { from.push(value); });
     double last = -1; // the port keeps the newest only
-    for (double value = 0; value >= 0; value = components.part("To").pop_value()) last = value;
+    double value = components.part("To").pop_value();
+    while (value >= 0) {
+        last = value;
+        value = components.part("To").pop_value();
+    }
     if (last <= 0) throw std::runtime_error("the input port has none of the pushed values");
 }
 
