@@ -5,10 +5,10 @@
 #include "host/opros/engine/load/plugin_dirs.hpp"
 #include "host/opros/program/shutdown_watcher.hpp"
 #include "host/options/probe_cli_options.hpp"
+#include "host/options/real_time_options.hpp"
 #include "host/process/bounded_call.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
-#include "host/options/real_time_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>

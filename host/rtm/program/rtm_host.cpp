@@ -4,9 +4,9 @@
 // and SIGHUP. Exit code 0: ended in order, or a component that hangs was left behind; 1: bad input, or a static
 // destructor that hangs; any other: what a component gave to exit().
 #include "host/options/probe_cli_options.hpp"
+#include "host/options/real_time_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
-#include "host/options/real_time_options.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
