@@ -4,10 +4,12 @@
 #include <rtm/ByteDataStreamBase.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/RTC.h>
+#include <rtm/SystemLogger.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 #include <rtm/idl/DataPort_OpenRTMSkel.h>
 #include <rtm/idl/ExtendedDataTypesSkel.h>
 #include <rtm/idl/InterfaceDataTypesSkel.h>
+#include <typeinfo>
 
 namespace RTC {
 
@@ -65,6 +67,44 @@ class CORBA_CdrSerializer : public ByteDataStream<DataType> {
 
   protected:
     CORBA_CdrMemoryStream m_cdr;
+};
+
+/// Ours: the serializer of a connector, made at the first message. The type of a connector does not change after
+/// that. [one thread at a time]
+class ConnectorSerializer {
+  public:
+    ConnectorSerializer() = default;
+    ConnectorSerializer(const ConnectorSerializer&) = delete;
+    ~ConnectorSerializer() { SerializerFactory::instance().deleteObject(m_made); }
+
+    /// NULL: there is none of that marshaling type for values of that type, which is logged once.
+    template <class DataType>
+    ByteDataStream<DataType>* get(const std::string& marshaling_type, const char* connector, Logger& rtclog) {
+        // Compared by address first, which is the same within a library and costs no string comparison.
+        if (m_type != &typeid(DataType) && (m_type == nullptr || *m_type != typeid(DataType)))
+            make<DataType>(marshaling_type, connector, rtclog);
+        return static_cast<ByteDataStream<DataType>*>(m_typed);
+    }
+    /// The serializer is ours, so CdrMarshal and CdrUnmarshal may replace it.
+    bool isStandardCdr() const { return m_isStandardCdr; }
+
+  private:
+    template <class DataType>
+    void make(const std::string& marshaling_type, const char* connector, Logger& rtclog) {
+        SerializerFactory::instance().deleteObject(m_made);
+        m_made = createSerializer<DataType>(marshaling_type);
+        m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_made);
+        m_type = &typeid(DataType);
+        m_isStandardCdr = m_made != nullptr && typeid(*m_made) == typeid(CORBA_CdrSerializer<DataType>);
+        if (m_typed == nullptr)
+            RTC_ERROR(
+                ("connector %s: no serializer for marshaling type %s", connector, marshaling_type.c_str()));
+    }
+
+    ByteDataStreamBase* m_made = nullptr;
+    void* m_typed = nullptr; // m_made as ByteDataStream<DataType>*
+    const std::type_info* m_type = nullptr;
+    bool m_isStandardCdr = false;
 };
 
 /// Encodes one value into an InPlaceBuffer. Refers to the value, which must outlive it.

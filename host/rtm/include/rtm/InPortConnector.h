@@ -5,7 +5,6 @@
 #include <rtm/DirectBuffer.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
-#include <typeinfo>
 
 namespace RTC {
 
@@ -34,13 +33,13 @@ class InPortConnector : public ConnectorBase {
     /// one.
     template <class DataType>
     DataPortStatus read(DataType& data) {
-        auto* stream = serializer<DataType>();
+        auto* stream = m_serializer.get<DataType>(m_marshaling_type, name(), rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         DataPortStatus status = DataPortStatus::PORT_OK;
         if (m_directBuffer != nullptr && m_directBuffer->type() == typeid(DataType)) {
             status = readDirect(static_cast<DirectBuffer<DataType>&>(*m_directBuffer), *stream, data);
             if (status != DataPortStatus::PORT_OK) return status;
-        } else if (m_inPlace != nullptr && m_isStandardCdr) {
+        } else if (m_inPlace != nullptr && m_serializer.isStandardCdr()) {
             CdrUnmarshal<DataType> reader(data);
             bool read_in_place = false;
             status = read(stream, reader, read_in_place);
@@ -66,22 +65,6 @@ class InPortConnector : public ConnectorBase {
     virtual bool isLittleEndian() { return m_littleEndian; }
 
   protected:
-    // Looked up at the first read: the type of a connector does not change after that. Compared by address
-    // first, which is the same for one type within a library and costs no string comparison.
-    template <class DataType>
-    ByteDataStream<DataType>* serializer() {
-        if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
-            SerializerFactory::instance().deleteObject(m_cdr);
-            m_cdr = createSerializer<DataType>(m_marshaling_type);
-            m_typedSerializer = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
-            m_type = &typeid(DataType);
-            m_isStandardCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
-            if (m_typedSerializer == nullptr)
-                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(),
-                           m_marshaling_type.c_str()));
-        }
-        return static_cast<ByteDataStream<DataType>*>(m_typedSerializer);
-    }
     DataPortStatus notifyReadResult(BufferStatus status, ByteData& bytes);
     template <class DataType>
     DataPortStatus readDirect(DirectBuffer<DataType>& buffer, ByteDataStream<DataType>& stream,
@@ -110,16 +93,13 @@ class InPortConnector : public ConnectorBase {
     bool m_littleEndian = true;
     std::string m_marshaling_type;
     TimestampPolicy m_timestamp;
-    ByteDataStreamBase* m_cdr = nullptr;
 
     InPlaceBuffer* m_inPlace = nullptr;               // m_buffer, when it is one
     std::shared_ptr<DirectBufferBase> m_directBuffer; // of a direct connection, else NULL
 
   private:
-    bool m_isStandardCdr = false; // the serializer is ours, so CdrUnmarshal may replace it
     ByteData m_bytes;
-    void* m_typedSerializer = nullptr;
-    const std::type_info* m_type = nullptr;
+    ConnectorSerializer m_serializer;
 };
 
 } // namespace RTC

@@ -5,7 +5,6 @@
 #include <rtm/DirectBuffer.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
-#include <typeinfo>
 
 namespace RTC {
 
@@ -33,7 +32,7 @@ class OutPortConnector : public ConnectorBase {
     /// it.
     template <class DataType>
     DataPortStatus write(DataType& data) {
-        auto* stream = serializer<DataType>();
+        auto* stream = m_serializer.get<DataType>(m_marshaling_type, name(), rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         const bool stamps =
             m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;
@@ -44,7 +43,8 @@ class OutPortConnector : public ConnectorBase {
             if (m_sentInPlace) return status;
         }
         // The length of this message is not known before it is encoded: the last one's serves as a guess.
-        if (m_bytes.getDataLength() >= m_minInPlaceLength && m_isStandardCdr && m_littleEndian && !stamps) {
+        if (m_bytes.getDataLength() >= m_minInPlaceLength && m_serializer.isStandardCdr() && m_littleEndian &&
+            !stamps) {
             DataPortStatus status = DataPortStatus::PORT_OK;
             m_sentInPlace = writeInPlace(CdrMarshal<DataType>(data), status);
             if (m_sentInPlace) return status;
@@ -74,22 +74,6 @@ class OutPortConnector : public ConnectorBase {
     ByteData& serializedBytes() { return m_bytes; }
 
   protected:
-    // Looked up at the first write: the type of a connector does not change after that.
-    template <class DataType>
-    ByteDataStream<DataType>* serializer() {
-        if (m_type == nullptr || (m_type != &typeid(DataType) && *m_type != typeid(DataType))) {
-            SerializerFactory::instance().deleteObject(m_cdr);
-            m_cdr = createSerializer<DataType>(m_marshaling_type);
-            m_typedSerializer = dynamic_cast<ByteDataStream<DataType>*>(m_cdr);
-            m_type = &typeid(DataType);
-            m_isStandardCdr = m_cdr != nullptr && typeid(*m_cdr) == typeid(CORBA_CdrSerializer<DataType>);
-            if (m_typedSerializer == nullptr)
-                RTC_ERROR(("connector %s: no serializer for marshaling type %s", name(),
-                           m_marshaling_type.c_str()));
-        }
-        return static_cast<ByteDataStream<DataType>*>(m_typedSerializer);
-    }
-
     /// Ours: encodes a message straight into the receiver's buffer. False when it is short or the receiver
     /// has no InPlaceBuffer; nothing has happened then.
     virtual bool writeInPlace(const Marshal& marshal, DataPortStatus& status);
@@ -103,18 +87,15 @@ class OutPortConnector : public ConnectorBase {
     ConnectorListenersBase* m_listeners;
     std::string m_marshaling_type;
     TimestampPolicy m_timestamp;
-    ByteDataStreamBase* m_cdr = nullptr;
 
     unsigned long m_minInPlaceLength =
         static_cast<unsigned long>(-1); // of the InPlaceBuffer, if there is one
     bool m_direct = false;              // the receiver has a DirectBuffer
 
   private:
-    bool m_isStandardCdr = false; // the serializer does what any stream does
     bool m_sentInPlace = false;
     ByteData m_bytes;
-    void* m_typedSerializer = nullptr;
-    const std::type_info* m_type = nullptr;
+    ConnectorSerializer m_serializer;
 };
 
 } // namespace RTC

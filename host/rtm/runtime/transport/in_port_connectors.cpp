@@ -14,8 +14,7 @@ InPortConnector::InPortConnector(ConnectorInfo& info, ConnectorListenersBase* li
     m_littleEndian = is_little_endian(info.properties);
 }
 
-// m_cdr came from the factory, in serializer(); NULL when nothing was ever read.
-InPortConnector::~InPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
+InPortConnector::~InPortConnector() = default;
 
 DataPortStatus InPortConnector::read(ByteDataStreamBase* stream) {
     const DataPortStatus status = read(m_bytes);

@@ -10,7 +10,7 @@ OutPortConnector::OutPortConnector(ConnectorInfo& info, ConnectorListenersBase* 
       m_marshaling_type(info.properties.getProperty("marshaling_type", "cdr")),
       m_timestamp(timestampPolicy(info.properties)) {}
 
-OutPortConnector::~OutPortConnector() { SerializerFactory::instance().deleteObject(m_cdr); }
+OutPortConnector::~OutPortConnector() = default;
 
 DataPortStatus OutPortConnector::write(ByteDataStreamBase* stream) {
     m_bytes = *stream;
