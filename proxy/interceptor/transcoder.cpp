@@ -13,10 +13,11 @@ using wire::Type;
 [[noreturn]] void throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
 
 /// The bytes that a value of `type` takes at least: with it, an element count that the message cannot hold is
-/// refused before anything is allocated for it.
+/// refused before anything is allocated for it. Strings and sequences begin with a count of 4 bytes; of structures
+/// and arrays only that they are not empty is used, which is enough to bound the count.
 std::size_t min_encoded_bytes(const Type& type) {
     const auto primitive = wire::primitive_size(type.kind);
-    return primitive ? primitive : type.kind == Kind::structure ? 1 : 4;
+    return primitive ? primitive : type.kind == Kind::structure || type.kind == Kind::array ? 1 : 4;
 }
 
 /// Copies `count` primitives, swapping bytes if the sender's order is the other one.

@@ -37,6 +37,12 @@ class ChairServant : public POA_TestChair::Chair {
         for (CORBA::ULong i = 0; i < renamed->length(); ++i) (*renamed)[i].name = name;
         return renamed;
     }
+    TestChair::Colors* invert(const TestChair::Colors& colors) override {
+        auto* inverted = new TestChair::Colors(colors);
+        for (CORBA::ULong i = 0; i < inverted->length(); ++i)
+            for (int k = 0; k < 3; ++k) (*inverted)[i][k] = static_cast<CORBA::Octet>(255 - colors[i][k]);
+        return inverted;
+    }
     void drive(CORBA::Double speed) override {
         if (speed > 2) throw TestChair::TooFast(speed);
     }
@@ -46,8 +52,11 @@ class ChairServant : public POA_TestChair::Chair {
 class Forward : public CallTarget {
   public:
     explicit Forward(CORBA::Object_ptr object) : object_(CORBA::Object::_duplicate(object)) {
-        for (auto [name, signature] :
-             {std::pair{"add", "di:d"}, {"scale", "adf:ad"}, {"rename", seats_signature}, {"drive", "d:"}}) {
+        for (auto [name, signature] : {std::pair{"add", "di:d"},
+                                       {"scale", "adf:ad"},
+                                       {"rename", seats_signature},
+                                       {"invert", "a[3]y:a[3]y"},
+                                       {"drive", "d:"}}) {
             const auto operation = wire::parse_operation_signature(signature);
             operations_[name] = {wire::parse_signature(operation.arguments),
                                  wire::parse_signature(operation.result), signature};
@@ -98,6 +107,13 @@ void check_chair(TestChair::Chair_ptr chair) {
     REQUIRE(renamed->length() == 2);
     CHECK(std::string(renamed[1].name) == "driver");
     CHECK((renamed[1].legs == -4 && renamed[1].height[2] == 0.7 && renamed[1].used));
+    // Elements of three bytes: less than a count would take.
+    TestChair::Colors colors;
+    colors.length(2);
+    for (CORBA::ULong i = 0; i < 3; ++i) colors[0][i] = 0, colors[1][i] = static_cast<CORBA::Octet>(i);
+    TestChair::Colors_var inverted = chair->invert(colors);
+    REQUIRE(inverted->length() == 2);
+    CHECK((inverted[0][2] == 255 && inverted[1][0] == 255 && inverted[1][2] == 253));
     values.length(0);
     CHECK(TestChair::Doubles_var(chair->scale(values, 1.f))->length() == 0);
     CHECK_NOTHROW(chair->drive(1));
