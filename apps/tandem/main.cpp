@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
     // Without one there is nothing to do: CLI11 then reports an error that names --help.
     app.require_subcommand(1);
     app.set_version_flag("--version", std::string("tandem ") + tandem::version);
-    app.footer("tandem COMMAND --help says more about a command. New here? Start with tandem doctor.");
+    app.footer("tandem COMMAND --help describes a command. On a new machine, run tandem doctor first.");
     tandem::command::Action selected;
     tandem::command::add_doctor_command(app, selected);
     tandem::command::add_opros_commands(app, selected);

@@ -20,8 +20,9 @@ void add_new_command(CLI::App& parent, const char* brief, const char* details, C
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = add_command(parent, "new", brief, details);
-    command->add_option("NAME", options->name, "name of the component, a C++ name")->required();
-    command->add_option("--in", options->parent, "folder in which to create it (.)")->type_name("DIR");
+    command->add_option("NAME", options->name, "name of the component, valid as the name of a C++ class")
+        ->required();
+    command->add_option("--in", options->parent, "parent folder (.)")->type_name("DIR");
     command->callback([=, &selected] { selected = [=] { return create(options->name, options->parent); }; });
 }
 

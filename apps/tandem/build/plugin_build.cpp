@@ -133,11 +133,13 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
     repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
     command->add_option("--standard", options.standard, "C++ standard (14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
-    command->add_option("--timeout", options.timeout_s, "seconds that the compilation may take (600)")
+    command
+        ->add_option("--timeout", options.timeout_s,
+                     "time limit for each step, configuration and compilation (600)")
+        ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 86400.));
     command->add_option("--output", options.output, output_help)->type_name("DIR");
-    command
-        ->add_option("--build-dir", options.build, "folder to keep, so that the next build takes less time")
+    command->add_option("--build-dir", options.build, "build folder to keep and use again (a temporary one)")
         ->type_name("DIR");
 }
 

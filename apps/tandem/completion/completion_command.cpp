@@ -8,13 +8,13 @@
 namespace tandem::command {
 
 void add_completion_command(CLI::App& tandem, Action& selected) {
-    CLI::App* command =
-        tandem.add_subcommand("completion", "Prints a script that completes this command line in a shell");
+    CLI::App* command = tandem.add_subcommand(
+        "completion", "Prints the script by which a shell completes commands and options of tandem");
     command->footer(
         "Installed for bash as share/bash-completion/completions/tandem. In a shell that does not read\n"
         "that folder:  source <(tandem completion bash)");
     auto shell = std::make_shared<std::string>();
-    command->add_option("SHELL", *shell, "shell to write it for")->required()->check(CLI::IsMember({"bash"}));
+    command->add_option("SHELL", *shell, "the shell")->required()->check(CLI::IsMember({"bash"}));
     // The tree is complete only when all commands have been added: it is walked when the command runs.
     command->callback([&tandem, &selected, shell] {
         selected = [&tandem] {

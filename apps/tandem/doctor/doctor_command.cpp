@@ -58,13 +58,13 @@ int run_doctor(bool json) {
 void add_doctor_command(CLI::App& tandem, Action& selected) {
     CLI::App* command = tandem.add_subcommand(
         "doctor",
-        "Checks this machine's limits, permissions and timing, and says what to do about each shortcoming");
+        "Checks this machine's limits, permissions and timing, and says how to correct what is wrong");
     command->footer(
         "  ok       as it should be\n"
-        "  warning  works, but slower, less predictable, or not under every circumstance\n"
-        "  error    Tandem will not run, or not for long\n"
-        "Run it as the user who runs the hosts: permissions are tried out in a child process; nothing is\n"
-        "changed. Exit code 1 if there is an error, otherwise 0.");
+        "  warning  works, but is slower or less predictable, or fails in some cases\n"
+        "  error    Tandem does not run, or stops after a while\n"
+        "Run it as the user who runs the hosts: permissions are tested in a child process. Changes\n"
+        "nothing. Exit code 1 if there is an error, otherwise 0.");
     auto json = std::make_shared<bool>(false);
     command->add_flag("--json", *json, "print JSON instead of text");
     command->callback([json, &selected] { selected = [json] { return run_doctor(*json); }; });

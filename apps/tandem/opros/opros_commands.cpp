@@ -16,9 +16,11 @@ void add_inspect_options(CLI::App* command, InspectOptions& options, const char*
     command->add_option("--plugin-path", options.plugin_dirs, "folder with component libraries (repeatable)")
         ->type_name("DIR")
         ->allow_extra_args(false);
-    command->add_flag("--initialize", options.initialize,
-                      "run onInitialize, in a child process: some components create their ports there");
-    command->add_option("--timeout", options.timeout_s, "seconds that the component's code may take (10)")
+    command->add_flag(
+        "--initialize", options.initialize,
+        "run onInitialize() in the child process, for components that create their ports there");
+    command->add_option("--timeout", options.timeout_s, "time limit for the component's code (10)")
+        ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 3600.));
     command->add_flag("--json", options.json, "print JSON instead of text");
 }
@@ -35,9 +37,9 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
     CLI::App* info = add_command(
         opros, "info", "Shows a component: ports with types, services, properties, executor",
         "A component is created in a child process, so that its crash or hang is reported as an error.\n"
-        "Of a composite: its components and the ports that it exports; of an application: its components\n"
-        "and connections; of a service type or data type: its methods or fields.\n"
-        "Exit code 1 if it cannot be created, or FILE is neither a library nor a profile.");
+        "For a composite, shows its components and the ports that it exports; for an application, its\n"
+        "components and connections; for a service type or data type, its methods or fields.\n"
+        "Exit code 1 if the component cannot be created, or FILE is neither a library nor a profile.");
     add_inspect_options(info, *options, "component library (X.so) or profile (X.xml)");
     info->callback([=, &selected] {
         selected = [options] {
@@ -46,8 +48,8 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
         };
     });
     CLI::App* check =
-        add_command(opros, "check", "Checks that the parts of an application exist and fit together",
-                    "Every error is one line: file, line, what does not fit, what was expected.\n"
+        add_command(opros, "check", "Checks an application: libraries, ports, types of connections",
+                    "Each error is one line: file, line, what is wrong, what was expected.\n"
                     "Exit code 1 if there is an error.");
     add_inspect_options(check, *options, "application profile (XML)");
     check->callback([=, &selected] {
@@ -61,11 +63,12 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
 void add_build(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosBuildOptions>();
     CLI::App* command = add_command(
-        opros, "build", "Builds a component from nothing but its folder",
+        opros, "build", "Builds a component from the sources in its folder",
         "Takes the sources in DIR and DIR/src, and the component profile in DIR or DIR/profile, which\n"
         "gives the plugin its name; the plugin is put beside the profile. Nothing else is\n"
         "changed. Exit code 1 if it cannot be built.");
-    add_build_options(command, *options, "folder for plugin and profiles instead of the profile's");
+    add_build_options(command, *options,
+                      "folder for the plugin and its profiles (the folder of the profile)");
     command->add_option("--profile", options->profile, "component profile in DIR, when there are several")
         ->type_name("FILE");
     command->callback([=, &selected] { selected = [options] { return opros_build(*options); }; });
@@ -79,7 +82,7 @@ void add_opros_commands(CLI::App& tandem, Action& selected) {
     opros->require_subcommand(1);
     add_info_and_check(*opros, selected);
     add_new_command(
-        *opros, "Writes a component that builds and runs without changes",
+        *opros, "Creates the sources of a component, ready to build and run",
         "Creates the folder NAME with NAME.h, NAME.cpp, its profile NAME.xml, an application of it,\n"
         "NAMEApp.xml, and CMakeLists.txt. Exit code 1 if the folder exists.",
         opros_new, selected);

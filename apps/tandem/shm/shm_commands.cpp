@@ -15,48 +15,49 @@ struct CommandHelp {
 
 constexpr CommandHelp shm_help{
     "Segments of shared memory: inspect them while their hosts run, remove what dead hosts have left",
-    "A segment is the file in /dev/shm through which the two hosts of a link talk. Inspecting one writes, "
-    "wakes\n"
-    "and locks nothing: it may be done at any time, on a running robot too."};
+    "A segment is the file in /dev/shm through which the two hosts of a link communicate. list, info and "
+    "stats\n"
+    "write nothing, wake nobody and take no lock: they may be used on a running robot."};
 constexpr CommandHelp list_help{
     "All segments: link, generation, size, owner, both sides, age",
     "The two sides of a segment are\n"
     "  absent   has not joined this generation yet\n"
     "  alive    has joined, and its heartbeat is fresh\n"
-    "  late     has joined, but its heartbeat is older than 100 ms: stopped, or starved of processor time\n"
+    "  late     has joined, but its heartbeat is older than 100 ms: stopped, or without processor time\n"
     "  dead     has left or died; the pid is that of its process\n"
     "  held     (of a segment that cannot be read) a running process has joined it\n"
-    "Segments of other users are listed and not opened, damaged ones are listed with the reason. Exit code "
-    "0."};
+    "Segments of other users are listed but not opened; damaged ones are listed with the reason.\n"
+    "Exit code 0."};
 constexpr CommandHelp info_help{
     "One segment: header, sides, and every ring, call queue and blob in it",
     "States of a side: see tandem shm list --help. Exit code 1 if there is no such "
     "segment or it cannot be read."};
 constexpr CommandHelp stats_help{
     "Counters of every ring and call queue, or with --watch their rates per second",
-    "For a ring, since the segment was made,\n"
+    "For a ring, since the segment was created,\n"
     "  sent = received + refused + overwritten + skipped + waiting\n"
     "  refused      the writer found no room, or the record was too long\n"
     "  overwritten  the writer dropped it to make room for a newer one\n"
-    "  skipped      the reader passed over it for a newer one\n"
+    "  skipped      the reader took a newer one instead\n"
     "  waiting      written and not read yet\n"
     "and for a call queue\n"
     "  calls        made; taken by a worker; answered\n"
-    "  expired      of these, not run, because the deadline was over\n"
+    "  expired      taken, but not run, because the deadline had passed\n"
     "  overload     refused, because no slot was free\n"
     "  time-out     given up by the caller at the deadline\n"
     "  cancelled    given up by the caller before it\n"
     "  in use       slots of calls that are in progress now\n"
-    "The times are of samples: age from a record's writing to its reading, round trip what a caller sees,\n"
-    "service what the server does. They are counted in buckets; a percentile is shown as the upper end of "
-    "its\n"
-    "bucket, at most a quarter too long.\n"
-    "The counters are read one after the other while the system runs: the sum is exact at rest only.\n"
+    "Times are measured on a sample of the records and calls: age is from writing to reading a record, "
+    "round\n"
+    "trip from a call to its reply at the caller, service the server's part of it. They are counted in\n"
+    "buckets; a percentile is the upper end of its bucket, at most 25 % too long.\n"
+    "Counters are read one after the other: the sum above is exact only while nothing is sent or received.\n"
     "Exit code 1 if there is no such segment or it cannot be read."};
 constexpr CommandHelp clean_help{"Removes segments that no running process holds",
-                                 "Says what it removed, what it left, and why. Damaged segments are removed, "
-                                 "too; never one that a living\n"
-                                 "process holds, nor one of another user. Exit code 0."};
+                                 "Prints which segments it has removed, which it has kept, and why. Damaged "
+                                 "segments are removed as well;\n"
+                                 "a segment that a running process holds, or of another user, never is. "
+                                 "Exit code 0."};
 
 /// Options of list, info and clean: only one of them is chosen, so they may share one object.
 struct Common {
@@ -92,11 +93,11 @@ void add_stats_command(CLI::App* shm, Action& selected) {
     add_json_flag(stats, options->json);
     stats
         ->add_option("--watch", options->period_s,
-                     "repeat every so many seconds and show rates; follows the link through its "
-                     "generations; with --json one line each time")
+                     "repeat with this period and show rates; follows the link to its next "
+                     "generations; with --json, prints one line each time")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.01, 86400.0));
-    stats->add_option("--count", options->count, "end --watch after so many times")->needs("--watch");
+    stats->add_option("--count", options->count, "end --watch after this many repetitions")->needs("--watch");
     stats->callback([=, &selected] { selected = [options] { return shm_stats(*options); }; });
 }
 
