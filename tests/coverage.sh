@@ -40,21 +40,21 @@ for notes in (root / "build/coverage").rglob("*.gcno"):
         unit = json.loads(text)
         for file in unit["files"]:
             path = pathlib.Path(unit["current_working_directory"], file["file"]).resolve()
-            if path.parent != root / "shm":
+            if root / "shm" not in path.parents:
                 continue
             for line in file["lines"]:
-                lines[path.name][line["line_number"]] += line["count"]
+                lines[str(path.relative_to(root))][line["line_number"]] += line["count"]
 total = covered = 0
 for name in sorted(lines):
     hit = sum(1 for count in lines[name].values() if count)
     missed = sorted(number for number, count in lines[name].items() if not count)
     total, covered = total + len(lines[name]), covered + hit
-    print(f"{name:24} {hit:5} of {len(lines[name]):5} lines {100 * hit / len(lines[name]):6.1f} %",
+    print(f"{name:36} {hit:5} of {len(lines[name]):5} lines {100 * hit / len(lines[name]):6.1f} %",
           "  missed:" + " ".join(map(str, missed)) if missed else "")
 if total == 0:
     sys.exit("gcov has counted nothing; is gcov of the compiler's version installed?")
 percent = 100 * covered / total
-print(f"{'shm/':24} {covered:5} of {total:5} lines {percent:6.1f} %")
+print(f"{'shm/':36} {covered:5} of {total:5} lines {percent:6.1f} %")
 if percent < least:
     sys.exit(f"line coverage of shm/ is {percent:.1f} %, at least {least:g} % expected; add tests for the lines named above")
 PYTHON
