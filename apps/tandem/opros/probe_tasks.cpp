@@ -112,7 +112,7 @@ void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
             engine::read_component_profile(
                 entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
             engine::ComponentHostOptions{search, std::nullopt, 1, engine::TaskQueue::Mode::in_caller});
-        if (request["initialize"]) initialize(component->component(), entry.name, report);
+        if (request["initialize"]) initialize_and_report(component->component(), entry.name, report);
         components.emplace(entry.name, std::move(component));
     }
     std::vector<std::unique_ptr<engine::Connection>> connections;
