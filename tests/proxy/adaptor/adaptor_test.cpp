@@ -52,7 +52,7 @@ struct Peer : link::LinkHandler {
     Reply serve(const link::Request& request) override {
         const std::lock_guard lock(mutex);
         received.push_back(std::string(request.port) + "." + std::string(request.operation));
-        if (request.operation == refuse) return Reply::failure(CallStatus::exception, "onActivated failed");
+        if (request.operation == refused) return Reply::failure(CallStatus::exception, "onActivated failed");
         if (request.operation == link::control::listen) {
             const auto names = link::control::decode_port_names(request.arguments);
             link.writer("reference")
@@ -66,6 +66,11 @@ struct Peer : link::LinkHandler {
         out.put(axis * 1.5);
         return reply;
     }
+    /// The operation that serve() answers with an exception from now on; empty: none.
+    void refuse(const std::string& operation) {
+        const std::lock_guard lock(mutex);
+        refused = operation;
+    }
     bool has_received(const std::string& what) {
         const std::lock_guard lock(mutex);
         return std::find(received.begin(), received.end(), what) != received.end();
@@ -73,7 +78,7 @@ struct Peer : link::LinkHandler {
 
     std::mutex mutex;
     std::vector<std::string> received;
-    std::string refuse;
+    std::string refused; // guarded by mutex
     link::Link link;
 };
 
@@ -317,7 +322,7 @@ TEST_CASE("a required port calls the peer, and learns why a call failed") {
         dynamic_cast<RequiredMethodInterface&>(*at->second).Connect(&connector);
     }
     CHECK(required.limits(4) == std::vector<double>{6.0});
-    scene.peer.refuse = "limits";
+    scene.peer.refuse("limits");
     CHECK_THROWS_AS(required.limits(4), MethodInvokeException);
     try {
         required.limits(4);
@@ -365,7 +370,7 @@ TEST_CASE("starting and stopping the adaptor activates and deactivates the RTC")
 
 TEST_CASE("an RTC that cannot be activated keeps the adaptor from starting") {
     Scene scene("refused");
-    scene.peer.refuse = "activate";
+    scene.peer.refuse("activate");
     CHECK(scene.component.start() != OPROS_SUCCESS);
     CHECK(scene.component.getStatus() != OPROS_CS_ACTIVE);
 }
@@ -389,11 +394,11 @@ TEST_CASE("an adaptor in ERROR that is reset or recovered resets the RTC and act
         const std::lock_guard lock(scene.peer.mutex);
         scene.peer.received.clear();
     }
-    scene.peer.refuse = "reset";
+    scene.peer.refuse("reset");
     CHECK((by_reset ? scene.component.reset() : scene.component.recover()) != OPROS_SUCCESS);
     CHECK(scene.component.getStatus() == OPROS_CS_ERROR);
     CHECK_FALSE(scene.peer.has_received(".activate"));
-    scene.peer.refuse.clear();
+    scene.peer.refuse("");
     if (by_reset)
         CHECK(scene.component.reset() == OPROS_SUCCESS);
     else
