@@ -128,6 +128,34 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     CHECK_THAT(host.failed({"cat", "Reporter0:in"}), Catch::Contains("expected a DataOutPort"));
 }
 
+TEST_CASE("No sub-command of tandem rtm calls what a manager of OpenRTM-aist does not survive") {
+    const std::string port = testing::unused_port();
+    testing::RemoteHost other("FragileHost,Counter,Reporter", port, {"manager.corba_servant:NO"});
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    const std::string at = "rtcloc://127.0.0.1:" + port + "/";
+    for (std::string counter : {std::string("Counter0"), at + "Counter0", at + "*/Counter0"}) {
+        const std::string reporter = counter.substr(0, counter.size() - 8) + "Reporter0";
+        for (const std::vector<std::string>& command :
+             std::vector<std::vector<std::string>>{{"list"},
+                                                   {"tree"},
+                                                   {"info", counter},
+                                                   {"conf", counter, "step=2"},
+                                                   {"activate", counter},
+                                                   {"connect", counter + ":out", reporter + ":in"},
+                                                   {"cat", counter + ":out", "-n", "1"},
+                                                   {"inject", reporter + ":in", "1"},
+                                                   {"disconnect", counter + ":out", reporter + ":in"},
+                                                   {"deactivate", counter}}) {
+            std::vector<std::string> arguments{"rtm"};
+            arguments.insert(arguments.end(), command.begin(), command.end());
+            arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + port});
+            const Result result = tandem_program(arguments);
+            INFO(command[0] << " " << counter << ": " << result.output << result.errors);
+            CHECK(result.exit_code == 0);
+        }
+    }
+}
+
 TEST_CASE("tandem rtm list and tree show the sources that answer and fail if a named one does not") {
     Running host;
     REQUIRE(host.other.host.wait_for_output("ready\n"));

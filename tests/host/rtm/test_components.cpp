@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A module of components for rtm_host: those of components.hpp, and some that misbehave.
 #include "components.hpp"
+#include "openrtm_components.hpp"
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -168,6 +169,7 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_component_type<HangingComponent>(*manager, "HangingComponent");
     register_component_type<FaultInjector>(*manager, "FaultInjector");
     register_component_type<BadPeer>(*manager, "BadPeer");
+    register_openrtm_components(*manager);
 }
 extern "C" void OnlyReporters(RTC::Manager* manager) {
     register_component_type<Reporter>(*manager, "Reporter");

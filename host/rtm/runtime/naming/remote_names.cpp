@@ -2,6 +2,7 @@
 // Names of components in other processes. Unlike OpenRTM-aist's, each call has a time limit, and an error says
 // which of the parties on the way (name server, manager, component) did not answer.
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include <chrono>
 #include <coil/stringutil.h>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/CorbaNaming.h>
@@ -141,21 +142,43 @@ RTObject_ptr resolve_by_name_server(CORBA::ORB_ptr orb, const std::string& serve
     throw RemoteUnavailable(name + ": name server " + server + " has no such entry");
 }
 
-// The path is an instance name, or category/name, as RTM::Manager::get_components_by_name() takes it.
+// `path` is NAME, CATEGORY/NAME or */NAME, as in RTM::Manager::get_components_by_name().
+bool is_named(const ComponentProfile& profile, const std::string& path) {
+    const std::size_t slash = path.find('/');
+    const std::string category = slash == std::string::npos ? "*" : path.substr(0, slash);
+    return path.substr(slash == std::string::npos ? 0 : slash + 1) ==
+               static_cast<const char*>(profile.instance_name) &&
+           (category == "*" || category == static_cast<const char*>(profile.category));
+}
+
+// Asks each component for its name. OpenRTM-aist 2.x's get_components_by_name() releases what it returns once
+// too often, so that its process ends after ten calls; it must not be called.
 RTObject_ptr resolve_by_manager(CORBA::ORB_ptr orb, const RemoteName& parsed, const std::string& name,
                                 unsigned long milliseconds) {
     RTM::Manager_var manager = resolve_manager(orb, parsed.address, milliseconds);
+    RTCList_var components;
     try {
-        RTCList_var found = manager->get_components_by_name(parsed.path.c_str());
-        if (found->length() == 1) return require_component(found[0], name, milliseconds);
-        throw RemoteUnavailable(
-            name + ": the manager there has " +
-            (found->length() == 0
-                 ? "no such component"
-                 : std::to_string(found->length()) + " components of that name; give the category, too"));
+        components = manager->get_components();
     } catch (const CORBA::Exception& e) {
         throw RemoteUnavailable("manager " + parsed.address + ": " + describe_exception(e));
     }
+    std::vector<RTObject_var> found;
+    std::string not_answered; // a component that ends at this moment, or one of a process that hangs
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(milliseconds);
+    for (CORBA::ULong i = 0; i < components->length() && std::chrono::steady_clock::now() < deadline; ++i) {
+        try {
+            omniORB::setClientCallTimeout(components[i], static_cast<CORBA::ULong>(milliseconds));
+            ComponentProfile_var profile = components[i]->get_component_profile();
+            if (is_named(profile.in(), parsed.path)) found.emplace_back(RTObject::_duplicate(components[i]));
+        } catch (const CORBA::Exception& e) {
+            not_answered = "; one of its components could not be asked: " + describe_exception(e);
+        }
+    }
+    if (found.size() == 1) return found.front()._retn();
+    throw RemoteUnavailable(
+        name + ": the manager there has " +
+        (found.empty() ? "no such component" + not_answered
+                       : std::to_string(found.size()) + " components of that name; give the category, too"));
 }
 
 } // namespace

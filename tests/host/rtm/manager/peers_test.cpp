@@ -3,6 +3,7 @@
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
 #include <rtm/CORBA_RTCUtil.h>
+#include <rtm/NamingManager.h>
 #include <rtm/idl/DataPort_OpenRTMSkel.h>
 
 using namespace testing;
@@ -97,6 +98,27 @@ TEST_CASE("A lost connection is logged once and the line names the port once") {
     CHECK(eventually([&] { return connections(accumulator.in_) == 0; }));
     CHECK(lines.get() == "Accumulator0.in: the other side of connection " + id + " is gone\n");
     fixture.manager().getLogStreamBuf().removeStream(&lines);
+}
+
+TEST_CASE("Finding components by any address does not call what a manager of OpenRTM-aist does not survive") {
+    RemoteHost other("FragileHost,Counter,Reporter", unused_port(), {"manager.corba_servant:NO"});
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture(false, {short_check_interval});
+    fixture.create<Accumulator>("Accumulator");
+    const std::string at = "rtcloc://127.0.0.1:" + other.port + "/";
+    auto found = [&](const std::string& name) {
+        return fixture.manager().getNaming()->string_to_component(at + name).length();
+    };
+    for (int i = 0; i < 20; ++i)
+        for (const char* name : {"Counter0", "*/Counter0", "test/Counter0"}) CHECK(found(name) == 1);
+    for (const char* name : {"Counter", "other/Counter0", "*/", "*"}) CHECK(found(name) == 0);
+    RTC::PortService_var port = CORBA_RTCUtil::get_port_by_url(at + "Counter0.out");
+    CHECK_FALSE(CORBA::is_nil(port.in()));
+    fixture.connect("Accumulator0.in?port=" + at + "Counter0.out");
+    // A port that does not exist is looked for again and again.
+    fixture.connect("Accumulator0.in?port=" + at + "Counter0.nope");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300)); // some rounds
+    CHECK(found("Counter0") == 1);
 }
 
 TEST_CASE("A malformed name is an error and an unavailable one is not") {
