@@ -156,6 +156,32 @@ TEST_CASE("No sub-command of tandem rtm calls what a manager of OpenRTM-aist doe
     }
 }
 
+TEST_CASE(
+    "tandem rtm conf has effect on a component that takes values over at the next activation of their set") {
+    testing::RemoteHost other("ConfigurationUser", testing::unused_port(),
+                              {"manager.components.preactivation:ConfigurationUser0"});
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    auto conf = [&](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), {"rtm", "conf", "ConfigurationUser0"});
+        arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + other.port});
+        const Result result = tandem_program(arguments);
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 0);
+        return result;
+    };
+    CHECK(other.host.wait_for_output("uses step 1\n"));
+    CHECK(conf({"step=5"}).output_contains("default (active)\n  step=5\n"));
+    CHECK(other.host.wait_for_output("uses step 5\n"));
+    CHECK(conf({"step=6"}).output_contains("default (active)\n  step=6\n"));
+    CHECK(other.host.wait_for_output("uses step 6\n"));
+    // The values of another set leave the active one active.
+    CHECK(conf({"step=8", "--set", "other"}).output_contains("other\n  step=8\n"));
+    CHECK(conf({"step=9"}).output_contains("default (active)\n  step=9\n"));
+    CHECK(other.host.wait_for_output("uses step 9\n"));
+    CHECK(conf({"--activate", "other"}).output_contains("other (active)\n  step=8\n"));
+    CHECK(other.host.wait_for_output("uses step 8\n"));
+}
+
 TEST_CASE("tandem rtm list and tree show the sources that answer and fail if a named one does not") {
     Running host;
     REQUIRE(host.other.host.wait_for_output("ready\n"));

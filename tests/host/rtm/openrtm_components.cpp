@@ -2,6 +2,7 @@
 // Components and a manager that answer as those of OpenRTM-aist 2.1 do, where its answers differ from rtm_host's.
 #include "openrtm_components.hpp"
 #include "components.hpp"
+#include "host/rtm/runtime/sdo/sdo_configuration.hpp"
 #include <cstdio>
 #include <cstdlib>
 #include <rtm/ManagerServant.h>
@@ -34,8 +35,64 @@ class FragileHost : public Counter {
     PortableServer::Servant_var<FragileManager> servant_;
 };
 
+/// As OpenRTM-aist's: no set is active after values were set, until one is activated.
+class OpenRtmConfiguration : public SDOPackage::Configuration_impl {
+  public:
+    using Configuration_impl::Configuration_impl;
+    CORBA::Boolean set_configuration_set_values(const SDOPackage::ConfigurationSet& set) override {
+        has_active_set_ = false;
+        return Configuration_impl::set_configuration_set_values(set);
+    }
+    SDOPackage::ConfigurationSet* get_active_configuration_set() override {
+        if (!has_active_set_) throw SDOPackage::NotAvailable("");
+        return Configuration_impl::get_active_configuration_set();
+    }
+    CORBA::Boolean activate_configuration_set(const char* id) override {
+        const CORBA::Boolean activated = Configuration_impl::activate_configuration_set(id);
+        has_active_set_ = true;
+        return activated;
+    }
+    bool has_active_set() const { return has_active_set_; }
+
+  private:
+    std::atomic<bool> has_active_set_{true};
+};
+
+/// Takes `step` over from an active set only, and prints what it uses: `uses step N`. Its sets are default and other.
+class ConfigurationUser : public RTC::DataFlowComponentBase {
+  public:
+    explicit ConfigurationUser(RTC::Manager* manager)
+        : DataFlowComponentBase(manager),
+          configuration_(new OpenRtmConfiguration(*this, getConfigService(),
+                                                  std::make_shared<SDOPackage::Organizations>())) {}
+    RTC::ReturnCode_t onInitialize() override {
+        bindParameter("step", step_, "1");
+        coil::Properties other("other");
+        other.setProperty("step", "7");
+        getConfigService().addConfigurationSet(other);
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        if (!configuration_->has_active_set() || used_ == step_) return RTC::RTC_OK;
+        used_ = step_;
+        std::printf("uses step %d\n", used_);
+        std::fflush(stdout);
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onFinalize() override {
+        configuration_->retire();
+        return RTC::RTC_OK;
+    }
+    SDOPackage::Configuration_ptr get_configuration() override { return configuration_->_this(); }
+
+  private:
+    int step_ = 0, used_ = 0;
+    PortableServer::Servant_var<OpenRtmConfiguration> configuration_;
+};
+
 } // namespace
 
 void register_openrtm_components(RTC::Manager& manager) {
     register_component_type<FragileHost>(manager, "FragileHost");
+    register_component_type<ConfigurationUser>(manager, "ConfigurationUser");
 }

@@ -4,6 +4,7 @@
 #include "host/rtm/runtime/naming/remote_names.hpp"
 
 #include <fmt/format.h>
+#include <map>
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/NVUtil.h>
 
@@ -16,6 +17,11 @@ std::string join_names(const SDOPackage::NVList& values) {
     for (CORBA::ULong i = 0; i < values.length(); ++i)
         names += (names.empty() ? "" : ", ") + std::string(values[i].name);
     return names.empty() ? "none" : names;
+}
+
+// __widget__, __constraints__: hints for graphical editors.
+bool is_description(const SDOPackage::ConfigurationSet& set) {
+    return std::string(set.id).compare(0, 2, "__") == 0;
 }
 
 // Sets parameters of a configuration set. The whole set is read, changed and written back: OpenRTM has no operation for
@@ -40,6 +46,53 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         throw std::runtime_error("the component refuses the values");
 }
 
+// The set that holds the values of a component of which none is active: after values were set OpenRTM-aist's components
+// have none until one is activated, and do not tell which it was.
+std::string only_set(SDOPackage::Configuration_ptr configuration) {
+    std::vector<std::string> ids;
+    SDOPackage::ConfigurationSetList_var sets = configuration->get_configuration_sets();
+    for (CORBA::ULong i = 0; i < sets->length(); ++i)
+        if (!is_description(sets[i])) ids.emplace_back(sets[i].id);
+    if (ids.size() == 1) return ids.front();
+    throw std::runtime_error(
+        fmt::format("no configuration set is active; name one with --set and --activate (there are: {})",
+                    ids.empty() ? "none" : fmt::format("{}", fmt::join(ids, ", "))));
+}
+
+// Makes a set the active one, from which the component takes its values, and reads back whether it has them.
+void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
+                  const std::string& changed, const std::string& id) {
+    configuration->activate_configuration_set(id.c_str());
+    SDOPackage::ConfigurationSet_var active = configuration->get_active_configuration_set();
+    if (id != static_cast<const char*>(active->id))
+        throw std::runtime_error(fmt::format("configuration set {} was activated, but the component uses {}",
+                                             id, static_cast<const char*>(active->id)));
+    if (id != changed) return;
+    std::map<std::string, std::string> wanted; // of a parameter that is named twice the last value
+    for (const auto& assignment : options.values)
+        wanted[assignment.substr(0, assignment.find('='))] = assignment.substr(assignment.find('=') + 1);
+    for (const auto& [name, value] : wanted) {
+        const std::string present = NVUtil::toString(active->configuration_data, name.c_str());
+        if (present != value)
+            throw std::runtime_error(
+                fmt::format("{0}={1} was set, but the component has {0}={2}", name, value, present));
+    }
+}
+
+// Values are set first. OpenRTM-aist's components take values over when their set is activated, and until then none of
+// their sets is active: the one that was active is activated again, also if the values are those of another.
+void change_configuration(SDOPackage::Configuration_ptr configuration, const ConfOptions& options) {
+    const std::string active = active_configuration_set(configuration);
+    std::string changed = options.set.empty() ? active : options.set;
+    if (!options.values.empty()) {
+        if (changed.empty()) changed = only_set(configuration);
+        set_values(configuration, options, changed);
+    }
+    std::string id = options.activate;
+    if (id.empty() && !options.values.empty()) id = options.set.empty() ? changed : active;
+    if (!id.empty()) activate_set(configuration, options, changed, id);
+}
+
 /// All configuration sets with their values; one of them is marked as active.
 nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
     const std::string active = active_configuration_set(configuration);
@@ -50,8 +103,8 @@ nlohmann::json sets_json(SDOPackage::Configuration_ptr configuration) {
         // toProperties() leaves out values that are no strings.
         for (const auto& key : NVUtil::toProperties(sets[i].configuration_data).propertyNames())
             values[key] = NVUtil::toString(sets[i].configuration_data, key.c_str());
+        if (is_description(sets[i])) continue;
         const std::string id(sets[i].id);
-        if (id.compare(0, 2, "__") == 0) continue; // __widget__, __constraints__: hints for graphical editors
         json.push_back({{"set", id}, {"active", id == active}, {"values", values}});
     }
     return json;
@@ -64,14 +117,7 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
     const RemoteComponent component = client.find_component(options.component);
     try {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
-        // Without --set the active one. OpenRTM-aist has none before the first activation: then `default`, the set of
-        // the parameters' initial values (conf.default.*).
-        std::string id = options.set;
-        if (id.empty()) id = active_configuration_set(configuration.in());
-        if (id.empty()) id = "default";
-        // Values are set first: a set that is activated together with them becomes active with the new values.
-        if (!options.values.empty()) set_values(configuration.in(), options, id);
-        if (!options.activate.empty()) configuration->activate_configuration_set(options.activate.c_str());
+        change_configuration(configuration.in(), options);
         // Read back, so that what is printed is what the component has and not what was asked for.
         const nlohmann::json sets = sets_json(configuration.in());
         if (client_options.json) {

@@ -44,16 +44,21 @@ bool set_configuration_parameter(SDOPackage::Configuration_ptr configuration,
     return configuration->set_configuration_set_values(set);
 }
 
-// Two calls: another tool may activate a different set between them.
+// The set is activated again: OpenRTM-aist's components take new values over only then.
 bool set_active_configuration(RTObject_ptr rtc, const std::string& parameter, const std::string& value) {
-    return set_configuration(rtc, get_active_configuration_name(rtc), parameter, value);
+    SDOPackage::Configuration_var configuration = rtc->get_configuration();
+    SDOPackage::ConfigurationSet_var set = configuration->get_active_configuration_set();
+    return set_configuration_parameter(configuration.in(), set.inout(), parameter, value) &&
+           configuration->activate_configuration_set(set->id);
 }
 
+// `set_name` becomes the active set, as with OpenRTM-aist.
 bool set_configuration(RTObject_ptr rtc, const std::string& set_name, const std::string& parameter,
                        const std::string& value) {
     SDOPackage::Configuration_var configuration = rtc->get_configuration();
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(set_name.c_str());
-    return set_configuration_parameter(configuration.in(), set.inout(), parameter, value);
+    return set_configuration_parameter(configuration.in(), set.inout(), parameter, value) &&
+           configuration->activate_configuration_set(set_name.c_str());
 }
 
 } // namespace CORBA_RTCUtil
