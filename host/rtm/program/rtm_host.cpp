@@ -48,7 +48,7 @@ void declare_options(CLI::App& app, Arguments& a) {
     app.add_option("-o", a.settings, "a setting of rtc.conf, KEY:VALUE; wins over the file (repeatable)")
         ->allow_extra_args(false);
     app.add_option("-p", a.port, "TCP port of the CORBA endpoint on the loopback interface");
-    app.add_flag("-d", a.master, "master manager: keep running without components");
+    app.add_flag("-d", a.master, "master manager: port 2810, and keep running without components");
     app.add_flag("-i", a.conf_file_may_be_missing, "ignore that the file of -f does not exist");
     app.add_flag("-a", a.no_corba_servant, "do not offer the manager as a CORBA object");
     app.add_option("--lockstep", a.lockstep_socket,

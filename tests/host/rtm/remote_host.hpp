@@ -3,24 +3,9 @@
 #pragma once
 #include "host_process.hpp"
 #include <cstring>
-#include <netinet/in.h>
 #include <rtm/idl/ManagerSkel.h>
-#include <sys/socket.h>
 
 namespace testing {
-
-/// A TCP port that nobody listens on now. Another process may take it before the test does.
-inline std::string unused_port() {
-    const int fd = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    bind(fd, reinterpret_cast<sockaddr*>(&address), size);
-    getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-    close(fd);
-    return std::to_string(ntohs(address.sin_port));
-}
 
 /// Polls until the condition is true, for about 20 s.
 template <class Condition>

@@ -3,13 +3,24 @@
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include <algorithm>
 #include <omniORB4/omniPolicy.h>
 
 namespace RTC {
 namespace {
 
+// The endpoint of a master manager: the port of corba.master_manager, at every address if another endpoint is.
+std::string master_endpoint(const coil::Properties& config, const std::vector<std::string>& others) {
+    const std::string address = config.getProperty("corba.master_manager", "2810");
+    const std::string port = address.substr(address.rfind(':') + 1); // [HOST]:PORT or PORT
+    const bool everywhere = std::any_of(others.begin(), others.end(), [](const std::string& other) {
+        return other.compare(0, 10, "giop:tcp::") == 0;
+    });
+    return std::string("giop:tcp:") + (everywhere ? "" : "127.0.0.1") + ":" + port;
+}
+
 // Values of corba.endpoints (or the older corba.endpoint) as omniORB writes them: `all`, `HOST:PORT`, `HOST:`,
-// `HOST`, or already `giop:...`.
+// `HOST`, or already `giop:...`. Before them the one by which tools and other managers find a master.
 std::vector<std::string> endpoints(const coil::Properties& config) {
     std::vector<std::string> out;
     std::string list = config.getProperty("corba.endpoints");
@@ -22,6 +33,9 @@ std::vector<std::string> endpoints(const coil::Properties& config) {
         else
             out.push_back("giop:tcp:" + endpoint + (endpoint.find(':') == std::string::npos ? ":" : ""));
     }
+    if (!coil::toBool(config.getProperty("manager.is_master"), "YES", "NO", false)) return out;
+    const std::string master = master_endpoint(config, out);
+    if (std::find(out.begin(), out.end(), master) == out.end()) out.insert(out.begin(), master);
     return out;
 }
 
@@ -75,10 +89,9 @@ void start_orb(Manager::Impl& impl) {
         impl.shortcut_poa = make_shortcut_poa(impl.poa.in(), impl.poa_manager.in());
         impl.poa_manager->activate();
     } catch (const CORBA::INITIALIZE&) {
-        throw ManagerError("the ORB cannot start: is the endpoint " +
-                           impl.config.getProperty("corba.endpoints") +
-                           " (corba.endpoints) in use or not an address of this machine, or an option of "
-                           "corba.args wrong (" +
+        throw ManagerError("the ORB cannot start: is the endpoint " + coil::flatten(endpoints(impl.config)) +
+                           " (corba.endpoints; manager.is_master adds corba.master_manager) in use or not an "
+                           "address of this machine, or an option of corba.args wrong (" +
                            impl.config.getProperty("corba.args") + ")?");
     } catch (const CORBA::Exception& e) {
         throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());

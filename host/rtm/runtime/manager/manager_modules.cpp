@@ -3,6 +3,7 @@
 // OpenRTM-aist: Manager::load(), registerFactory(), registerECFactory() and class ModuleManager.
 #include "host/plugin/abi.hpp"
 #include "host/plugin/find_library.hpp"
+#include "host/rtm/runtime/configuration/openrtm_modules.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
 #include <rtm/RTObject.h>
@@ -93,7 +94,15 @@ void Manager::loadOrThrow(const std::string& file_name, const std::string& init_
         }
         call_init([&] { init(this); }, symbol + "() of module " + file.string());
     } catch (const tandem::plugin::Error& e) {
-        throw ManagerError(e.what());
+        const OpenRtmModule* known =
+            find_openrtm_module(name); // one that was built for this runtime has been loaded
+        if (known == nullptr) throw ManagerError(e.what());
+        if (!known->can_be_left_out)
+            throw ManagerError("module " + name + " of OpenRTM-aist is not available here; " +
+                               known->instead);
+        Logger& rtclog = m_impl->log;
+        RTC_INFO(("module %s of OpenRTM-aist is passed over: %s", name.c_str(), known->instead.c_str()));
+        return;
     }
     m_impl->listeners.module_.forEach([&](auto& listener) { listener.postLoad(name, function); });
 }

@@ -2,6 +2,7 @@
 // The check of rtc.conf against the table of keys, files that are no configuration, and the log settings.
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
+#include "host/rtm/runtime/configuration/openrtm_modules.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include <filesystem>
 #include <fstream>
@@ -144,4 +145,20 @@ TEST_CASE("The log goes to several files with a level and a date format") {
     }
     manager.shutdown();
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("The modules of OpenRTM-aist are in the table of DIFFERENCES.md") {
+    std::ifstream in(TANDEM_RTM_FOLDER "/DIFFERENCES.md");
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string table = text.substr(text.find("## Modules of OpenRTM-aist"));
+    const std::size_t errors = table.find("an error that says");
+    const std::size_t passed_over = table.find("passed over");
+    for (const auto& module : RTC::openrtm_modules()) {
+        CAPTURE(module.name);
+        const std::size_t at = table.find("`" + module.name + "`");
+        CHECK(at < (module.can_be_left_out ? passed_over : errors));
+        CHECK((at > passed_over) == !module.can_be_left_out);
+        CHECK(RTC::find_openrtm_module("/opt/" + module.name + ".so") == &module);
+    }
+    CHECK(RTC::find_openrtm_module("MyModule.so") == nullptr);
 }

@@ -8,6 +8,8 @@
 #include <memory>
 
 using testing::HostProcess;
+using testing::is_listening;
+using testing::unused_port;
 
 namespace {
 
@@ -272,11 +274,40 @@ TEST_CASE("A manager without components ends by itself unless it is configured t
                                                  {"-o", "manager.shutdown_auto:NO"},
                                                  {"-o", "manager.is_master:YES"}}) {
         auto arguments = stay;
-        arguments.insert(arguments.end(), {"-o", soon});
+        arguments.insert(arguments.end(), {"-o", soon, "-o", "corba.master_manager:" + unused_port()});
         HostProcess host(arguments);
         REQUIRE(host.wait_for_output("ready\n"));
         CHECK(host.wait_for_exit(std::chrono::seconds(1)) == -1000);
         host.send_signal(SIGTERM);
         CHECK(host.wait_for_exit() == 0);
     }
+}
+
+TEST_CASE("A master manager is found at the port of corba.master_manager beside its own endpoint") {
+    const std::string own = unused_port(), masters = unused_port();
+    HostProcess host({"-d", "-p", own, "-o", "corba.master_manager:localhost:" + masters});
+    REQUIRE(host.wait_for_output("ready\n"));
+    CHECK(is_listening(own));
+    CHECK(is_listening(masters));
+    // The second master of a machine says which port it wants.
+    HostProcess second({"-o", "manager.is_master:YES", "-o", "corba.master_manager::" + masters});
+    CHECK(second.wait_for_exit() == 1);
+    CHECK_THAT(second.errors, Catch::Contains("giop:tcp:127.0.0.1:" + masters) &&
+                                  Catch::Contains("manager.is_master adds corba.master_manager"));
+    host.send_signal(SIGTERM);
+    CHECK(host.wait_for_exit() == 0);
+}
+
+TEST_CASE("Modules of OpenRTM-aist that rtc.conf files name are passed over or explained in one line") {
+    using Catch::Contains;
+    HostProcess host({"-o", "logger.log_level:INFO", "-o",
+                      "manager.modules.preload:ComponentObserverConsumer.so, /opt/sdo/LoggerConsumer.so"});
+    REQUIRE(host.wait_for_output("ready\n"));
+    host.send_signal(SIGTERM);
+    CHECK(host.wait_for_exit() == 0);
+    CHECK_THAT(host.errors, Contains("module ComponentObserverConsumer.so of OpenRTM-aist is passed over: "));
+    CHECK_THAT(host.errors, Contains("module /opt/sdo/LoggerConsumer.so of OpenRTM-aist is passed over: "));
+    CHECK_THAT(
+        refusal(std::vector<std::string>{"-o", "manager.modules.preload:OpenSpliceTransport.so"}),
+        Contains("module OpenSpliceTransport.so of OpenRTM-aist is not available here; data ports offer"));
 }

@@ -28,7 +28,9 @@ std::size_t components(RTM::Manager_ptr manager, const char* name) {
 } // namespace
 
 TEST_CASE("A tool sees which modules there are and loads and unloads them") {
-    RemoteHost other("", unused_port(), {"manager.is_master:YES", "manager.modules.preload:"});
+    RemoteHost other(
+        "", unused_port(),
+        {"manager.is_master:YES", "corba.master_manager:" + unused_port(), "manager.modules.preload:"});
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture;
     RTM::Manager_var manager = other.manager(fixture.manager().theORB());

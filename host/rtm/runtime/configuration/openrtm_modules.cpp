@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A test compares this table with DIFFERENCES.md.
+#include "host/rtm/runtime/configuration/openrtm_modules.hpp"
+#include <algorithm>
+#include <filesystem>
+
+namespace RTC {
+
+const std::vector<OpenRtmModule>& openrtm_modules() {
+    static const char* const ask = "tools ask components for their state instead of being told";
+    static const char* const corba = "data ports offer corba_cdr, data_service, direct and shared_memory";
+    static const std::vector<OpenRtmModule> modules{
+        {"ComponentObserverConsumer", true, ask},
+        {"FSMComponentObserverConsumer", true, ask},
+        {"ExtendedFsmServiceProvider", true, "the structure of a state machine is not told to tools"},
+        {"LoggerConsumer", true, "logs go to logger.file_name"},
+        {"RTPreemptEC", true,
+         "PeriodicExecutionContext has what it adds, and RTPreemptEC is another name of it"},
+        {"ArtExecutionContext", false, "choose another exec_cxt.periodic.type"},
+        {"LogicalTimeTriggeredEC", false, "choose another exec_cxt.periodic.type"},
+        {"FileNameservice", false, "use corba.nameservers, or rtcloc:// names"},
+        {"FluentBit", false, "use logger.file_name"},
+        {"SSLTransport", false, "omniORB has options for that: corba.args"},
+        {"HTTPTransport", false, "omniORB has options for that: corba.args"},
+        {"OpenSpliceTransport", false, corba},
+        {"FastRTPSTransport", false, corba},
+        {"ROSTransport", false, corba},
+        {"ROS2Transport", false, corba},
+        {"SSMTransport", false, corba},
+    };
+    return modules;
+}
+
+const OpenRtmModule* find_openrtm_module(const std::string& file) {
+    const std::string name = std::filesystem::path(file).stem().string();
+    const auto& all = openrtm_modules();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& module) { return module.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+} // namespace RTC
