@@ -13,7 +13,7 @@ namespace tandem::shm {
 struct JoinOptions {
     /// Wanted at least for the own arena, and for the peer's, if this side creates the segment.
     std::size_t arena_bytes = std::size_t{4} << 20;
-    /// Wanted in addition to that in the own arena, for the chunks of rings.
+    /// Wanted in addition to that in the own arena, for the chunks of rings and for many objects.
     std::size_t chunk_pool_bytes = 0;
     /// The same in the peer's arena, if this side creates the segment.
     std::size_t peer_chunk_pool_bytes = 0;

@@ -13,7 +13,7 @@ namespace tandem::link {
 struct LinkOptions {
     std::string name;  ///< of the link; both sides use the same
     RingSizes rings{}; ///< of the data ports; where the two sides ask for different large_bytes, the larger
-    /// Shared memory for each side's objects, without the chunks of its rings.
+    /// At least this much shared memory for each side's objects, without the chunks of its rings.
     std::size_t segment_bytes = std::size_t{4} * 1024 * 1024;
     shm::WaitOptions wait{}; ///< how calls wait, in both directions, and how the doorbell is waited for
     /// Users that may join beside the owner (shm::JoinOptions::group); empty: none. A side that finds a segment

@@ -3,6 +3,8 @@
 
 #include "proxy/wire/type.hpp"
 #include "shm/os/error.hpp"
+#include "shm/os/shared_copy.hpp"
+#include "shm/segment/layout.hpp"
 #include "shm/segment/segment_file.hpp"
 
 #include <fmt/format.h>
@@ -20,6 +22,9 @@ std::size_t effective_large_bytes(const RingSizes& sizes) {
 }
 
 } // namespace
+
+// Objects begin at multiples of a line pair.
+std::size_t object_bytes(std::size_t bytes) { return shm::round_up(bytes, shm::layout::line_pair); }
 
 RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& sizes) {
     RingPlan plan;
@@ -39,6 +44,7 @@ RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& size
         }
         const auto memory = shm::ring_memory(port.name, ring);
         plan.chunk_bytes += memory.total - memory.without_chunks;
+        plan.object_bytes += object_bytes(memory.without_chunks);
         plan.rings.push_back({port.name, ring});
     }
     return plan;

@@ -28,8 +28,12 @@ struct RingPlan {
         shm::RingOptions options;
     };
     std::vector<Ring> rings;
-    std::size_t chunk_bytes = 0; ///< shared memory that the chunks of all rings take when all are used
+    std::size_t chunk_bytes = 0;  ///< shared memory that the chunks of all rings take when all are used
+    std::size_t object_bytes = 0; ///< what the rings take beside that
 };
+/// The memory that an object of that size takes in a segment, with what is lost to alignment.
+std::size_t object_bytes(std::size_t bytes);
+
 /// Computes the rings of the ports that side `own` has. Throws wire::SignatureError if a port's signature does
 /// not parse, shm::Error if a size is not acceptable for a ring.
 RingPlan plan_rings(const PortTable&, shm::Side own, const RingSizes&);

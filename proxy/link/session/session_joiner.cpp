@@ -29,9 +29,16 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     const RingPlan plan = plan_rings(own_ports_, side_, sizes);
     check_available_memory(plan, sizes);
 
+    const auto table = encode(own_ports_);
+    shm::CallQueueOptions queue;
+    queue.callers = shm::other(side_);
+    const std::size_t needed = plan.object_bytes + object_bytes(shm::call_queue_bytes(calls_name, queue)) +
+                               object_bytes(table.size()) + object_bytes(sizeof(LargeMessageLimits));
+
     shm::JoinOptions join_options;
     join_options.arena_bytes = options_.segment_bytes;
-    join_options.chunk_pool_bytes = plan.chunk_bytes;
+    // An RTC with many ports needs more than segment_bytes, and the peer's arena need not grow with it.
+    join_options.chunk_pool_bytes = plan.chunk_bytes + needed - std::min(needed, options_.segment_bytes);
     join_options.peer_chunk_pool_bytes = peer_chunk_bytes_;
     // Most ports whose messages may be long never send a long one: their chunks take no memory until used.
     join_options.sparse = true;
@@ -40,10 +47,7 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     std::shared_ptr<shm::Segment> segment = shm::Segment::join(options_.name, side_, join_options);
 
     for (const auto& ring : plan.rings) segment->add_ring(ring_name(ring.port), ring.options);
-    shm::CallQueueOptions queue;
-    queue.callers = shm::other(side_);
     const auto incoming_calls = segment->add_call_queue(calls_name, queue);
-    const auto table = encode(own_ports_);
     publish_blob(*segment, table_name, table.data(), table.size());
     const LargeMessageLimits limits{options_.rings.large_bytes,
                                     plan.rings.empty() ? max_large_bytes : large_bytes_};

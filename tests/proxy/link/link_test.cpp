@@ -32,6 +32,26 @@ TEST_CASE("data flow both ways whichever side opens first, and nothing is left b
     CHECK(segments_of(name) == 0);
 }
 
+TEST_CASE("the segment is as large as the ports need, whichever side opens first") {
+    const auto name = unique_name("many");
+    const bool adaptor_first = GENERATE(true, false);
+    PortTable table{"Many0", {}};
+    constexpr int ports = 100; // with 256 KiB each: six times the default of segment_mib
+    for (int i = 0; i < ports; ++i)
+        table.ports.push_back({PortKind::data_out, fmt::format("port{}", i), "T", "d", "", {}});
+    auto a = adaptor(name);
+    auto b = std::make_unique<LinkSide>(shm::Side::second, LinkOptions{name}, table);
+    (adaptor_first ? a : b)->link.open();
+    (adaptor_first ? b : a)->link.open();
+    a->link.wait_until_up(soon, "peer");
+    b->link.wait_until_up(soon, "peer");
+    REQUIRE(a->table == table);
+    for (const char* port : {"port0", "port99"}) {
+        REQUIRE(send(b->link.writer(port), 5));
+        CHECK(receive(a->link.reader(port)) == 5);
+    }
+}
+
 TEST_CASE("a listener is called once for messages that have arrived and not after it was removed") {
     const auto name = unique_name("listener");
     auto a = adaptor(name), b = interceptor(name);
