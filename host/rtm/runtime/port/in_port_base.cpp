@@ -25,7 +25,7 @@ InPortBase::InPortBase(const char* name, const char* data_type)
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "Any");
     addProperty("dataport.dataflow_type", "push, pull");
-    addProperty("dataport.interface_type", "corba_cdr, data_service, direct");
+    addProperty("dataport.interface_type", "corba_cdr, data_service, direct, shared_memory");
 }
 
 InPortBase::~InPortBase() {
@@ -75,7 +75,7 @@ ReturnCode_t InPortBase::addPushConnector(ConnectorProfile& profile, const coil:
     auto connector = std::make_unique<InPortPushConnector>(*this, info, buffer, owns_buffer, direct_buffer);
     const std::string registered = registered_push_type(prop);
     if (!registered.empty()) return addPushProvider(profile, prop, registered, std::move(connector));
-    publish_object(profile, "dataport." + corba_interface_type(prop) + ".inport",
+    publish_object(profile, address_key(corba_interface_type(prop), "inport"),
                    connector->servant().reference(), connector->servant().ior());
     addConnector(connector.release());
     return RTC_OK;

@@ -25,7 +25,7 @@ OutPortBase::OutPortBase(const char* name, const char* data_type) : PortBase(nam
     addProperty("dataport.data_type", data_type);
     addProperty("dataport.subscription_type", "flush, new, periodic");
     addProperty("dataport.dataflow_type", "push, pull");
-    addProperty("dataport.interface_type", "corba_cdr, data_service, direct");
+    addProperty("dataport.interface_type", "corba_cdr, data_service, direct, shared_memory");
 }
 
 OutPortBase::~OutPortBase() {
@@ -57,7 +57,7 @@ ReturnCode_t OutPortBase::addPullConnector(ConnectorProfile& profile, const coil
     auto connector = std::make_unique<OutPortPullConnector>(*this, info);
     const std::string registered = registered_pull_type(prop);
     if (registered.empty()) {
-        publish_object(profile, "dataport." + corba_interface_type(prop) + ".outport",
+        publish_object(profile, address_key(corba_interface_type(prop), "outport"),
                        connector->servant().reference(), connector->servant().ior());
     } else {
         auto provider = create_registered_out_provider(registered, prop);

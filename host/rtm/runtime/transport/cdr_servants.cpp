@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
+#include "host/rtm/runtime/transport/shared_memory/shared_memory_endpoints.hpp"
 #include <rtm/Manager.h>
 
 namespace RTC {
@@ -84,12 +85,15 @@ class DataPullServant : public POA_RTC::DataPullService {
 
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PushReceiver> receiver, bool little_endian) {
+    if (interface_type == "shared_memory")
+        return create_shared_memory_servant(std::move(receiver), little_endian);
     if (interface_type == "data_service") return new DataPushServant(std::move(receiver), little_endian);
     return new InPortCdrServant(std::move(receiver), little_endian);
 }
 
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PullBuffer> buffer) {
+    if (interface_type == "shared_memory") return create_shared_memory_servant(std::move(buffer));
     if (interface_type == "data_service") return new DataPullServant(std::move(buffer));
     return new OutPortCdrServant(std::move(buffer));
 }

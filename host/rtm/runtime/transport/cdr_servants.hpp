@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The CORBA objects through which peers in other processes push messages to an InPort or pull them from an
-// OutPort: corba_cdr (DataPort_OpenRTM.idl) and data_service (DataPort.idl).
+// OutPort: corba_cdr (DataPort_OpenRTM.idl), data_service (DataPort.idl) and shared_memory.
 #pragma once
 #include "host/rtm/runtime/transport/pull_buffer.hpp"
 #include "host/rtm/runtime/transport/push_receiver.hpp"
@@ -10,7 +10,7 @@
 
 namespace RTC {
 
-/// A servant that passes pushed messages to `receiver`. `interface_type`: corba_cdr or data_service.
+/// A servant that passes pushed messages to `receiver`. `interface_type`: as of corba_interface_type().
 /// `little_endian`: the byte order agreed for the connection; the octets on the wire do not carry it.
 PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PushReceiver> receiver, bool little_endian);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/connection_profile.hpp"
+#include "host/rtm/runtime/transport/registered_transports.hpp"
+#include <algorithm>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/Manager.h>
 #include <rtm/NVUtil.h>
@@ -41,6 +43,14 @@ bool is_little_endian(const coil::Properties& connector_properties) {
 std::string unsupported_reason(const coil::Properties& connector_properties) {
     const std::string flow = coil::normalize(connector_properties.getProperty("dataflow_type", "push"));
     if (flow != "push" && flow != "pull") return "dataflow_type is " + flow + ", expected push or pull";
+    const std::string type = coil::normalize(connector_properties.getProperty("interface_type"));
+    const coil::vstring own_types{"", "corba_cdr", "data_service", "direct", "shared_memory"};
+    if (std::find(own_types.begin(), own_types.end(), type) == own_types.end() &&
+        registered_push_type(connector_properties).empty() &&
+        registered_pull_type(connector_properties).empty())
+        return "interface_type is " + type +
+               ", expected corba_cdr, data_service, direct, shared_memory or one that a loaded library "
+               "brings";
     const std::string order = preferred_byte_order(connector_properties);
     if (!order.empty() && order != "big" && order != "little")
         return "serializer.cdr.endian is " + order + ", expected little or big";

@@ -2,13 +2,12 @@
 #include "host/rtm/runtime/transport/remote_endpoints.hpp"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/connection_profile.hpp"
+#include "host/rtm/runtime/transport/shared_memory/shared_memory_endpoints.hpp"
 
 namespace RTC {
-namespace {
 
-// What an exception of a call means: no answer in time (empty), no such object, or an answer that is an
-// error. omniORB throws TRANSIENT and COMM_FAILURE when the process is gone, OBJECT_NOT_EXIST, OBJ_ADAPTER
-// and INV_OBJREF when the object is.
+// omniORB throws TRANSIENT and COMM_FAILURE when the process is gone, OBJECT_NOT_EXIST, OBJ_ADAPTER and
+// INV_OBJREF when the object is.
 std::optional<DataPortStatus> status_of(const CORBA::SystemException& e) {
     const CORBA::Exception* thrown = &e;
     if (CORBA::TIMEOUT::_downcast(thrown) != nullptr) return std::nullopt;
@@ -22,6 +21,8 @@ std::optional<DataPortStatus> status_of(const CORBA::SystemException& e) {
 void set_call_timeout(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {
     omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
 }
+
+namespace {
 
 // The two IDL interfaces differ only in the names of their operations and types.
 auto call_put(OpenRTM::InPortCdr_ptr object, const OpenRTM::CdrData& data) { return object->put(data); }
@@ -87,8 +88,9 @@ class CorbaSender : public RemoteSender {
 
 std::unique_ptr<RemoteReceiver> RemoteReceiver::find(const ConnectorProfile& profile,
                                                      const std::string& interface_type) {
-    CORBA::Object_var object = find_published_object(profile, "dataport." + interface_type + ".inport");
+    CORBA::Object_var object = find_published_object(profile, address_key(interface_type, "inport"));
     if (CORBA::is_nil(object.in())) return nullptr;
+    if (interface_type == "shared_memory") return create_shared_memory_receiver(object.in());
     if (interface_type == "data_service")
         return std::make_unique<CorbaReceiver<RTC::DataPushService, RTC::OctetSeq>>(object.in());
     return std::make_unique<CorbaReceiver<OpenRTM::InPortCdr, OpenRTM::CdrData>>(object.in());
@@ -96,8 +98,9 @@ std::unique_ptr<RemoteReceiver> RemoteReceiver::find(const ConnectorProfile& pro
 
 std::unique_ptr<RemoteSender> RemoteSender::find(const ConnectorProfile& profile,
                                                  const std::string& interface_type) {
-    CORBA::Object_var object = find_published_object(profile, "dataport." + interface_type + ".outport");
+    CORBA::Object_var object = find_published_object(profile, address_key(interface_type, "outport"));
     if (CORBA::is_nil(object.in())) return nullptr;
+    if (interface_type == "shared_memory") return create_shared_memory_sender(object.in());
     if (interface_type == "data_service")
         return std::make_unique<CorbaSender<RTC::DataPullService, RTC::OctetSeq>>(object.in());
     return std::make_unique<CorbaSender<OpenRTM::OutPortCdr, OpenRTM::CdrData>>(object.in());
@@ -105,7 +108,12 @@ std::unique_ptr<RemoteSender> RemoteSender::find(const ConnectorProfile& profile
 
 std::string corba_interface_type(const coil::Properties& connector_properties) {
     const std::string type = coil::normalize(connector_properties.getProperty("interface_type"));
-    return type == "data_service" ? type : "corba_cdr";
+    return type == "data_service" || type == "shared_memory" ? type : "corba_cdr";
+}
+
+// OpenRTM-aist publishes the objects of shared_memory under the key of corba_cdr.
+std::string address_key(const std::string& interface_type, const char* side) {
+    return "dataport." + (interface_type == "shared_memory" ? "corba_cdr" : interface_type) + "." + side;
 }
 
 } // namespace RTC

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The peer's end of a data connection when the peer is in another process. The interface types are those of
-// OpenRTM-aist: corba_cdr (DataPort_OpenRTM.idl) and data_service (DataPort.idl); both carry the CDR of one
-// message as an octet sequence.
+// OpenRTM-aist: corba_cdr (DataPort_OpenRTM.idl) and data_service (DataPort.idl), which carry the CDR of one
+// message as an octet sequence, and shared_memory.
 #pragma once
 #include <chrono>
 #include <memory>
@@ -24,8 +24,8 @@ class RemoteReceiver {
     /// The time limit of each following call; before the first setTimeout() the ORB's own limit holds.
     virtual void setTimeout(std::chrono::milliseconds timeout) = 0;
 
-    /// The receiver that the InPort has published in the profile for this interface type (corba_cdr or
-    /// data_service); NULL when there is none.
+    /// The receiver that the InPort has published in the profile for this interface type; NULL when there is
+    /// none.
     static std::unique_ptr<RemoteReceiver> find(const ConnectorProfile& profile,
                                                 const std::string& interface_type);
 };
@@ -48,8 +48,17 @@ class RemoteSender {
                                               const std::string& interface_type);
 };
 
-/// The interface type that carries a connection between processes: data_service when the connection's
-/// `interface_type` says so, else corba_cdr (also for `direct`, which works within a process only).
+/// The interface type that carries a connection between processes: data_service or shared_memory when the
+/// connection's `interface_type` says so, else corba_cdr (also for `direct`, which works within a process only).
 std::string corba_interface_type(const coil::Properties& connector_properties);
+
+/// The key under which a port publishes its object for that interface type. `side`: inport or outport.
+std::string address_key(const std::string& interface_type, const char* side);
+
+/// What an exception of a call means: no answer in time (empty), CONNECTION_LOST when there is no such object,
+/// or PORT_ERROR for an answer that is an error.
+std::optional<DataPortStatus> status_of(const CORBA::SystemException& e);
+
+void set_call_timeout(CORBA::Object_ptr object, std::chrono::milliseconds timeout);
 
 } // namespace RTC

@@ -318,7 +318,7 @@ TEST_CASE("A receiver that hangs delays no other receiver and is served again wh
     CHECK(counter.out_.getConnectorIds().size() == 2);
 }
 
-TEST_CASE("data_service and both byte orders carry values between processes by push and by pull") {
+TEST_CASE("Each interface type and both byte orders carry values between processes by push and by pull") {
     RemoteHost other("Counter,Reporter");
     REQUIRE(other.host.wait_for_output("ready\n"));
     ManagerFixture fixture(false, {"exec_cxt.periodic.rate:200"});
@@ -328,7 +328,7 @@ TEST_CASE("data_service and both byte orders carry values between processes by p
     RTC::RTObject_var here = accumulator.getObjRef(), sender = counter.getObjRef();
     RTC::RTObject_var there = other.component(orb, "Counter0"), reporter = other.component(orb, "Reporter0");
     for (auto* one : {&here, &sender, &there, &reporter}) CORBA_RTCUtil::activate(one->in());
-    for (const char* interface_type : {"corba_cdr", "data_service"})
+    for (const char* interface_type : {"corba_cdr", "data_service", "shared_memory"})
         for (const char* order : {"little", "big"}) {
             INFO(interface_type << " " << order);
             const long before = accumulator.received_;
@@ -354,6 +354,10 @@ TEST_CASE("data_service and both byte orders carry values between processes by p
     CHECK(connect(accumulator.in_, there.in(), "out", {{"serializer.cdr.endian", "middle"}}) ==
           RTC::BAD_PARAMETER);
     CHECK_THAT(accumulator.in_.connectError(), Catch::Contains("expected little or big"));
+    CHECK(connect(accumulator.in_, there.in(), "out", {{"interface_type", "corba_cdr_udp"}}) ==
+          RTC::BAD_PARAMETER);
+    CHECK_THAT(accumulator.in_.connectError(),
+               Catch::Contains("interface_type is corba_cdr_udp, expected corba_cdr"));
 }
 
 TEST_CASE("Bytes that are no message of the port's type are dropped and the next valid message is read") {

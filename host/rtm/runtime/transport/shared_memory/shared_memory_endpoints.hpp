@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interface type shared_memory of OpenRTM-aist: each message is in a SharedMessage object, and one CORBA
+// call says that it is there. Both processes are on one machine and may read each other's objects, which
+// processes of one user may.
+#pragma once
+#include "host/rtm/runtime/transport/pull_buffer.hpp"
+#include "host/rtm/runtime/transport/push_receiver.hpp"
+#include "host/rtm/runtime/transport/remote_endpoints.hpp"
+#include <memory>
+
+namespace RTC {
+
+/// Push, the sending end: `object` is the PortSharedMemory that the InPort has published.
+std::unique_ptr<RemoteReceiver> create_shared_memory_receiver(CORBA::Object_ptr object);
+/// Push, the receiving end: what the InPort publishes.
+PortableServer::ServantBase* create_shared_memory_servant(std::shared_ptr<PushReceiver> receiver,
+                                                          bool little_endian);
+/// Pull, the receiving end: `object` is the PortSharedMemory that the OutPort has published.
+std::unique_ptr<RemoteSender> create_shared_memory_sender(CORBA::Object_ptr object);
+/// Pull, the sending end: what the OutPort publishes.
+PortableServer::ServantBase* create_shared_memory_servant(std::shared_ptr<PullBuffer> buffer);
+
+} // namespace RTC
