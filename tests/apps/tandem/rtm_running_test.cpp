@@ -156,6 +156,24 @@ TEST_CASE("No sub-command of tandem rtm calls what a manager of OpenRTM-aist doe
     }
 }
 
+TEST_CASE("tandem rtm cat pulls, and says what it waits for") {
+    Running host;
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    const std::vector<std::string> cat{"cat", "Counter0:out", "-p", "dataflow_type=pull", "-n", "2", "--for"};
+    auto with_time = [&](const char* seconds) {
+        auto arguments = cat;
+        arguments.push_back(seconds);
+        return arguments;
+    };
+    const Result inactive = host.run(with_time("1.5"));
+    CHECK(inactive.exit_code == 1);
+    CHECK_THAT(inactive.errors,
+               Catch::StartsWith("tandem: waiting for Counter0.out: Counter0 is INACTIVE; tandem rtm "
+                                 "activate Counter0\n"));
+    host.good({"activate", "Counter0"});
+    CHECK(host.good(with_time("20")).output_contains("\"data\":"));
+}
+
 TEST_CASE(
     "tandem rtm conf has effect on a component that takes values over at the next activation of their set") {
     testing::RemoteHost other("ConfigurationUser", testing::unused_port(),

@@ -29,6 +29,21 @@ Json sample_json(const CdrJsonConverter& converter, CORBA::TypeCode_ptr type, co
     }
 }
 
+/// What a user who sees no samples looks for next, in one line.
+std::string describe_wait(const RemotePort& port) {
+    const std::string component = port.name.substr(0, port.name.rfind('.'));
+    std::string state = "does not answer";
+    try {
+        RTC::RTObject_ptr owner = port.profile->owner;
+        if (!CORBA::is_nil(owner)) state = "is " + component_state(owner);
+    } catch (const CORBA::Exception&) {
+        // that it does not answer is what the line says
+    }
+    if (state == "is ACTIVE") return fmt::format("waiting for {} to write to {}", component, port.name);
+    return fmt::format("waiting for {}: {} {}; tandem rtm activate {}", port.name, component, state,
+                       component);
+}
+
 } // namespace
 
 int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options) {
@@ -51,12 +66,20 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
     // The time of --for begins with the connection, not with the search for the component.
     const auto begin = std::chrono::steady_clock::now();
     unsigned long received = 0;
+    bool has_said_that_it_waits = false;
+    const bool pulls =
+        connection_properties(options.properties).getProperty("dataport.dataflow_type") == "pull";
     while (!interrupted() && (options.count == 0 || received < options.count)) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
         if (options.timeout_s > 0 && spent.count() > options.timeout_s) break;
+        if (received == 0 && spent.count() > 1 && !has_said_that_it_waits) {
+            fmt::print(stderr, "tandem: {}\n", describe_wait(remote_port));
+            has_said_that_it_waits = true;
+        }
+        if (pulls) port.fetch();
         RTC::ByteData bytes;
-        // The wait is short, because a signal does not end it.
-        if (!port.samples().pop(bytes, std::chrono::milliseconds(100))) continue;
+        // The wait is short, because a signal does not end it, and a sender that is pulled from has to be asked again.
+        if (!port.samples().pop(bytes, std::chrono::milliseconds(pulls ? 10 : 100))) continue;
         ++received;
         // One line for each sample, flushed at once: another program may read them through a pipe.
         print_text(sample_json(converter, code.in(), bytes, options.raw)

@@ -42,6 +42,14 @@ UntypedInPort::UntypedInPort(const char* name, const char* type)
 // The base class has it for ports with a variable.
 bool UntypedInPort::read(std::string) { return false; }
 
+// The listener of the samples sees each. The number is bounded: a sender may produce them as fast as they are fetched.
+void UntypedInPort::fetch() {
+    std::lock_guard<std::mutex> lock(m_connectorsMutex);
+    RTC::ByteData bytes;
+    for (auto* connector : m_connectors)
+        for (int i = 0; i < 1000 && connector->read(bytes) == RTC::DataPortStatus::PORT_OK; ++i) continue;
+}
+
 UntypedOutPort::UntypedOutPort(const char* name, const char* type) : OutPortBase(name, type) {
     addProperty("dataport.marshaling_types", "cdr");
 }

@@ -32,6 +32,8 @@ class UntypedInPort : public RTC::InPortBase {
     UntypedInPort(const char* name, const char* type);
     bool read(std::string name = "") override;
     SampleQueue& samples() { return *samples_; }
+    /// With dataflow_type=pull: fetches what the sender has, up to 1000 samples. Waits for its answers.
+    void fetch();
 
   private:
     SampleQueue* samples_; // owned by the port's list of listeners
