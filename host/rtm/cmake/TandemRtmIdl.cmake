@@ -10,8 +10,9 @@ set(TANDEM_RTM_IDL_TOOLS ${CMAKE_CURRENT_LIST_DIR}/../idl CACHE INTERNAL "")
 find_program(OMNIIDL omniidl REQUIRED)
 
 # Runs omniidl for the file `idl` into `directory`; the variable named by `out` gets the generated files.
+# BACKEND_FLAGS go to omniidl's C++ back end.
 function(tandem_run_omniidl out idl directory)
-  cmake_parse_arguments(arg "" "" "INCLUDE_DIRS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "INCLUDE_DIRS;BACKEND_FLAGS" ${ARGN})
   get_filename_component(base ${idl} NAME_WE)
   get_filename_component(idl ${idl} ABSOLUTE)
   set(includes "")
@@ -32,7 +33,7 @@ function(tandem_run_omniidl out idl directory)
            ${directory}/${base}Signatures.cpp
     COMMAND ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1
             ${OMNIIDL} -nf -p${TANDEM_RTM_IDL_TOOLS} -bcxx -Wba -Wbuse_quotes -Wbh=.hh -Wbs=SK.cc -Wbd=DynSK.cc
-            -btandem_signatures -C${directory} ${includes} ${idl}
+            ${arg_BACKEND_FLAGS} -btandem_signatures -C${directory} ${includes} ${idl}
     DEPENDS ${idl} ${TANDEM_RTM_IDL_TOOLS}/tandem_signatures.py
     COMMENT "omniidl ${base}.idl" VERBATIM)
   # -O1: stubs marshal sequences by calls into omniORB, so that higher levels cost compile time only.
@@ -52,7 +53,8 @@ function(tandem_add_rtm_idl target)
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target}_idl)
   foreach(idl ${arg_UNPARSED_ARGUMENTS})
     tandem_run_omniidl(sources ${idl} ${directory}
-      INCLUDE_DIRS ${arg_INCLUDE_DIRS} ${TANDEM_RTM_IDL_TOOLS} ${TANDEM_RTM_IDL_INCLUDE})
+      INCLUDE_DIRS ${arg_INCLUDE_DIRS} ${TANDEM_RTM_IDL_TOOLS} ${TANDEM_RTM_IDL_INCLUDE}
+      BACKEND_FLAGS -Wbshortcut) # consumers call providers of their process without a dispatcher
     target_sources(${target} PRIVATE ${sources})
   endforeach()
   target_include_directories(${target} SYSTEM PUBLIC ${directory})

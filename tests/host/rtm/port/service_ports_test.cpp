@@ -35,6 +35,36 @@ TEST_CASE("A consumer calls the provider of the same type and instance while it 
     CHECK(CORBA::is_nil(consumer.calculator_._ptr()));
 }
 
+TEST_CASE("A consumer calls a provider of its process without the ORB's dispatcher") {
+    /// The ORB knows the servant's object while it dispatches a call to it.
+    struct Witness : Calculator {
+        char* name() override {
+            CORBA::Object_var object =
+                RTC::Manager::instance().theORB()->resolve_initial_references("POACurrent");
+            PortableServer::Current_var current = PortableServer::Current::_narrow(object.in());
+            try {
+                PortableServer::POA_var poa = current->get_POA();
+                return CORBA::string_dup("dispatched");
+            } catch (const PortableServer::Current::NoContext&) {
+                return CORBA::string_dup("direct");
+            }
+        }
+    } witness;
+    ManagerFixture fixture;
+    auto& provider = fixture.create<Recorder>("Recorder");
+    auto& consumer = fixture.create<CalculatorConsumer>("CalculatorConsumer");
+    RTC::CorbaPort port("calculator");
+    REQUIRE(port.registerProvider("calc", "Testing::Calculator", witness));
+    provider.addPort(port);
+    fixture.connect("CalculatorConsumer0.calculator?port=Recorder0.calculator");
+    fixture.activate(provider);
+    consumer.calculator_->calls(); // the first call finds the servant
+    CHECK(std::string(CORBA::String_var(consumer.calculator_->name()).in()) == "direct");
+    provider.deactivate(0);
+    CHECK_THROWS_AS(consumer.calculator_->calls(), CORBA::OBJECT_NOT_EXIST);
+    provider.removePort(port);
+}
+
 TEST_CASE("A strict connection without a matching provider is refused, a lenient one is not") {
     ManagerFixture fixture;
     fixture.create<CalculatorConsumer>("CalculatorConsumer");
