@@ -3,6 +3,7 @@
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/configuration/conf_file.hpp"
 #include "host/rtm/runtime/configuration/conf_keys.hpp"
+#include "host/text/nearest_name.hpp"
 #include <algorithm>
 #include <cmath>
 #include <coil/stringutil.h>
@@ -10,39 +11,16 @@
 #include <optional>
 #include <rtm/ExecutionContextBase.h>
 #include <rtm/Manager.h>
-#include <utility>
 
 namespace RTC {
 namespace {
 
-// Levenshtein distance: the least number of letters inserted, deleted or replaced. One row of the matrix is
-// kept; `diagonal` is the entry above and to the left of the present one.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-        }
-    }
-    return row.back();
-}
-
-struct NearestKey {
-    std::string name;
-    std::size_t distance = static_cast<std::size_t>(-1);
-};
-
-NearestKey find_nearest_key(const std::string& key) {
-    NearestKey best;
-    for (const auto& known : conf_keys()) {
-        if (std::string(known.name).find('*') != std::string::npos) continue;
-        const std::size_t d = edit_distance(key, known.name);
-        if (d < best.distance) best = {known.name, d};
-    }
-    return best;
+// The known keys that are no patterns.
+std::vector<std::string> plain_keys() {
+    std::vector<std::string> names;
+    for (const auto& known : conf_keys())
+        if (std::string(known.name).find('*') == std::string::npos) names.emplace_back(known.name);
+    return names;
 }
 
 // Is `name` the first part of a known key?
@@ -59,10 +37,12 @@ std::optional<std::string> unknown_key_warning(const std::string& key) {
     constexpr std::size_t max_compared = 100; // the comparison takes time with the key's length
     constexpr std::size_t likely_typing_error = 2;
     const auto parts = coil::split(key, ".");
-    const NearestKey nearest = find_nearest_key(key.substr(0, max_compared));
-    if (parts.size() >= 3 && !is_section(parts[0]) && nearest.distance > likely_typing_error)
+    const std::string start = key.substr(0, max_compared);
+    const std::string nearest = tandem::text::nearest_name(start, plain_keys());
+    if (parts.size() >= 3 && !is_section(parts[0]) &&
+        tandem::text::edit_distance(start, nearest) > likely_typing_error)
         return std::nullopt;
-    return "unknown key " + printable(key) + "; did you mean " + nearest.name + "?";
+    return "unknown key " + printable(key) + "; did you mean " + nearest + "?";
 }
 
 bool parse_number(const std::string& text, double& number) {
