@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // opros_host: runs an OPRoS application until a signal (SIGINT, SIGTERM, SIGHUP) asks it to end.
+#include "host/crash/crash_report.hpp"
 #include "host/opros/engine/application.hpp"
 #include "host/opros/engine/load/load_probe.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
@@ -89,6 +90,7 @@ int main(int argc, char** argv) {
     // First of all: as the child process of a probe this does not return.
     tandem::plugin::serve_probe(argc, argv,
                                 {{tandem::engine::load_probe_task, tandem::engine::run_load_probe}});
+    tandem::crash::install_crash_report("opros_host");
     spdlog::set_default_logger(spdlog::stderr_logger_mt("opros_host"));
     spdlog::set_pattern("%H:%M:%S.%e %n %l: %v");
     Options options;

@@ -147,6 +147,7 @@ int run(const Arguments& a, char** argv_of_program) {
     for (const auto& notice : tandem::options::apply(a.real_time)) spdlog::warn("{}", notice);
     RTC::Manager::Options options;
     options.lockstep = !a.lockstep_socket.empty();
+    options.crash_report = "rtm_host";
     options.can_restart = true; // by restart() below
     options.cpu = a.real_time.cpu;
     options.tick_spin = a.real_time.tick_spin();

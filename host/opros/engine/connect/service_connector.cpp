@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/connect/service_connector.hpp"
 
+#include "host/crash/callback_scope.hpp"
+
 #include <MethodInvokeException.h>
 
 namespace tandem::engine {
@@ -26,6 +28,8 @@ class DirectConnector : public Connector {
     ReturnType requestService(const std::string& name, std::vector<opros_params>& params,
                               opros_params& result, int) override {
         std::string method = name;
+        // The method runs in the caller's thread, inside of a callback of the caller.
+        const crash::CallbackScope scope(provider_.name().c_str(), name.c_str(), provider_.code());
         const ReturnType code = provided_.callService(method, params, result);
         if (code == OPROS_SUCCESS) return code;
         throw MethodInvokeException("call of " + provider_.name() + "'s " + name + " failed with code " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/execute/component_host.hpp"
 
+#include "host/crash/callback_scope.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/rt/periodic_tick.hpp"
 
@@ -9,6 +10,7 @@
 #include <dlfcn.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <typeinfo>
 
 namespace tandem::engine {
 namespace {
@@ -18,12 +20,14 @@ std::string code_text(ReturnType code) {
     return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
 }
 
-/// Publishes the name of a callback while it runs, for the message about one that does not return. Callbacks
-/// nest (in lock-step, an event that a component sends to itself), so the end of one restores the outer name.
+/// Publishes the name of a callback while it runs, for the message about one that does not return and for the report
+/// of a crash. Callbacks nest (in lock-step, an event that a component sends to itself), so the end of one restores
+/// the outer name.
 class CallbackScope {
   public:
-    CallbackScope(std::atomic<const char*>& current, const char* name)
-        : current_(current), outer_(current.exchange(name)) {}
+    CallbackScope(std::atomic<const char*>& current, const std::string& component, const char* name,
+                  const void* code)
+        : current_(current), outer_(current.exchange(name)), crash_scope_(component.c_str(), name, code) {}
     ~CallbackScope() { current_ = outer_; }
     CallbackScope(const CallbackScope&) = delete;
     CallbackScope& operator=(const CallbackScope&) = delete;
@@ -31,6 +35,7 @@ class CallbackScope {
   private:
     std::atomic<const char*>& current_;
     const char* outer_;
+    const crash::CallbackScope crash_scope_;
 };
 
 } // namespace
@@ -39,9 +44,11 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
                              const ComponentHostOptions& options)
     : name_(entry.name), profile_(std::move(profile)),
       task_queue_(std::make_shared<TaskQueue>(options.task_queue_capacity, options.task_mode)) {
+    const CallbackScope scope(current_callback_, name_, "its creation", nullptr);
     auto loaded = load_component(profile_, options.plugin_dirs, options.probe);
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
+    code_ = &typeid(*component_);
     component_->setId(name_);
     set_component_properties(*component_, profile_, entry.properties, options.plugin_dirs);
 }
@@ -61,7 +68,7 @@ std::string ComponentHost::enter_error(const char* callback, const std::string& 
 }
 
 std::string ComponentHost::run_guarded(const char* callback, const std::function<void()>& code) {
-    const CallbackScope scope(current_callback_, callback);
+    const CallbackScope scope(current_callback_, name_, callback, code_);
     try {
         code();
         return "";
@@ -151,12 +158,12 @@ void ComponentHost::destroy() {
 }
 
 void ComponentHost::destroy_instance() {
-    const CallbackScope scope(current_callback_, "its destructor");
+    const CallbackScope scope(current_callback_, name_, "its destructor", code_);
     component_.reset();
 }
 
 void ComponentHost::unload_library() {
-    const CallbackScope scope(current_callback_, "its static destructors");
+    const CallbackScope scope(current_callback_, name_, "its static destructors", code_);
     library_.reset();
 }
 

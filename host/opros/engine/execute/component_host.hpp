@@ -40,6 +40,8 @@ class ComponentHost {
     const ComponentProfile& profile() const { return profile_; }
     Component& component() { return *component_; }
     const std::shared_ptr<plugin::Library>& library() const { return library_; }
+    /// An address inside the library.
+    const void* code() const { return code_; }
     /// [any-thread] Whether the component is in the state in which it is executed.
     bool is_active() { return component_->getStatus() == OPROS_CS_ACTIVE; }
     /// [any-thread] Whether its initialization or start has failed: it is not connected and not executed.
@@ -108,6 +110,7 @@ class ComponentHost {
     // Declared before the instance, and so destroyed after it: its code is in the library.
     std::shared_ptr<plugin::Library> library_;
     std::shared_ptr<Component> component_;
+    const void* code_ = nullptr; // an address in the library, for the report of a crash
     InputSignal input_signal_;
     std::shared_ptr<TaskQueue> task_queue_;
     std::vector<InputDataPortInterface*> input_ports_;

@@ -2,9 +2,11 @@
 // The actions that an execution context calls (on_...), and the user's callbacks (on...) within them.
 // OpenRTM-aist: RTObject_impl::on_initialize() ... on_rate_changed(); the order of callback, ports and
 // configuration in each action is the same.
+#include "host/crash/callback_scope.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include <atomic>
 #include <rtm/RTObject.h>
+#include <typeinfo>
 
 namespace RTC {
 
@@ -28,6 +30,7 @@ template <class Callback>
 ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
                                         PostComponentActionListenerType post, Callback callback,
                                         bool warm_up) {
+    const tandem::crash::CallbackScope scope(getInstanceName(), what, &typeid(*this));
     ReturnCode_t result = RTC_ERROR;
     std::string error;
     auto attempt = [&](auto call) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The manager as the one object of its process, as OpenRTM-aist's Manager::init() and Manager::instance():
 // its construction, and access to its settings. What it does is in the other manager_*.cpp.
+#include "host/crash/crash_report.hpp"
 #include "host/plugin/abi.hpp"
 #include "host/rtm/runtime/configuration/conf_check.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
@@ -52,6 +53,7 @@ Manager& Manager::start(int argc, char** argv, const Options& options) {
     if (the_manager != nullptr) return *the_manager;
     // A component's own program is linked to this library, whatever headers it was built against.
     tandem::plugin::require_abi_of_process(tandem::plugin::ComponentModel::rtm, TANDEM_RTM_ABI);
+    if (options.crash_report != nullptr) tandem::crash::install_crash_report(options.crash_report);
     std::unique_ptr<Manager> manager(new Manager(options));
     configure_process(*manager->m_impl, argc, argv);
     start_orb(*manager->m_impl);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Creation of components. OpenRTM-aist: Manager::createComponent(). The steps and the calls of listeners come
 // in its order; an error is an exception here, with a line that says which step failed.
+#include "host/crash/callback_scope.hpp"
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
 #include "host/rtm/runtime/manager/component_settings.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
@@ -11,8 +12,9 @@ namespace RTC {
 
 // Runs the component's constructor, which may throw anything.
 RTObject_impl& Manager::makeOrThrow(FactoryBase& factory) {
-    const std::string failure =
-        "component type " + factory.profile().getProperty("implementation_id") + " cannot be created";
+    const std::string type = factory.profile().getProperty("implementation_id");
+    const std::string failure = "component type " + type + " cannot be created";
+    const tandem::crash::CallbackScope scope(type.c_str(), "its constructor", nullptr);
     try {
         if (RTObject_impl* component = factory.create(this)) return *component;
     } catch (const std::exception& e) {

@@ -19,6 +19,8 @@ struct HostOptions {
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
     std::vector<std::filesystem::path> plugin_path;    ///< searched after manager.modules.load_path
     std::optional<tandem::plugin::ProbeOptions> probe; ///< modules are loaded in a child process first
+    /// The program's name, if crashes are to be reported (host/crash); NULL: the program's own signal handlers stay.
+    const char* crash_report = nullptr;
     bool can_restart = false; ///< the program starts anew when Manager::restartRequested() is true
 };
 

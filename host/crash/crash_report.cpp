@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// What runs after the fault is async-signal-safe: it allocates nothing and takes no lock.
+#include "host/crash/crash_report.hpp"
+
+#include "host/crash/alternate_stack.hpp"
+#include "host/crash/callback_scope.hpp"
+#include "host/crash/code_location.hpp"
+#include "host/crash/stack_trace.hpp"
+#include "host/crash/text_buffer.hpp"
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <cxxabi.h>
+#include <exception>
+#include <string_view>
+#include <sys/prctl.h>
+#include <typeinfo>
+#include <unistd.h>
+
+namespace tandem::crash {
+namespace {
+
+constexpr unsigned max_report_seconds = 10;
+
+const char* program_name = "host";
+std::atomic<pid_t> reporting_thread{0};
+TextBuffer report; // of the reporting thread
+
+/// Gives a signal its default action, and lets it reach this thread.
+void reset_signal(int number) {
+    signal(number, SIG_DFL);
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, number);
+    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+}
+
+[[noreturn]] void end_by_signal(int number) {
+    reset_signal(number);
+    raise(number);
+    _exit(128 + number);
+}
+
+/// True for the first thread that has something to report. Another one waits for the end that the first one brings;
+/// a second fault of the same thread, in the report itself, ends the process with what the report has so far.
+bool begin_report(int number) {
+    const pid_t self = gettid();
+    pid_t nobody = 0;
+    if (reporting_thread.compare_exchange_strong(nobody, self)) {
+        reset_signal(SIGALRM); // bounds the report: nothing of the process can be relied on
+        alarm(max_report_seconds);
+        return true;
+    }
+    while (reporting_thread != self) pause();
+    report.write_to_stderr();
+    end_by_signal(number);
+}
+
+void append_address(const siginfo_t& info, const ucontext_t& context) {
+    const auto address = reinterpret_cast<std::uintptr_t>(info.si_addr);
+    if (info.si_code <= 0) {
+        // Sent by kill() or raise(), abort()'s included: there is no address.
+        if (info.si_pid != getpid()) (report << ", sent by process ").decimal(info.si_pid);
+        return;
+    }
+    switch (info.si_signo) {
+    case SIGSEGV:
+        if (info.si_code > 0 && is_stack_overflow(context, address))
+            (report << ", the thread's stack has overflowed at address ").hexadecimal(address);
+        else if (info.si_code == SEGV_MAPERR)
+            (report << ", no memory at address ").hexadecimal(address);
+        else if (info.si_code == SEGV_ACCERR)
+            (report << ", access not permitted at address ").hexadecimal(address);
+        else
+            report << ", address not known"; // not in the half of the address space that processes have
+        break;
+    case SIGFPE:
+        report << (info.si_code == FPE_INTDIV ? ", integer division by zero" : ", arithmetic error");
+        break;
+    default:
+        (report << ", address ").hexadecimal(address);
+    }
+}
+
+/// "rtm_host: component Tank0 crashed in onExecute"
+void append_callback(const RunningCallback& running) {
+    report << program_name << ": ";
+    if (running.callback == nullptr)
+        report << "crashed outside of the callbacks of components";
+    else
+        report << "component " << running.component << " crashed in " << running.callback;
+}
+
+void append_function(const CodeLocation& location) {
+    if (location.symbol[0] == '\0')
+        report << "a function without a symbol";
+    else
+        report.symbol(location.symbol.data());
+}
+
+bool is_of_language_runtime(const CodeLocation& location) {
+    const char* slash = std::strrchr(location.file.data(), '/');
+    const std::string_view name = slash != nullptr ? slash + 1 : location.file.data();
+    return name.starts_with("libc.so") || name.starts_with("libstdc++.so") || name.starts_with("libgcc_s.so");
+}
+
+/// The innermost function that is neither of libc nor of the C++ run time, where abort() and memcpy() are: the one to
+/// look at first.
+void append_place(const StackTrace& trace) {
+    for (std::size_t i = 0; i < trace.size; ++i) {
+        const CodeLocation location = locate(trace.address[i]);
+        if (location.file[0] == '\0') {
+            (report << ", called address ").hexadecimal(trace.address[i]) << " without code";
+        } else if (!is_of_language_runtime(location)) {
+            report << ", in ";
+            append_function(location);
+            (report << " at ").hexadecimal(trace.address[i]) << " of " << location.file.data();
+            return;
+        }
+    }
+}
+
+/// The plugin and the thread.
+void append_origin(const RunningCallback& running) {
+    if (running.code != nullptr)
+        report << "  plugin " << locate(reinterpret_cast<std::uintptr_t>(running.code)).file.data() << "\n";
+    char thread[17] = "";
+    prctl(PR_GET_NAME, thread);
+    (report << "  thread ").decimal(gettid()) << " " << thread << "\n";
+}
+
+void append_calls(const StackTrace& trace) {
+    for (std::size_t i = 0; i < trace.size; ++i) {
+        const CodeLocation location = locate(trace.address[i]);
+        (report << "  #").decimal(static_cast<std::int64_t>(i)) << (i < 10 ? "  " : " ");
+        if (location.file[0] == '\0') {
+            (report << "no code at ").hexadecimal(trace.address[i]);
+        } else {
+            append_function(location);
+            (report << "  (" << location.file.data() << " +").hexadecimal(location.offset) << ")";
+        }
+        report << "\n";
+    }
+    if (trace.size == trace.address.size()) report << "  and calls further out\n";
+}
+
+/// The end of the first line, and the rest of the block.
+void append_rest(const RunningCallback& running, const StackTrace& trace) {
+    append_place(trace);
+    report << "\n";
+    append_origin(running);
+    append_calls(trace);
+    report.write_to_stderr();
+}
+
+void on_fault(int number, siginfo_t* info, void* context) {
+    if (begin_report(number)) {
+        const RunningCallback running = running_callback();
+        append_callback(running);
+        (report << ": signal ").decimal(number) << " (" << sigdescr_np(number) << ")";
+        auto& interrupted = *static_cast<ucontext_t*>(context);
+        append_address(*info, interrupted);
+        append_rest(running, interrupted_calls(interrupted));
+    }
+    end_by_signal(number);
+}
+
+void append_exception() {
+    const std::type_info* type = abi::__cxa_current_exception_type();
+    if (type == nullptr) {
+        report << "std::terminate() was called, for example because a std::thread was destroyed that had not "
+                  "been "
+                  "joined";
+        return;
+    }
+    (report << "an exception that nobody catches, of type ").type(type->name());
+    try {
+        throw;
+    } catch (const std::exception& error) {
+        report << ": " << error.what();
+    } catch (...) { // any other type has no text
+    }
+}
+
+[[noreturn]] void on_terminate() {
+    if (begin_report(SIGABRT)) {
+        const RunningCallback running = running_callback();
+        append_callback(running);
+        report << ": ";
+        append_exception();
+        append_rest(running, calls_from(reinterpret_cast<std::uintptr_t>(__builtin_return_address(0))));
+    }
+    end_by_signal(SIGABRT);
+}
+
+} // namespace
+
+void install_crash_report(const char* program) {
+    program_name = program;
+    enable_alternate_stacks();
+    give_this_thread_an_alternate_stack();
+    struct sigaction action {};
+    action.sa_sigaction = on_fault;
+    // SA_NODEFER: a second fault, in the handler, comes here, too, instead of ending the process without a report.
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+    sigemptyset(&action.sa_mask);
+    for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) sigaction(number, &action, nullptr);
+    std::set_terminate(on_terminate);
+}
+
+} // namespace tandem::crash

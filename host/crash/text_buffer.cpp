@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/crash/text_buffer.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#define HAVE_DECL_BASENAME 1 // libiberty.h declares basename() otherwise than glibc
+#include <libiberty/demangle.h>
+#include <unistd.h>
+
+namespace tandem::crash {
+namespace {
+
+/// The demangler's working memory is on the stack and grows with the name.
+constexpr std::size_t max_mangled_length = 512;
+
+} // namespace
+
+TextBuffer& TextBuffer::operator<<(std::string_view text) {
+    const std::size_t fitting = std::min(text.size(), text_.size() - size_);
+    std::memcpy(text_.data() + size_, text.data(), fitting);
+    size_ += fitting;
+    return *this;
+}
+
+TextBuffer& TextBuffer::decimal(std::int64_t number) {
+    std::array<char, 24> digits;
+    const auto end = std::to_chars(digits.begin(), digits.end(), number).ptr;
+    return *this << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+TextBuffer& TextBuffer::hexadecimal(std::uintptr_t number) {
+    std::array<char, 24> digits;
+    const auto end = std::to_chars(digits.begin(), digits.end(), number, 16).ptr;
+    return *this << "0x" << std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
+}
+
+// libiberty's demangler hands out the text in pieces and allocates nothing; abi::__cxa_demangle() allocates.
+TextBuffer& TextBuffer::demangled(const char* name, int options) {
+    const auto append = [](const char* piece, std::size_t length, void* buffer) {
+        *static_cast<TextBuffer*>(buffer) << std::string_view(piece, length);
+    };
+    const std::size_t before = size_;
+    if (strnlen(name, max_mangled_length) < max_mangled_length &&
+        cplus_demangle_v3_callback(name, options, append, this) != 0)
+        return *this;
+    size_ = before;
+    return *this << name;
+}
+
+TextBuffer& TextBuffer::symbol(const char* name) { return demangled(name, DMGL_ANSI); }
+TextBuffer& TextBuffer::type(const char* name) {
+    return demangled(name, DMGL_PARAMS | DMGL_ANSI | DMGL_TYPES);
+}
+
+void TextBuffer::write_to_stderr() const {
+    for (std::size_t written = 0; written < size_;) {
+        const ssize_t n = write(STDERR_FILENO, text_.data() + written, size_ - written);
+        if (n < 0 && errno != EINTR) return;
+        if (n > 0) written += static_cast<std::size_t>(n);
+    }
+}
+
+} // namespace tandem::crash
