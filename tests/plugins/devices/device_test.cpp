@@ -54,6 +54,15 @@ class DeviceUnderTest {
 
 } // namespace
 
+TEST_CASE("a device library has the names that profiles of both versions of OPRoS give it") {
+    for (const std::string name :
+         {"AnalogDigitalIO", "AnalogIO", "DigitalIO", "CAN", "GPS", "I2C", "TCPIP", "UART", "USB"})
+        for (const char* suffix : {"API.so", "Api.so"}) {
+            INFO(name + suffix);
+            CHECK(std::filesystem::exists(DEVICES "/" + name + suffix));
+        }
+}
+
 TEST_CASE("every device library creates a device that goes through its states") {
     int devices = 0;
     for (const auto& entry : std::filesystem::directory_iterator(DEVICES)) {

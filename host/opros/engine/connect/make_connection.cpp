@@ -15,6 +15,10 @@ std::string type_name(const Port& port) {
     return sample.empty() ? "of any type" : sample.type();
 }
 
+std::string with_article(const std::string& port_type) {
+    return (port_type == "event" ? "an " : "a ") + port_type;
+}
+
 /// Looks up the port at one side of a connection.
 class PortLookup {
   public:
@@ -26,11 +30,14 @@ class PortLookup {
     PortClass& port(const char* direction) const {
         Port* found = host_.component().getPort(reference_.port);
         if (!found) throw_no_such_port();
-        auto* port = dynamic_cast<PortClass*>(found);
-        if (!port)
-            throw SetupError(connection_.location, "port " + reference_.text() + " is not " + direction +
-                                                       " " + port_type_name(connection_.type) + " port");
-        return *port;
+        if (auto* port = dynamic_cast<PortClass*>(found)) return *port;
+        const std::string expected = port_type_name(connection_.type);
+        const std::string actual = port_type_name(found->getType());
+        const std::string port = "port " + reference_.text() + " is ";
+        throw SetupError(connection_.location, expected == actual
+                                                   ? port + "not " + direction + " " + expected + " port"
+                                                   : port + with_article(actual) + " port, not " +
+                                                         with_article(expected) + " port");
     }
 
   private:

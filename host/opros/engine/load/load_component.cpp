@@ -36,6 +36,21 @@ void check_version(plugin::Library& library) {
                      get_opros_version());
 }
 
+/// How the library that a profile names is built; empty if there are no sources of a component at the profile.
+std::string build_hint(const ComponentProfile& profile) {
+    namespace fs = std::filesystem;
+    fs::path folder = profile.location.file.parent_path();
+    // Where the tools of OPRoS put the profile of a source.
+    if (folder.filename() == "profile" || folder.filename() == "profiles") folder = folder.parent_path();
+    for (const fs::path& sources : {folder, folder / "src"}) {
+        std::error_code ignored; // a folder that is not there has no sources
+        for (const auto& entry : fs::directory_iterator(sources.empty() ? "." : sources, ignored))
+            if (entry.path().extension() == ".cpp")
+                return "; tandem opros build " + (folder.empty() ? "." : folder.string()) + " builds it";
+    }
+    return "";
+}
+
 Component* call_factory(plugin::Library& library) {
     const auto factory = library.symbol<Component*()>("getComponent");
     std::string why = "returned NULL";
@@ -92,15 +107,33 @@ std::string resolve_device_library(const ComponentProfile& profile, const std::s
     return path;
 }
 
-/// Components of OPRoS v1 test whether APIName is set and open what DllName says: each of the three names gets
-/// the value that one of them has.
+bool is_device_library_name(const std::string& property) {
+    return std::find(std::begin(device_library_names), std::end(device_library_names), property) !=
+           std::end(device_library_names);
+}
+
+/// The profile's properties without those that the application overrides: what they say must not be looked for. A
+/// device library that the application names stands for all three names.
+Properties merged_properties(const ComponentProfile& profile, const Properties& overrides) {
+    const auto names_library = [](const auto& property) { return is_device_library_name(property.first); };
+    const bool other_library = std::any_of(overrides.begin(), overrides.end(), names_library);
+    Properties merged;
+    for (const auto& property : profile.properties) {
+        const auto same_name = [&](const auto& each) { return each.first == property.first; };
+        if (std::any_of(overrides.begin(), overrides.end(), same_name)) continue;
+        if (!(other_library && names_library(property))) merged.push_back(property);
+    }
+    merged.insert(merged.end(), overrides.begin(), overrides.end());
+    return merged;
+}
+
+/// Each of the three names gets the value that one of them has.
 void copy_device_library_to_aliases(std::map<std::string, std::string>& properties) {
-    const char* const names[] = {"APIName", "ApiName", "DllName"};
     std::string library;
-    for (const char* name : names)
+    for (const char* name : device_library_names)
         if (library.empty() && properties.count(name) != 0) library = properties[name];
     if (library.empty()) return;
-    for (const char* name : names) properties.emplace(name, library);
+    for (const char* name : device_library_names) properties.emplace(name, library);
 }
 
 } // namespace
@@ -123,7 +156,7 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
     try {
         return plugin::find_library(profile.library_name, search_dirs(profile, plugin_dirs));
     } catch (const plugin::Error& error) {
-        throw SetupError(profile.library_location, error.what());
+        throw SetupError(profile.library_location, error.what() + build_hint(profile));
     }
 }
 
@@ -134,9 +167,8 @@ void set_component_properties(Component& component, const ComponentProfile& prof
     const auto folder = std::filesystem::absolute(profile.location.file).parent_path();
     component.setProperty(folder_property_names[0], (folder / "res" / "").string());
     component.setProperty(folder_property_names[1], (folder / "").string());
-    for (const Properties* properties : {&profile.properties, &overrides})
-        for (const auto& [key, value] : *properties)
-            component.setProperty(key, resolve_device_library(profile, key, value, plugin_dirs));
+    for (const auto& [key, value] : merged_properties(profile, overrides))
+        component.setProperty(key, resolve_device_library(profile, key, value, plugin_dirs));
     copy_device_library_to_aliases(component.getPropertyMap());
 }
 

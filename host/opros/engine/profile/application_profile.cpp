@@ -19,6 +19,23 @@ std::string attribute_or_child(const pugi::xml_node& node, const char* name) {
     return value.empty() ? XmlFile::child_text(node, name) : value;
 }
 
+/// What a connection lacks in its <source> or <target>; empty when both name a component and a port.
+std::string port_reference_error(const pugi::xml_node& connection) {
+    for (const char* element : {"source", "target"}) {
+        const pugi::xml_node node = connection.child(element);
+        if (!node) return "<port_connection> lacks its " + tag(element);
+        for (const char* name : {"component_name", "port_name"})
+            if (XmlFile::trim(node.attribute(name).value()).empty())
+                return tag(element) + " lacks its attribute " + name;
+    }
+    return "";
+}
+
+PortReference port_reference(const pugi::xml_node& node) {
+    return {XmlFile::trim(node.attribute("component_name").value()),
+            XmlFile::trim(node.attribute("port_name").value())};
+}
+
 /// Empty when the element names one of the port types.
 std::string port_type_error(const pugi::xml_node& node) {
     const std::string type = attribute_or_child(node, "port_type");
@@ -74,19 +91,14 @@ class AssemblyReader {
     void read_connections() {
         for (const pugi::xml_node& node : root_.child("port_connections").children("port_connection")) {
             ConnectionProfile connection{xml_.location(node), port_type(node),
-                                         read_port_reference(node, "source"),
-                                         read_port_reference(node, "target"), port_type_error(node)};
+                                         port_reference(node.child("source")),
+                                         port_reference(node.child("target")), port_type_error(node)};
+            if (connection.error.empty()) connection.error = port_reference_error(node);
             for (const PortReference* port : {&connection.source, &connection.target})
                 if (connection.error.empty()) connection.error = unknown_component_error(port->component);
             profile_.connections.push_back(std::move(connection));
         }
         mark_duplicate_connections(profile_.connections);
-    }
-
-    PortReference read_port_reference(const pugi::xml_node& connection, const char* element) const {
-        const pugi::xml_node node = connection.child(element);
-        if (!node) xml_.fail(connection, "<port_connection> lacks its " + tag(element));
-        return {xml_.required_attribute(node, "component_name"), xml_.required_attribute(node, "port_name")};
     }
 
     void read_dependencies() {

@@ -29,9 +29,10 @@ TEST_CASE("a port that does not exist is an error that lists those that do") {
 
 TEST_CASE("a port of the wrong direction or kind is an error") {
     CHECK_THAT(connection_error("data", "news", "numbers"),
-               Catch::Contains("M.news is not an output data port"));
+               Catch::Contains("app.xml:8: port M.news is an event port, not a data port"));
     CHECK_THAT(connection_error("service", "math", "numbers"),
-               Catch::Contains("P.numbers is not a provided service port"));
+               Catch::Contains("port P.numbers is a data port, not a service port"));
+    CHECK_THAT(connection_error("data", "numbers", "words"), Catch::Contains("component 'P' has no port"));
 }
 
 TEST_CASE("ports of different types are not connected, and the error names both types") {
@@ -67,6 +68,24 @@ TEST_CASE("a connection of an unknown type is left out and the others are made")
     application.step("P");
     CHECK(recorder(application, "P").last_number == 1);
     CHECK(recorder(application, "P").events == 0);
+}
+
+TEST_CASE("a connection without a port's name is left out and the others are made") {
+    const Folder folder;
+    folder.component("M", "maker");
+    folder.component("P", "printer");
+    const auto file =
+        folder.application(Folder::sub("M", "M.xml") + Folder::sub("P", "P.xml"),
+                           "<port_connection port_type=\"data\"><source component_name=\"M\"/>"
+                           "<target component_name=\"P\" port_name=\"counts\"/></port_connection>\n" +
+                               Folder::connect("data", "M", "numbers", "P", "numbers"));
+    CHECK_THAT(setup_error(file, test_options(folder)),
+               Catch::Contains("app.xml:7: <source> lacks its attribute port_name"));
+    tandem::engine::Application application(file, test_options(folder));
+    application.start();
+    application.step("M");
+    application.step("P");
+    CHECK(recorder(application, "P").last_number == 1);
 }
 
 TEST_CASE(

@@ -39,6 +39,21 @@ TEST_CASE("a missing or wrong device library makes its component fail with the c
     CHECK_THROWS_AS(application.start(), tandem::engine::SetupError); // nothing else is there
 }
 
+TEST_CASE("a device library that the application names replaces the profile's under all of its names") {
+    const Folder folder;
+    folder.component("S", "sensing", "<type>passive</type>",
+                     "<property name=\"DllName\">nowhere</property><property name=\"scale\">4.5</property>");
+    Application application(
+        folder.application(Folder::sub(
+            "S", "S.xml", "<properties><property name=\"ApiName\">own_device</property></properties>")),
+        test_options(folder));
+    application.start();
+    application.step("S");
+    auto& component = application.find_component("S")->component();
+    for (const char* name : {"APIName", "ApiName", "DllName"})
+        CHECK_THAT(component.getProperty(name), Catch::EndsWith("/libown_device.so"));
+}
+
 TEST_CASE("a device library built against the headers of another Tandem is not given to its component") {
     const Folder folder;
     CHECK_THAT(setup_error(sensing(folder, "old_device"), test_options(folder)),
