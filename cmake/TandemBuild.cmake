@@ -96,12 +96,12 @@ function(tandem_add_plugin name model)
     PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/plugins/${model}
     INSTALL_RPATH "$ORIGIN/../../..")
-  install(TARGETS plugin_${model}_${name} LIBRARY DESTINATION ${TANDEM_PLUGIN_DIR}/${model})
+  tandem_install(plugin_${model}_${name} LIBRARY DESTINATION ${TANDEM_PLUGIN_DIR}/${model})
 endfunction()
 
 # tandem_add_test(NAME SOURCES a.cpp ... [LIBRARIES x ...] [PROPERTIES ctest properties ...] [SEPARATE])
 # A Catch2 executable test_NAME; each TEST_CASE becomes one ctest test. SEPARATE compiles each file by itself, for files
-# whose helpers have the same names.
+# whose helpers have the same names. The programs that a test starts leave the dead segments of other tests alone.
 function(tandem_add_test name)
   cmake_parse_arguments(arg "SEPARATE" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
@@ -115,5 +115,5 @@ function(tandem_add_test name)
   endif()
   set_target_properties(test_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   catch_discover_tests(test_${name} TEST_PREFIX "${name}: " DISCOVERY_MODE PRE_TEST
-    PROPERTIES TIMEOUT 300 ${arg_PROPERTIES})
+    PROPERTIES TIMEOUT 300 ENVIRONMENT TANDEM_KEEP_DEAD_SEGMENTS=1 ${arg_PROPERTIES})
 endfunction()

@@ -24,8 +24,8 @@ configure_file(${package_source}/TandemOpros.cmake ${package_built}/TandemOpros.
 configure_file(${package_source}/TandemRtm.cmake ${package_built}/TandemRtm.cmake COPYONLY)
 
 # Sets of targets of their own, since one may be installed without the other.
-install(TARGETS tandem_opros EXPORT TandemTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT opros)
-install(TARGETS tandem_rtm EXPORT TandemRtmTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT rtm)
+tandem_install(tandem_opros EXPORT TandemTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT opros)
+tandem_install(tandem_rtm EXPORT TandemRtmTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT rtm)
 install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir} COMPONENT opros)
 install(EXPORT TandemRtmTargets NAMESPACE Tandem:: DESTINATION ${package_dir} COMPONENT rtm)
 export(EXPORT TandemTargets NAMESPACE Tandem:: FILE ${package_built}/TandemTargets.cmake)
@@ -35,8 +35,9 @@ install(FILES ${package_source}/TandemRtm.cmake DESTINATION ${package_dir} COMPO
 foreach(component opros rtm)
   install(FILES ${package_installed}/TandemConfig.cmake ${package_built}/TandemConfigVersion.cmake
     DESTINATION ${package_dir} COMPONENT ${component})
-  install(TARGETS tandem RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
+  tandem_install(tandem RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
 endforeach()
 # The program `tandem` is of both models.
-install(TARGETS tandem_opros LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT rtm)
+tandem_install(tandem_opros LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT rtm)
 install(TARGETS tandem_rtm LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT opros OPTIONAL)
+tandem_name_missing_at_install()

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+# Builds one of the two libraries and installs the tree, then builds and installs the rest.
+# cmake -DTANDEM_DIR=... -DSOURCE=... -DBUILD=... -P check_install.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE errors RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${ARGN} ended with ${result}:\n${output}${errors}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(require_installed name)
+  if(NOT EXISTS ${BUILD}/installed/lib/tandem/plugins/opros/${name})
+    message(FATAL_ERROR "${name} is not installed:\n${output}")
+  endif()
+endfunction()
+
+file(REMOVE_RECURSE ${BUILD})
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${BUILD} -DTANDEM_DIR=${TANDEM_DIR} -DCMAKE_INSTALL_LIBDIR=lib)
+run(${CMAKE_COMMAND} --build ${BUILD} --target plugin_opros_ArmComp)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${BUILD}/installed)
+require_installed(ArmComp.so)
+set(line "Not built, so not installed: LegComp.so (cmake --build ${BUILD} builds all)")
+string(FIND "${output}" "${line}" found)
+if(found EQUAL -1)
+  message(FATAL_ERROR "expected the line `${line}`, found:\n${output}")
+endif()
+run(${CMAKE_COMMAND} --build ${BUILD})
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${BUILD}/installed)
+require_installed(LegComp.so)
+if(output MATCHES "Not built")
+  message(FATAL_ERROR "all is built, but:\n${output}")
+endif()
