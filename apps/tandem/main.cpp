@@ -3,6 +3,7 @@
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "shm/segment/dead_segments.hpp"
 
 #include <fmt/format.h>
 #include <tandem_version.hpp>
@@ -30,11 +31,14 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& result) { // also --help and --version, with exit code 0
         return app.exit(result);
     }
+    int exit_code = 1;
     try {
-        return selected();
+        exit_code = selected();
     } catch (const std::exception& error) {
         // Messages may quote file names and component texts: control characters must not reach the terminal.
         fmt::print(stderr, "tandem: {}\n", tandem::command::replace_control_characters(error.what()));
-        return 1;
     }
+    // These two show what is there, and remove what they are told to.
+    if (!app.got_subcommand("shm") && !app.got_subcommand("doctor")) tandem::shm::remove_dead_segments();
+    return exit_code;
 }

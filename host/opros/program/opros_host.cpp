@@ -10,6 +10,7 @@
 #include "host/process/bounded_call.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
+#include "shm/segment/dead_segments.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -80,6 +81,7 @@ int run(Options options) {
             options.host.grace, fmt::format("opros_host: component {} does not return from its static "
                                             "destructors within {} s; the host exits without it",
                                             fmt::join(loaded, " or "), options.grace_s));
+    tandem::shm::remove_dead_segments();
     return 0;
 }
 
@@ -98,6 +100,7 @@ int main(int argc, char** argv) {
     cli.set_version_flag("--version", std::string("opros_host ") + tandem::version);
     declare(cli, options);
     CLI11_PARSE(cli, argc, argv);
+    tandem::shm::remove_dead_segments();
     options.host.probe = options.probe.probe_options();
     options.host.grace = std::chrono::nanoseconds(static_cast<std::int64_t>(options.grace_s * 1e9));
     options.host.executors.cpu = options.real_time.cpu;

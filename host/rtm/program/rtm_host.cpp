@@ -10,6 +10,7 @@
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
+#include "shm/segment/dead_segments.hpp"
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -184,6 +185,7 @@ int run(const Arguments& a, char** argv_of_program) {
         tandem::process::exit_process(0);
     }
     bound_static_destructors(manager);
+    tandem::shm::remove_dead_segments();
     return 0;
 }
 
@@ -203,6 +205,7 @@ int main(int argc, char** argv) {
     Arguments arguments;
     declare_options(app, arguments);
     CLI11_PARSE(app, argc, argv);
+    tandem::shm::remove_dead_segments();
     try {
         return run(arguments, argv);
     } catch (const std::runtime_error& e) {
