@@ -94,6 +94,12 @@ TEST_CASE("tandem rtm shows components and changes their states and parameters")
 
     CHECK(host.good({"conf", "Counter0", "step=5"}).output_contains("step=5"));
     CHECK_THAT(host.failed({"conf", "Counter0", "stride=5"}), Catch::Contains("it has: step"));
+    CHECK_THAT(host.failed({"conf", "Counter0", "stpe=5"}),
+               Catch::Contains(
+                   "configuration set default has no parameter stpe; did you mean step? (it has: step)"));
+    CHECK_THAT(host.failed({"conf", "Counter0", "step=abc"}),
+               Catch::Contains("Counter0: step is abc, expected a whole number (int)"));
+    CHECK(host.good({"conf", "Counter0"}).output_contains("step=5"));
     CHECK(host.good({"exit", "Thrower0"}).output_contains("exited"));
     CHECK_THAT(host.failed({"info", "Thrower0"}), Catch::Contains("there is no component Thrower0"));
 }

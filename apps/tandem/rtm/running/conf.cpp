@@ -2,6 +2,7 @@
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
+#include "host/text/nearest_name.hpp"
 
 #include <fmt/format.h>
 #include <map>
@@ -11,12 +12,13 @@
 namespace tandem::command {
 namespace {
 
-// For the message about an unknown parameter.
-std::string join_names(const SDOPackage::NVList& values) {
-    std::string names;
-    for (CORBA::ULong i = 0; i < values.length(); ++i)
-        names += (names.empty() ? "" : ", ") + std::string(values[i].name);
-    return names.empty() ? "none" : names;
+std::string unknown_parameter_text(const std::string& name, const std::string& set,
+                                   const SDOPackage::NVList& values) {
+    std::vector<std::string> known;
+    for (CORBA::ULong i = 0; i < values.length(); ++i) known.emplace_back(values[i].name);
+    return fmt::format("configuration set {} has no parameter {}{} (it has: {})", set, name,
+                       text::did_you_mean(name, known),
+                       known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", ")));
 }
 
 // __widget__, __constraints__: hints for graphical editors.
@@ -35,9 +37,7 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
             throw std::runtime_error("`" + assignment + "` is not a parameter; expected NAME=VALUE");
         const std::string name = assignment.substr(0, equals);
         const CORBA::Long index = NVUtil::find_index(set->configuration_data, name.c_str());
-        if (index < 0)
-            throw std::runtime_error(fmt::format("configuration set {} has no parameter {} (it has: {})", id,
-                                                 name, join_names(set->configuration_data)));
+        if (index < 0) throw std::runtime_error(unknown_parameter_text(name, id, set->configuration_data));
         // Values of OpenRTM's parameters are strings in the profile, whatever their C++ type.
         set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
             assignment.substr(equals + 1).c_str();

@@ -108,6 +108,13 @@ bool check_and_normalize_value(const std::string& key, std::string& value) {
     return known == nullptr || value.empty() || check_value(known->value, value).empty();
 }
 
+std::string setting_error(const std::string& key, std::string value) {
+    if (const auto warning = unknown_key_warning(key)) return *warning;
+    const ConfKey* known = find_conf_key(key);
+    const std::string expected = known == nullptr || value.empty() ? "" : check_value(known->value, value);
+    return expected.empty() ? "" : key + " is " + printable(value) + ", expected " + expected;
+}
+
 std::vector<std::string> check_settings(coil::Properties& config, const SettingOrigins& origins) {
     std::vector<std::string> warnings;
     for (const auto& [key, origin] : origins) {

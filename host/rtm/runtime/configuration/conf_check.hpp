@@ -17,6 +17,10 @@ using SettingOrigins = std::map<std::string, std::string>;
 /// runtime reads: YES or NO for the words of a boolean. Unknown keys and empty values pass as they are.
 bool check_and_normalize_value(const std::string& key, std::string& value);
 
+/// What is wrong with one setting, as a line without its origin: an unknown key, with the nearest known one, or a value
+/// that its key cannot have. Empty: nothing.
+std::string setting_error(const std::string& key, std::string value);
+
 /// Checks and normalizes every setting of `config` that has an origin. Returns one warning for each unknown
 /// key, with the nearest known one. Throws ManagerError, beginning with the origin, for a value that its key
 /// cannot have.

@@ -3,12 +3,25 @@
 // OpenRTM-aist's class ConfigAdmin. Sets are nodes below `conf` of the component's properties. [any-thread]
 // While the component runs, its variables change in update() only, which is called between its callbacks: no
 // callback sees a half-changed set.
+#include "host/rtm/runtime/configuration/parameter_values.hpp"
+#include "host/text/nearest_name.hpp"
 #include <algorithm>
 #include <rtm/ConfigAdmin.h>
+#include <rtm/SystemLogger.h>
 
 namespace RTC {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
+
+namespace {
+
+// The sets are a node of the component's properties.
+std::string instance_name(coil::Properties& sets) {
+    const coil::Properties* root = sets.getRoot();
+    return root == nullptr ? "" : root->getProperty("instance_name");
+}
+
+} // namespace
 
 void ConfigAdmin::add(std::unique_ptr<ConfigBase> param) {
     Lock lock(m_mutex);
@@ -59,7 +72,16 @@ void ConfigAdmin::apply(const char* config_set, const char* only_param) {
     for (auto& param : m_params) {
         if (only_param != nullptr && param->name != only_param) continue;
         if (set->hasKey(param->name.c_str()) == nullptr) continue;
-        if (!param->update(set->getProperty(param->name).c_str())) continue;
+        const std::string value = set->getProperty(param->name);
+        const std::string expected = expected_instead(*param, value);
+        if (!param->update(value.c_str())) continue;
+        if (!expected.empty() && !value.empty()) {
+            Logger rtclog(instance_name(m_configsets).c_str());
+            RTC_WARN((
+                "parameter %s of configuration set %s is %s, expected %s; the component uses the default, %s",
+                param->name.c_str(), config_set, value.c_str(), expected.c_str(),
+                param->default_value.c_str()));
+        }
         m_changedParam.push_back(param->name);
         m_paramListeners.forEach([&](auto& listener) { listener(config_set, param->name.c_str()); });
     }
@@ -101,11 +123,33 @@ coil::Properties ConfigAdmin::getConfigurationSet(const char* config_id) const {
     return set == nullptr ? coil::Properties(config_id) : *set;
 }
 
-// Values are merged: parameters that the new set does not have keep theirs.
+// Values are merged: parameters that the new set does not have keep theirs. None is changed if one of the new values
+// does not fit its variable. A parameter that is new to the set and bound to no variable is accepted, as by
+// OpenRTM-aist, with a line in the log: it has no effect.
 bool ConfigAdmin::setConfigurationSetValues(const coil::Properties& config_set) {
     Lock lock(m_mutex);
+    std::string& refused = last_refused_value();
+    refused.clear();
     if (std::string(config_set.getName()).empty() || !haveConfig(config_set.getName())) return false;
-    m_configsets.getNode(config_set.getName()) << config_set;
+    coil::Properties& set = m_configsets.getNode(config_set.getName());
+    std::vector<std::string> known;
+    for (const auto& param : m_params) {
+        known.push_back(param->name);
+        const std::string value = config_set.getProperty(param->name);
+        // Tools write whole sets back: what was there before is no new mistake.
+        if (config_set.findNode(param->name) == nullptr || value == set.getProperty(param->name)) continue;
+        const std::string expected = expected_instead(*param, value);
+        if (expected.empty()) continue;
+        refused = param->name + " is " + value + ", expected " + expected;
+        return false;
+    }
+    for (const auto& name : config_set.propertyNames()) {
+        if (set.findNode(name) != nullptr || isExist(name.c_str())) continue;
+        Logger rtclog(instance_name(m_configsets).c_str());
+        RTC_WARN(("configuration set %s gets %s, which is no parameter of the component%s",
+                  config_set.getName(), name.c_str(), tandem::text::did_you_mean(name, known).c_str()));
+    }
+    set << config_set;
     m_changed = true;
     notifySet(ON_SET_CONFIG_SET, config_set);
     return true;

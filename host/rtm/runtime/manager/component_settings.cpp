@@ -50,8 +50,8 @@ void add_own_settings(const coil::Properties& config, const std::filesystem::pat
 
 } // namespace
 
-void configure_component(Manager::Impl& impl, RTObject_impl& component, const coil::Properties& profile,
-                         const coil::Properties& arguments) {
+coil::Properties configure_component(Manager::Impl& impl, RTObject_impl& component,
+                                     const coil::Properties& profile, const coil::Properties& arguments) {
     const coil::Properties config = impl.config_snapshot();
     coil::Properties properties = inherited_settings(config, profile);
     auto& listeners = impl.listeners.rtclifecycle_;
@@ -59,9 +59,11 @@ void configure_component(Manager::Impl& impl, RTObject_impl& component, const co
     const std::string category(component.getCategory());
     const std::string name(component.getInstanceName());
     const auto folder = impl.conf_file.parent_path();
-    add_own_settings(config, folder, category + "." + component.getTypeName(), properties);
-    add_own_settings(config, folder, category + "." + name, properties);
-    properties << arguments;
+    coil::Properties own_settings;
+    add_own_settings(config, folder, category + "." + component.getTypeName(), own_settings);
+    add_own_settings(config, folder, category + "." + name, own_settings);
+    own_settings << arguments;
+    properties << own_settings;
     // `Name?gain=2` is short for `Name?conf.default.gain=2` when the type has a parameter gain.
     for (const auto& key : arguments.propertyNames())
         if (profile.findNode("conf.default." + key) != nullptr)
@@ -71,6 +73,7 @@ void configure_component(Manager::Impl& impl, RTObject_impl& component, const co
     coil::Properties& own = component.getProperties();
     own.setProperty("naming.names", format_name(own.getProperty("naming.formats"), own, config));
     listeners.forEach([&](auto& listener) { listener.postConfigure(properties); });
+    return own_settings;
 }
 
 } // namespace RTC

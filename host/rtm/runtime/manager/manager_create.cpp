@@ -3,6 +3,7 @@
 // in its order; an error is an exception here, with a line that says which step failed.
 #include "host/crash/callback_scope.hpp"
 #include "host/rtm/runtime/configuration/component_arguments.hpp"
+#include "host/rtm/runtime/configuration/own_settings_check.hpp"
 #include "host/rtm/runtime/manager/component_settings.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <optional>
@@ -87,11 +88,14 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
                                      const coil::Properties& arguments) {
     auto& callbacks = listeners.rtclifecycle_;
     component.setInstanceName(name.c_str());
-    configure_component(*this, component, factory.profile(), arguments);
+    const coil::Properties own_settings = configure_component(*this, component, factory.profile(), arguments);
     callbacks.forEach([](auto& listener) { listener.preInitialize(); });
     if (component.initialize() != RTC_OK)
         throw ManagerError("component " + name + " cannot be started: its onInitialize has failed");
     callbacks.forEach([](auto& listener) { listener.postInitialize(); });
+    Logger rtclog(name.c_str());
+    for (const auto& line : check_own_settings(component, factory.profile(), own_settings))
+        RTC_WARN(("%s", line.c_str()));
 }
 
 // Undoes the creation of a component that could not be set up.

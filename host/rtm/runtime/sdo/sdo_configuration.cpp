@@ -2,6 +2,7 @@
 // The interface Configuration of the OMG SDO specification, and the SDO part of RTC::RTObject. OpenRTM-aist:
 // class Configuration_impl of SdoConfiguration.h, RTObject_impl. Errors are the specification's exceptions.
 #include "host/rtm/runtime/sdo/sdo_configuration.hpp"
+#include "host/rtm/runtime/configuration/parameter_values.hpp"
 #include <rtm/Manager.h>
 
 namespace SDOPackage {
@@ -20,6 +21,13 @@ coil::Properties to_properties(const ConfigurationSet& set) {
     coil::Properties out(set.id);
     NVUtil::copyToProperties(out, set.configuration_data);
     return out;
+}
+
+// OpenRTM-aist accepts any text, and the variable then keeps its default without a word.
+void require_accepted(bool accepted) {
+    if (accepted) return;
+    const std::string& refused = RTC::last_refused_value();
+    throw InvalidParameter(refused.empty() ? "no such configuration set" : refused.c_str());
 }
 
 // __widget__, __constraints__ ...: sets that tell tools how to present parameters.
@@ -83,7 +91,8 @@ CORBA::Boolean Configuration_impl::set_configuration_parameter(const char* name,
     if (!(value >>= text)) throw InvalidParameter("the value of a parameter must be a string");
     coil::Properties change(sets_.activeId().c_str());
     change.setProperty(name, text);
-    return sets_.setConfigurationSetValues(change);
+    require_accepted(sets_.setConfigurationSetValues(change));
+    return true;
 }
 
 ConfigurationSetList* Configuration_impl::get_configuration_sets() {
@@ -100,8 +109,7 @@ ConfigurationSet* Configuration_impl::get_configuration_set(const char* config_i
 }
 
 CORBA::Boolean Configuration_impl::set_configuration_set_values(const ConfigurationSet& set) {
-    if (!sets_.setConfigurationSetValues(to_properties(set)))
-        throw InvalidParameter("no such configuration set");
+    require_accepted(sets_.setConfigurationSetValues(to_properties(set)));
     return true;
 }
 

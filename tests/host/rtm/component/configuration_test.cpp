@@ -7,6 +7,20 @@
 
 using namespace testing;
 
+namespace {
+
+/// The text of the error with which a component refuses the values; empty when it accepts them.
+std::string refusal(SDOPackage::Configuration_ptr configuration, const SDOPackage::ConfigurationSet& set) {
+    try {
+        configuration->set_configuration_set_values(set);
+        return "";
+    } catch (const SDOPackage::InvalidParameter& error) {
+        return static_cast<const char*>(error.description);
+    }
+}
+
+} // namespace
+
 TEST_CASE("A change of configuration is seen by onExecute one cycle later, never in the middle") {
     ManagerFixture fixture;
     auto& counter = fixture.create<Counter>("Counter?conf.fast.step=10");
@@ -30,10 +44,63 @@ TEST_CASE("A change of configuration is seen by onExecute one cycle later, never
     coil::Properties change;
     change.setProperty("step", "no number");
     NVUtil::copyFromProperties(active->configuration_data, change);
-    CHECK(configuration->set_configuration_set_values(active.in()));
+    CHECK(refusal(configuration.in(), active.in()) == "step is no number, expected a whole number (int)");
+    CORBA::Any text;
+    text <<= "3 m";
+    CHECK(configuration->set_configuration_parameter("step",
+                                                     text)); // begins with a number, as for OpenRTM-aist
+    text <<= "many";
+    CHECK_THROWS_AS(configuration->set_configuration_parameter("step", text), SDOPackage::InvalidParameter);
     fixture.step(counter);
-    CHECK(counter.step_ == 1); // a value that cannot be read gives the default
+    CHECK(counter.step_ == 3);
     CHECK_THROWS_AS(configuration->activate_configuration_set("none"), SDOPackage::InvalidParameter);
+}
+
+TEST_CASE("A value is refused by the type of the variable, but not where the component converts it itself") {
+    struct Arm : Counter {
+        explicit Arm(RTC::Manager* manager) : Counter(manager) {}
+        RTC::ReturnCode_t onInitialize() override {
+            bindParameter("speed", speed, "0.5");
+            bindParameter("enabled", enabled, "yes");
+            bindParameter("limits", limits, "1,2");
+            bindParameter("angle", angle, "90deg", from_degrees);
+            return Counter::onInitialize();
+        }
+        static bool from_degrees(int& value, const char* text) {
+            value = std::atoi(text);
+            return std::string(text).find("deg") != std::string::npos;
+        }
+        double speed = 0;
+        bool enabled = false;
+        std::vector<double> limits;
+        int angle = 0;
+    };
+    ManagerFixture fixture;
+    coil::Properties profile;
+    for (const char* key : {"implementation_id", "type_name"}) profile.setProperty(key, "Arm");
+    fixture.manager().registerFactory(profile, RTC::Create<Arm>, RTC::Delete<Arm>);
+    auto& arm = fixture.create<Arm>("Arm?conf.default.speed=fast");
+    CHECK(arm.speed == 0.5);
+    SDOPackage::Configuration_var configuration = arm.get_configuration();
+    const auto set_to = [&](const char* name, const char* value) {
+        SDOPackage::ConfigurationSet change;
+        change.id = CORBA::string_dup("default");
+        coil::Properties values;
+        values.setProperty(name, value);
+        NVUtil::copyFromProperties(change.configuration_data, values);
+        return refusal(configuration.in(), change);
+    };
+    CHECK(set_to("speed", "abc") == "speed is abc, expected a number (double)");
+    CHECK(set_to("enabled", "maybe") == "enabled is maybe, expected true or false (bool)");
+    CHECK(set_to("limits", "1,x") == "limits is 1,x, expected numbers separated by commas (double)");
+    CHECK(set_to("speed", "1.5").empty());
+    CHECK(set_to("speed", "fast") == "speed is fast, expected a number (double)");
+    CHECK(set_to("angle", "45deg").empty());
+    CHECK(set_to("angle", "wide").empty()); // nobody but the component can tell
+    fixture.activate(arm);
+    fixture.step(arm);
+    CHECK(arm.speed == 1.5);
+    CHECK(arm.enabled);
 }
 
 TEST_CASE("A parameter that the profile does not mention is listed with its default and can be set") {

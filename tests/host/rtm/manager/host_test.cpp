@@ -90,6 +90,35 @@ TEST_CASE("rtm_host refuses bad input with one line that says where and what") {
     CHECK_THAT(refusal(std::vector<std::string>{"-p", "many"}), Contains("option -p") && Contains("many"));
 }
 
+TEST_CASE("A mistake in the settings of one component is one line with what was probably meant") {
+    Folder folder;
+    HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
+                                        "manager.components.precreate: Counter, Counter?stpe=2, "
+                                        "Counter?exec_cxt.periodic.rat=10\n"
+                                        "exec_cxt.periodic.rte: 100\n"
+                                        "test.Counter0.conf.default.sted: 3\n"
+                                        "test.Counter1.conf.default.step: abc\n"
+                                        "test.Counter1.exec_cxt.sync_activation: perhaps\n")});
+    REQUIRE(host.wait_for_output("ready\n"));
+    host.send_signal(SIGTERM);
+    CHECK(host.wait_for_exit() == 0);
+    for (const char* line :
+         {": unknown key exec_cxt.periodic.rte; did you mean exec_cxt.periodic.rate?\n",
+          "Counter0: conf.default.sted: the component has no parameter sted; did you mean step? (it has: "
+          "step)\n",
+          "Counter1: stpe: the component has no parameter stpe; did you mean step?\n",
+          "Counter1: parameter step of configuration set default is abc, expected a whole number (int); the "
+          "component "
+          "uses the default, 1\n",
+          "Counter1: exec_cxt.sync_activation is perhaps, expected YES or NO\n",
+          "Counter2: unknown key exec_cxt.periodic.rat; did you mean exec_cxt.periodic.rate?\n"}) {
+        INFO(host.errors);
+        const auto found = host.errors.find(line);
+        CHECK(found != std::string::npos);
+        if (found != std::string::npos) CHECK(host.errors.find(line, found + 1) == std::string::npos);
+    }
+}
+
 TEST_CASE("A component that throws goes to the error state and its host keeps running") {
     Folder folder;
     HostProcess host({"-f", folder.conf("manager.modules.preload: TestComponents.so\n"
