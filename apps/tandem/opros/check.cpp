@@ -8,6 +8,7 @@
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <functional>
 
@@ -30,11 +31,13 @@ class ErrorList {
         }
     }
     std::vector<std::string> lines;
+    std::vector<std::string> notes; ///< what need not be wrong
 };
 
-/// Where a component does not fit its profile. Throws if there is no component that could be connected.
+/// Where a component does not fit its profile; `notes` gets what need not be wrong. Throws if there is no component that could be connected.
 std::vector<std::string> check_component(const ApplicationProfile& application,
-                                         const engine::Subcomponent& entry, const InspectOptions& options) {
+                                         const engine::Subcomponent& entry, const InspectOptions& options,
+                                         std::vector<std::string>& notes) {
     // The application's folder comes first, as in opros_host.
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.location.file.parent_path());
@@ -46,9 +49,19 @@ std::vector<std::string> check_component(const ApplicationProfile& application,
     const auto library = engine::find_component_library(profile, dirs);
     try {
         engine::require_opros_component(library);
-        auto errors = find_port_mismatches(profile, describe_in_child(library, file, options)["ports"],
-                                           options.initialize);
-        for (std::string& each : find_type_profile_errors(profile)) errors.push_back(std::move(each));
+        const auto description = describe_in_child(library, file, options);
+        auto errors = find_port_mismatches(profile, description["ports"], options.initialize);
+        const auto add = [&](const std::vector<std::string>& lines) {
+            errors.insert(errors.end(), lines.begin(), lines.end());
+        };
+        add(find_type_profile_errors(profile));
+        add(engine::check_properties(profile, entry.properties, dirs));
+        // What the application sets is not in the profile. A component may do without other properties.
+        for (const auto& absent : description["absent_properties"]) {
+            const auto is_it = [&](const auto& property) { return property.first == absent["name"]; };
+            if (std::any_of(entry.properties.begin(), entry.properties.end(), is_it)) continue;
+            (absent["misspelt"] ? errors : notes).push_back(absent["line"]);
+        }
         return errors;
         // A library's own errors do not say which profile names it: the line of <library_name> is put before them.
     } catch (const plugin::Error& error) {
@@ -69,10 +82,12 @@ int print_report(const ApplicationProfile& application, const ErrorList& errors,
         print_json({{"application", application.name},
                     {"components", application.subcomponents.size()},
                     {"connections", application.connections.size()},
-                    {"errors", errors.lines}});
+                    {"errors", errors.lines},
+                    {"notes", errors.notes}});
         return code;
     }
-    for (const std::string& line : errors.lines) print_text(line + "\n");
+    for (const auto* lines : {&errors.lines, &errors.notes})
+        for (const std::string& line : *lines) print_text(line + "\n");
     print_text(application.name + ": " +
                (errors.lines.empty() ? count_text(application.subcomponents.size(), "component") + " and " +
                                            count_text(application.connections.size(), "connection") + " fit"
@@ -98,7 +113,7 @@ int opros_check(const InspectOptions& options) {
     };
     std::vector<std::string> excluded;
     for (const auto& entry : application.subcomponents)
-        if (!errors.run_step([&] { add(check_component(application, entry, options)); }))
+        if (!errors.run_step([&] { add(check_component(application, entry, options, errors.notes)); }))
             excluded.push_back(entry.name);
     // Components that cannot be run are left out, so that the connections of the others are still checked.
     errors.run_step([&] { engine::start_order(application); });

@@ -77,6 +77,10 @@ json inspect(const InspectedComponent& found, const InspectOptions& options) {
     info["profile"] =
         found.profile ? json(fs::absolute(found.profile->location.file).lexically_normal().string()) : json();
     info["executor"] = found.profile ? describe_executor(*found.profile) : json();
+    info["notes"] = found.profile ? engine::check_properties(*found.profile, {}, options.plugin_dirs)
+                                  : std::vector<std::string>();
+    for (const json& absent : info["absent_properties"]) info["notes"].push_back(absent["line"]);
+    info.erase("absent_properties");
     return info;
 }
 
@@ -101,6 +105,8 @@ std::string format_component(const json& info, const InspectedComponent& found,
             table.add_row({replace_control_characters(name), replace_control_characters(value)});
         text += "\n" + table.text();
     }
+    if (!info["notes"].empty()) text += "\n";
+    for (const json& line : info["notes"]) text += replace_control_characters(line.get<std::string>()) + "\n";
     return text;
 }
 

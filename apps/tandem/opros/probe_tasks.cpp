@@ -4,6 +4,7 @@
 #include "apps/tandem/opros/component_description.hpp"
 #include "host/opros/engine/connect/make_connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
+#include "host/opros/engine/load/absent_properties.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 
@@ -81,11 +82,16 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
         loaded.component->setId(profile.name);
         engine::set_component_properties(*loaded.component, profile, {}, plugin_dirs(request));
     }
+    engine::watch_absent_properties(false);
     if (request["initialize"]) initialize_and_report(*loaded.component, task.library, report);
     report.begin_stage("its ports");
     json description = describe_component(*loaded.component);
     // The host sets these for the component's use; they are not properties of the profile.
     for (const char* name : engine::folder_property_names) description["properties"].erase(name);
+    description["absent_properties"] = json::array();
+    for (const auto& absent : engine::absent_properties())
+        description["absent_properties"].push_back(
+            {{"name", absent.name}, {"misspelt", absent.misspelt}, {"line", absent.line}});
     if (library->has("getVersion")) {
         report.begin_stage("getVersion()");
         description["version"] = library->symbol<const char*()>("getVersion")();

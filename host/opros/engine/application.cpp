@@ -2,6 +2,7 @@
 #include "host/opros/engine/application.hpp"
 
 #include "host/opros/engine/connect/make_connection.hpp"
+#include "host/opros/engine/load/absent_properties.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"
 #include "host/process/bounded_call.hpp"
@@ -12,7 +13,9 @@
 
 namespace tandem::engine {
 
-Application::Application(const ApplicationOptions& options) : options_(options) {}
+Application::Application(const ApplicationOptions& options) : options_(options) {
+    watch_absent_properties(true);
+}
 
 Application::Application(const std::filesystem::path& file, const ApplicationOptions& options)
     : Application(options) {

@@ -66,6 +66,32 @@ TEST_CASE("tandem opros check prints one line for each error of an application")
     CHECK(json.json()["errors"].size() == 10);
 }
 
+TEST_CASE("tandem opros check and info tell mistakes in properties") {
+    const Folder folder;
+    folder.component(
+        "M", "maker", "<type>passive</type>",
+        "<property name=\"Size\" type=\"int\">three</property><property name=\"troubel\">call</property>");
+    const auto application = folder.application(Folder::sub("M", "M.xml"));
+    const auto unread = check(application);
+    CHECK(unread.exit_code == 1);
+    CHECK(unread.output_contains("M.xml:5: property Size is 'three', expected a whole number (type int)\n"));
+    CHECK(unread.output_contains("app: 1 error\n"));
+    const auto asked =
+        tandem_program({"opros", "check", application, "--plugin-path", FIXTURES, "--initialize"});
+    INFO(asked.output << asked.errors);
+    CHECK(asked.output_contains(
+        "component M asks for property trouble, which its profile does not have; it gets an empty "
+        "text; did you mean troubel?\n"));
+    CHECK(asked.output_contains(
+        "component M asks for property a, which its profile does not have; it gets an empty text\n"));
+    CHECK(asked.output_contains("app: 2 errors\n"));
+    const auto info =
+        tandem_program({"opros", "info", folder.path() / "M.xml", "--plugin-path", FIXTURES, "--initialize"});
+    CHECK(info.exit_code == 0);
+    CHECK(info.output_contains("M.xml:5: property Size is 'three', expected a whole number (type int)\n"));
+    CHECK(info.output_contains("did you mean troubel?\n"));
+}
+
 TEST_CASE("tandem opros check reads the type profiles that a component refers to, if they are there") {
     const Folder folder;
     folder.write("P.xml",

@@ -50,6 +50,8 @@ ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile
     component_ = std::move(loaded.component);
     code_ = &typeid(*component_);
     component_->setId(name_);
+    for (const std::string& line : check_properties(profile_, entry.properties, options.plugin_dirs))
+        spdlog::warn("{}", line);
     set_component_properties(*component_, profile_, entry.properties, options.plugin_dirs);
 }
 

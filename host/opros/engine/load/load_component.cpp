@@ -2,9 +2,11 @@
 #include "host/opros/engine/load/load_component.hpp"
 
 #include "host/opros/engine/load/load_probe.hpp"
+#include "host/opros/engine/load/property_types.hpp"
 #include "host/plugin/abi.hpp"
 #include "host/plugin/find_library.hpp"
 #include "host/plugin/library.hpp"
+#include "host/text/nearest_name.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -82,6 +84,30 @@ std::vector<std::filesystem::path> search_dirs(const ComponentProfile& profile,
     return dirs;
 }
 
+/// The line of a property of the profile; of the profile itself for one that only the application has.
+const SourceLocation& property_location(const ComponentProfile& profile, const std::string& name) {
+    for (const PropertyProfile& property : profile.property_profiles)
+        if (property.name == name) return property.location;
+    return profile.location;
+}
+
+/// GripperAPI of GripperAPI.dll, libGripperAPI.so and the like.
+std::string library_stem(const std::string& name) {
+    return std::filesystem::path(plugin::library_file_names(name).back()).filename().stem().stem().string();
+}
+
+/// Of the libraries in the folders, for a message.
+std::vector<std::string> library_stems(const std::vector<std::filesystem::path>& dirs) {
+    std::vector<std::string> stems;
+    for (const auto& dir : dirs) {
+        std::error_code ignored; // a folder that is not there has none
+        for (const auto& entry : std::filesystem::directory_iterator(dir.empty() ? "." : dir, ignored))
+            if (entry.path().extension() == ".so")
+                stems.push_back(library_stem(entry.path().filename().string()));
+    }
+    return stems;
+}
+
 /// The value to set for a property: the path of the device library if it names one that is there. Components
 /// open it themselves, with dlopen(), which does not know our folders.
 std::string resolve_device_library(const ComponentProfile& profile, const std::string& property,
@@ -92,9 +118,8 @@ std::string resolve_device_library(const ComponentProfile& profile, const std::s
     try {
         path = std::filesystem::absolute(plugin::find_library(value, search_dirs(profile, plugin_dirs)))
                    .string();
-    } catch (const plugin::Error& error) {
-        spdlog::info("{} {}: the component gets the name unchanged: {}", property, value, error.what());
-        return value;
+    } catch (const plugin::Error&) {
+        return value; // check_properties() says so
     }
     try {
         require_library(path, plugin::LibraryKind::device_api);
@@ -158,6 +183,22 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
     } catch (const plugin::Error& error) {
         throw SetupError(profile.library_location, error.what() + build_hint(profile));
     }
+}
+
+std::vector<std::string> check_properties(const ComponentProfile& profile, const Properties& overrides,
+                                          const std::vector<std::filesystem::path>& plugin_dirs) {
+    std::vector<std::string> errors = find_property_type_errors(profile);
+    const auto dirs = search_dirs(profile, plugin_dirs);
+    for (const auto& [name, value] : merged_properties(profile, overrides)) {
+        if (value.empty() || !is_device_library_property(name)) continue;
+        try {
+            plugin::find_library(value, dirs);
+        } catch (const plugin::Error& error) {
+            errors.push_back(property_location(profile, name).text() + ": property " + name + ": device " +
+                             error.what() + text::did_you_mean(library_stem(value), library_stems(dirs)));
+        }
+    }
+    return errors;
 }
 
 void set_component_properties(Component& component, const ComponentProfile& profile,

@@ -37,6 +37,11 @@ std::filesystem::path find_component_library(const ComponentProfile& profile,
 constexpr const char* folder_property_names[] = {"_opros_xx_internal_xx_Component_Path",
                                                  "opros.component.dir"};
 
+/// What is wrong with the properties that the component will have, as far as the profile and the files tell: values that
+/// do not fit their types, and device libraries that are not there, with the nearest one that is. A line each.
+std::vector<std::string> check_properties(const ComponentProfile& profile, const Properties& overrides,
+                                          const std::vector<std::filesystem::path>& plugin_dirs);
+
 /// Sets the folder properties, those of the profile, and `overrides`, in this order. A property that names a
 /// device library (ApiName, DllName and the like) gets the file's path, if there is one: it is searched for as
 /// the component's own library is. Throws SetupError: the device library was built against other headers.

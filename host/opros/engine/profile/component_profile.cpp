@@ -94,9 +94,13 @@ ComponentProfile read_component_profile(const XmlFile& xml) {
     const pugi::xml_node semantics = root.child("execution_semantics");
     if (!semantics) xml.fail(root, "<component_profile> lacks its <execution_semantics>");
     read_execution_semantics(xml, semantics, profile);
-    for (const pugi::xml_node& property : root.child("properties").children("property"))
-        if (const std::string name = property.attribute("name").value(); !name.empty())
-            profile.properties.emplace_back(name, property.child_value());
+    for (const pugi::xml_node& property : root.child("properties").children("property")) {
+        const std::string name = property.attribute("name").value();
+        profile.property_profiles.push_back({xml.location(property), XmlFile::trim(name),
+                                             XmlFile::trim(property.attribute("type").value()),
+                                             XmlFile::trim(property.child_value())});
+        if (!name.empty()) profile.properties.emplace_back(name, property.child_value());
+    }
     read_port_profiles(xml, root.child("ports"), profile);
     read_type_references(root, profile);
     return profile;

@@ -19,6 +19,9 @@ namespace tandem::engine {
 /// Names and values, in the order of the profile.
 using Properties = std::vector<std::pair<std::string, std::string>>;
 
+/// Three names of one property: components of OPRoS v1 test whether APIName is set and open what DllName says.
+constexpr const char* device_library_names[] = {"APIName", "ApiName", "DllName"};
+
 /// When a component gets its cycles. periodic: in a thread of its own; periodic_shared: in one thread with
 /// others of the same period; aperiodic: when an input has arrived; aperiodic_loop: without a pause; passive:
 /// never.
@@ -54,6 +57,12 @@ struct ServicePortProfile {
     bool is_provided = false;
 };
 
+/// A <property> as it is listed; the engine sets `properties`, and compares them with the types for messages only.
+struct PropertyProfile {
+    SourceLocation location;
+    std::string name, type, value; ///< trimmed; the name may be empty
+};
+
 struct ComponentProfile {
     SourceLocation location, library_location; ///< of the root element; of <library_name>
     std::string name, library_name;
@@ -62,6 +71,7 @@ struct ComponentProfile {
     int priority = 0;                             ///< 0..99, used with `fifo` and `round_robin` only
     SchedulingPolicy scheduling_policy = SchedulingPolicy::other;
     Properties properties;
+    std::vector<PropertyProfile> property_profiles;
     // The ports that the profile lists. The engine connects the ports that the component's code has added, and
     // takes nothing but queue settings from here; `tandem opros check` compares the two.
     std::vector<DataPortProfile> data_ports;

@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <PropertyInterface.h>
+#include "host/opros/runtime/component/absent_property.hpp"
+
+#include <atomic>
+
+namespace {
+
+std::atomic<AbsentPropertyHandler> absent_property_handler{nullptr};
+
+} // namespace
+
+void set_absent_property_handler(AbsentPropertyHandler handler) { absent_property_handler = handler; }
 
 PropertyInterface::PropertyInterface() = default;
 PropertyInterface::~PropertyInterface() = default;
@@ -11,6 +21,7 @@ void PropertyInterface::setProperty(const std::string& name, const std::string& 
 std::string& PropertyInterface::getProperty(const std::string& name) {
     const auto found = m_properties.find(name);
     if (found != m_properties.end()) return found->second;
+    if (const AbsentPropertyHandler handler = absent_property_handler) handler(*this, name);
     m_absent.clear();
     return m_absent;
 }

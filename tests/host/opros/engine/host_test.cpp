@@ -138,8 +138,8 @@ TEST_CASE("a wrong device library is reported in one line that says what the fil
                                    "expected a device API, which exports GetAPI (extern \"C\")"));
     CHECK_THAT(host.output, Catch::Contains("warning: DllName Text: ") && Catch::Contains("Text.so"));
     CHECK_THAT(host.output,
-               Catch::Contains("ArmApiName Nowhere: the component gets the name unchanged: library "
-                               "'Nowhere' not found: looked for Nowhere.so, libNowhere.so"));
+               Catch::Contains("M.xml:5: property ArmApiName: device library 'Nowhere' not found: looked for "
+                               "Nowhere.so, libNowhere.so"));
 }
 
 TEST_CASE("a call of an unconnected method in onStart is reported in one line") {
@@ -240,6 +240,49 @@ TEST_CASE("a failed set-up ends the host even when a component hangs in its dest
                                      Folder::connect("data", "M", "numbers", "M", "none"))});
     CHECK(host.exit_code() == 1);
     CHECK_THAT(host.output, Catch::Contains("M hangs\n") && Catch::Contains("'none'"));
+}
+
+TEST_CASE("a library that has not been built is named with the command that builds it") {
+    const Folder folder;
+    folder.write("arm/src/arm.cpp", "");
+    folder.write("arm/profile/Arm.xml", "");
+    std::filesystem::rename(one_component(folder, "ArmComp").parent_path() / "M.xml",
+                            folder.path() / "arm/profile/Arm.xml");
+    const std::string arm = (folder.path() / "arm").string();
+    Process host({OPROS_HOST, folder.application(Folder::sub("M", arm + "/profile/Arm.xml"))});
+    CHECK(host.exit_code() == 1);
+    CHECK_THAT(host.output, Catch::Contains("library 'ArmComp' not found: looked for ") &&
+                                Catch::Contains("; tandem opros build " + arm + " builds it\n"));
+}
+
+TEST_CASE("mistakes in properties are lines when the host starts") {
+    const Folder folder;
+    folder.component("M", "maker", "<type>periodic</type><period>10</period>",
+                     "<property name=\"Size\" type=\"int\">three</property>");
+    Process host({OPROS_HOST, "--plugin-path", FIXTURES, folder.application(Folder::sub("M", "M.xml"))});
+    REQUIRE(host.prints("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.output,
+               Catch::Contains("M.xml:5: property Size is 'three', expected a whole number (type int)\n") &&
+                   Catch::Contains(
+                       "component M asks for property trouble, which its profile does not have; it gets an "
+                       "empty text\n"));
+}
+
+TEST_CASE("a device library that the application overrides is not looked for") {
+    const Folder folder;
+    folder.component(
+        "S", "sensing", "<type>passive</type>",
+        "<property name=\"DllName\">GriiperAPI</property><property name=\"scale\">4.5</property>");
+    Process host(
+        {OPROS_HOST, "--plugin-path", FIXTURES,
+         folder.application(Folder::sub(
+             "S", "S.xml", "<properties><property name=\"DllName\">own_device</property></properties>"))});
+    REQUIRE(host.prints("ready\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(host.output, !Catch::Contains("GriiperAPI"));
 }
 
 TEST_CASE("the host prints what its executors have counted with --stats") {

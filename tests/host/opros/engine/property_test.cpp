@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Properties of a profile that are missing, misspelt, or not of their type.
+#include "host/opros/engine/load/absent_properties.hpp"
+#include "host/opros/engine/load/load_component.hpp"
+#include "tests/host/opros/engine/running.hpp"
+
+#include <algorithm>
+
+namespace {
+
+using Catch::Contains;
+using Lines = std::vector<std::string>;
+
+/// The lines about a component with these properties, without the folder at their beginning. Properties start in line 6.
+Lines check(const Folder& folder, const std::string& properties) {
+    folder.component("M", "maker", "<type>passive</type>", "\n" + properties);
+    Lines lines = tandem::engine::check_properties(
+        tandem::engine::read_component_profile(folder.path() / "M.xml"), {}, {folder.path()});
+    for (std::string& line : lines) line = line.substr(line.find("M.xml"));
+    return lines;
+}
+
+std::string property(const std::string& attributes, const std::string& value) {
+    return "<property " + attributes + ">" + value + "</property>\n";
+}
+
+} // namespace
+
+TEST_CASE("a property whose value does not fit its type is a line with its place and what was expected") {
+    const Folder folder;
+    CHECK(check(folder, property("name=\"Size\" type=\"int\"", "three") +
+                            property("name=\"Gain\" type=\"double\"", "high") +
+                            property("name=\"On\" type=\"bool\"", "maybe") + property("type=\"int\"", "1")) ==
+          Lines{"M.xml:6: property Size is 'three', expected a whole number (type int)",
+                "M.xml:7: property Gain is 'high', expected a number (type double)",
+                "M.xml:8: property On is 'maybe', expected true or false (type bool)",
+                "M.xml:9: <property> lacks its attribute name"});
+}
+
+TEST_CASE("values that components of OPRoS have are of their types") {
+    const Folder folder;
+    CHECK(check(folder, property("name=\"X0\" type=\"double\"", " 0.0 ") +
+                            property("name=\"X\" type=\"int\"", "-50.0") +
+                            property("name=\"N\" type=\"unsigned long\"", "0") +
+                            property("name=\"On\" type=\"bool\"", "True") +
+                            property("name=\"S\" type=\"string\"", "a b") +
+                            property("name=\"V\" type=\"vector<int>\"", "1 2") +
+                            property("name=\"E\" type=\"int\"", "") + property("name=\"U\"", "anything") +
+                            property("name=\"MapName\" type=\"string\"", "lab"))
+              .empty());
+}
+
+TEST_CASE("a misspelt property or device library is named with what was probably meant") {
+    const Folder folder;
+    const Lines api = check(folder, property("name=\"Api\" type=\"Name\"", "EncoderApi"));
+    REQUIRE(api.size() == 2);
+    CHECK(api[0] ==
+          "M.xml:6: property Api has the unknown type 'Name', expected int, double, string, bool or another "
+          "type of C++");
+    CHECK(api[1] ==
+          "M.xml:6: property Api: components ask for their device library as APIName, ApiName or DllName; "
+          "did you mean ApiName?");
+    folder.write("GripperAPI.so", "");
+    const Lines library = check(folder, property("name=\"DllName\" type=\"string\"", "GriiperAPI"));
+    REQUIRE(library.size() == 1);
+    CHECK_THAT(library[0],
+               Catch::StartsWith("M.xml:6: property DllName: device library 'GriiperAPI' not found: ") &&
+                   Catch::EndsWith("; did you mean GripperAPI?"));
+    CHECK(check(folder, property("name=\"DllName\" type=\"string\"", "GripperAPI")).empty());
+}
+
+TEST_CASE("a property that a component asks for and its profile does not have is noted once") {
+    const Folder folder;
+    folder.component("Asking", "maker", "<type>passive</type>", "<property name=\"troubel\">call</property>");
+    tandem::engine::Application application(folder.application(Folder::sub("Asking", "Asking.xml")),
+                                            test_options(folder));
+    application.start();
+    application.step("Asking");
+    application.step("Asking");
+    Lines lines;
+    for (const auto& absent : tandem::engine::absent_properties()) lines.push_back(absent.line);
+    CHECK(std::count(lines.begin(), lines.end(),
+                     "component Asking asks for property trouble, which its profile does not have; it gets "
+                     "an empty text; "
+                     "did you mean troubel?") == 1);
+    CHECK(
+        std::count(
+            lines.begin(), lines.end(),
+            "component Asking asks for property a, which its profile does not have; it gets an empty text") ==
+        1);
+}
