@@ -14,7 +14,7 @@ class Table {
     /// Missing cells are empty, surplus ones are dropped.
     void add_row(std::vector<std::string> row);
     bool empty() const { return rows_.size() == 1; } ///< no row but the headings
-    std::string text() const;                        ///< all lines, each with its newline
+    std::string text() const; ///< all lines without trailing blanks, each with its newline
 
   private:
     std::vector<bool> right_aligned_;            // by column
