@@ -76,10 +76,12 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
             fmt::print(stderr, "tandem: {}\n", describe_wait(remote_port));
             has_said_that_it_waits = true;
         }
-        if (pulls) port.fetch();
         RTC::ByteData bytes;
         // The wait is short, because a signal does not end it, and a sender that is pulled from has to be asked again.
-        if (!port.samples().pop(bytes, std::chrono::milliseconds(pulls ? 10 : 100))) continue;
+        if (!port.samples().pop(bytes, std::chrono::milliseconds(pulls ? 10 : 100))) {
+            if (pulls) port.fetch();
+            continue;
+        }
         ++received;
         // One line for each sample, flushed at once: another program may read them through a pipe.
         print_text(sample_json(converter, code.in(), bytes, options.raw)

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <fmt/format.h>
 #include <rtm/CORBA_RTCUtil.h>
+#include <string_view>
 
 namespace tandem::command {
 namespace {
@@ -42,12 +43,20 @@ UntypedInPort::UntypedInPort(const char* name, const char* type)
 // The base class has it for ports with a variable.
 bool UntypedInPort::read(std::string) { return false; }
 
-// The listener of the samples sees each. The number is bounded: a sender may produce them as fast as they are fetched.
+// The listener of the samples sees each. Ends at a sample that is the one before again: OpenRTM-aist's senders give their
+// last one when they have no other. The number is bounded, since samples may be written as fast as they are fetched.
 void UntypedInPort::fetch() {
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
-    RTC::ByteData bytes;
-    for (auto* connector : m_connectors)
-        for (int i = 0; i < 1000 && connector->read(bytes) == RTC::DataPortStatus::PORT_OK; ++i) continue;
+    auto text = [](const RTC::ByteData& bytes) {
+        return std::string_view(reinterpret_cast<const char*>(bytes.getBuffer()), bytes.getDataLength());
+    };
+    for (auto* connector : m_connectors) {
+        RTC::ByteData bytes, before;
+        for (int i = 0; i < 1000 && connector->read(bytes) == RTC::DataPortStatus::PORT_OK; ++i) {
+            if (i > 0 && text(bytes) == text(before)) break;
+            before = bytes;
+        }
+    }
 }
 
 UntypedOutPort::UntypedOutPort(const char* name, const char* type) : OutPortBase(name, type) {
