@@ -10,14 +10,28 @@ namespace {
 
 std::atomic<int> running_calls{0};
 
+constexpr std::chrono::seconds first_report{2};
+
 /// Counts one call as finished when `work` returns or throws.
 struct FinishedOnExit {
     ~FinishedOnExit() { --running_calls; }
 };
 
+// False: `end` has not come within `timeout`.
+bool wait_for(const std::future<void>& end, std::chrono::nanoseconds timeout,
+              const std::function<void(std::chrono::seconds)>& on_slow) {
+    const auto start = std::chrono::steady_clock::now();
+    for (auto report = first_report; on_slow && report < timeout; report *= 2) {
+        if (end.wait_until(start + report) == std::future_status::ready) return true;
+        on_slow(report);
+    }
+    return end.wait_until(start + timeout) == std::future_status::ready;
+}
+
 } // namespace
 
-bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function<void()> work) {
+bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
+                                 const std::function<void(std::chrono::seconds)>& on_slow) {
     ++running_calls;
     std::packaged_task<void()> task([work = std::move(work)] {
         const FinishedOnExit counted;
@@ -25,7 +39,7 @@ bool BoundedCall::returns_within(std::chrono::nanoseconds timeout, std::function
     });
     std::future<void> end = task.get_future();
     std::thread thread(std::move(task));
-    if (end.wait_for(timeout) == std::future_status::timeout) {
+    if (!wait_for(end, timeout, on_slow)) {
         thread.detach();
         return false;
     }

@@ -11,8 +11,10 @@ class BoundedCall {
   public:
     /// Runs `work` and waits at most `timeout` for its end. An exception that it throws in time is rethrown
     /// here. False: `work` still runs; its thread is detached, so what `work` refers to must stay alive for
-    /// the rest of the process. [any-thread]
-    static bool returns_within(std::chrono::nanoseconds timeout, std::function<void()> work);
+    /// the rest of the process. `on_slow` is called here when 2 s, 4 s, 8 s, ... have passed without that end.
+    /// [any-thread]
+    static bool returns_within(std::chrono::nanoseconds timeout, std::function<void()> work,
+                               const std::function<void(std::chrono::seconds)>& on_slow = {});
 
     /// Whether any call of this process has not returned yet. Static objects must not be destroyed while one
     /// is running: such a process ends with exit_process(). [any-thread]

@@ -171,7 +171,14 @@ void Application::stop_component(ComponentHost& component) {
 
 /// Runs one step of the component's end in a thread of its own, and goes on without it after the grace time.
 void Application::run_bounded(ComponentHost& component, void (ComponentHost::*step)()) {
-    if (!process::BoundedCall::returns_within(options_.grace, [&component, step] { (component.*step)(); }))
+    const auto log_slow = [&](std::chrono::seconds time) {
+        const char* callback = component.current_callback();
+        spdlog::warn("{} of component {} has taken {} s so far; the host waits for it up to {} s",
+                     callback ? callback : "a callback", component.name(), time.count(),
+                     std::chrono::duration<double>(options_.grace).count());
+    };
+    if (!process::BoundedCall::returns_within(
+            options_.grace, [&component, step] { (component.*step)(); }, log_slow))
         mark_stuck(component);
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // rtm_host: runs the RT-Components that an rtc.conf names, as OpenRTM-aist's rtcd does, with the same options.
-// It prints `ready` on standard output when all of rtc.conf has been carried out, and ends on SIGINT, SIGTERM
-// and SIGHUP. Exit code 0: ended in order, or a component that hangs was left behind; 1: bad input, or a static
+// It prints `ready` on standard output when all of rtc.conf has been carried out (`ready, but ...` if there is no
+// component), and ends on SIGINT, SIGTERM and SIGHUP. Exit code 0: ended in order, or a component that hangs was left behind; 1: bad input, or a static
 // destructor that hangs; any other: what a component gave to exit().
 #include "host/options/probe_cli_options.hpp"
 #include "host/options/real_time_options.hpp"
 #include "host/process/exit_guard.hpp"
 #include "host/process/exit_process.hpp"
+#include "host/process/step_timer.hpp"
 #include "host/rt/step_server.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
@@ -38,6 +39,7 @@ struct Arguments {
     std::vector<std::string> settings;
     std::vector<fs::path> plugin_path;
     bool master = false, conf_file_may_be_missing = false, no_corba_servant = false;
+    double grace_s = 10;
     tandem::options::ProbeCliOptions probe;
     tandem::options::RealTimeOptions real_time;
 };
@@ -56,6 +58,9 @@ void declare_options(CLI::App& app, Arguments& a) {
                    "path of a unix socket on which a driver requests each cycle; nothing runs on timers");
     app.add_option("--plugin-path", a.plugin_path, "additional folder of component libraries (repeatable)")
         ->allow_extra_args(false);
+    app.add_option("--grace", a.grace_s,
+                   "seconds that the end waits for a callback of a component to return (10)")
+        ->check(CLI::Range(0.01, 3600.));
     tandem::options::add_library_probe_options(app, a.probe);
     tandem::options::add_real_time_options(app, a.real_time);
 }
@@ -92,28 +97,32 @@ coil::vstring manager_arguments(const Arguments& a) {
     return args;
 }
 
-// Ends the process when a signal came while components are created and their callbacks do not return in time.
-// Until the main loop runs nobody else looks at the signal.
-class StartupSignalWatcher {
+// Logs a step of the set-up that takes long, and ends the process when a signal came meanwhile and the step is not over
+// in time. Until the main loop runs nobody else looks at the signal.
+class StartupWatcher {
   public:
-    explicit StartupSignalWatcher(RTC::Manager& manager) : thread_([this, &manager] { run(manager); }) {}
-    ~StartupSignalWatcher() {
+    StartupWatcher(RTC::Manager& manager, tandem::process::StepTimer& timer)
+        : thread_([this, &manager, &timer] { run(manager, timer); }) {}
+    ~StartupWatcher() {
         done_ = true;
         thread_.join();
     }
 
   private:
-    void run(RTC::Manager& manager) {
-        constexpr auto grace = std::chrono::seconds(5);
+    void run(RTC::Manager& manager, tandem::process::StepTimer& timer) {
+        const auto grace = RTC::host_options().stop_timeout;
         auto requested_at = std::chrono::steady_clock::time_point::max();
         while (!done_) {
             std::this_thread::sleep_for(std::chrono::milliseconds(20));
             const auto now = std::chrono::steady_clock::now();
-            if (!RTC::Manager::terminationRequested()) continue;
+            const bool ending = RTC::Manager::terminationRequested();
+            if (const std::string slow = timer.slow_step(); !slow.empty())
+                spdlog::warn("{}; {}", slow, ending ? "the host waits for it" : "Ctrl-C ends the host");
+            if (!ending) continue;
             requested_at = std::min(requested_at, now);
             if (now - requested_at < grace) continue;
-            spdlog::warn("a callback of a component that is being created does not return; exiting without "
-                         "waiting for it");
+            spdlog::warn("{} does not return within {} s; exiting without waiting for it", timer.step(),
+                         std::chrono::duration<double>(grace).count());
             manager.shutdown();
             tandem::process::exit_process(0);
         }
@@ -121,6 +130,16 @@ class StartupSignalWatcher {
     std::atomic<bool> done_{false};
     std::thread thread_; // last, so that it sees done_ initialized
 };
+
+// A misspelt key of rtc.conf is a warning and leaves a host that looks healthy and does nothing. A master waits for
+// tools that create components.
+const char* ready_line(RTC::Manager& manager, const Arguments& a) {
+    const bool master =
+        a.master || coil::toBool(manager.getConfig().getProperty("manager.is_master"), "YES", "NO", false);
+    if (master || !manager.getComponents().empty()) return "ready";
+    return manager.getLoadedModules().empty() ? "ready, but nothing was loaded"
+                                              : "ready, but no component was created";
+}
 
 // Replaces this process by the same program with the same arguments, which keeps the process id for whoever
 // supervises it. Descriptors are closed by exec (FD_CLOEXEC).
@@ -154,23 +173,25 @@ int run(const Arguments& a, char** argv_of_program) {
     options.tick_spin = a.real_time.tick_spin();
     options.plugin_path = plugin_path(a);
     options.probe = a.probe.probe_options();
+    options.stop_timeout = std::chrono::nanoseconds(static_cast<std::int64_t>(a.grace_s * 1e9));
+    // Shared with the manager, which outlives this function.
+    const auto timer = std::make_shared<tandem::process::StepTimer>("the start of the manager");
+    options.on_setup_step = [timer](std::string step) { timer->begin(std::move(step)); };
     coil::Argv argv(manager_arguments(a));
     RTC::Manager& manager = RTC::Manager::start(static_cast<int>(argv.size()), argv.get(), options);
     const tandem::process::ExitGuard exit_guard; // from here on components may call exit()
-    bool all_ended = true;
     try {
         {
-            const StartupSignalWatcher signal_watcher(manager);
+            const StartupWatcher watcher(manager, *timer);
             manager.activateOrThrow();
         }
         std::unique_ptr<tandem::rt::StepServer> steps;
         if (options.lockstep)
             steps = std::make_unique<tandem::rt::StepServer>(
                 a.lockstep_socket, [&](const std::string& name) { manager.step(name); });
-        std::puts("ready"); // supervisors and tests wait for this line
+        std::puts(ready_line(manager, a)); // supervisors and tests wait for a line that begins with `ready`
         std::fflush(stdout);
         manager.runManager();
-        all_ended = manager.stoppedInOrder();
         steps.reset(); // its thread ends before restart() replaces the process
         if (manager.restartRequested()) restart(argv_of_program);
     } catch (const std::runtime_error& e) {
@@ -180,8 +201,8 @@ int run(const Arguments& a, char** argv_of_program) {
         tandem::process::exit_process(1); // without static destructors: components may be half constructed
     }
     // Static destructors must not run while the thread of a callback that hangs uses static objects.
-    if (!all_ended) {
-        spdlog::warn("a component does not stop; exiting without waiting for it");
+    if (const std::string hanging = RTC::left_behind(manager); !hanging.empty()) {
+        spdlog::warn("exiting without waiting for {}", hanging);
         tandem::process::exit_process(0);
     }
     bound_static_destructors(manager);

@@ -78,11 +78,11 @@ class HostProcess {
     /// False: `text` has not come on standard output within the time, or the process has ended without it.
     bool wait_for_output(const std::string& text,
                          std::chrono::milliseconds timeout = std::chrono::seconds(30)) {
-        const auto end = std::chrono::steady_clock::now() + timeout;
-        while (output.find(text) == std::string::npos)
-            if (std::chrono::steady_clock::now() > end || !read_some())
-                return output.find(text) != std::string::npos;
-        return true;
+        return wait_for_text(output, text, timeout);
+    }
+    /// The same for standard error.
+    bool wait_for_error(const std::string& text) {
+        return wait_for_text(errors, text, std::chrono::seconds(30));
     }
     void send_signal(int signal) { kill(pid_, signal); }
     /// Sends SIGSTOP and waits until all threads have stopped: it answers no call then. SIGCONT continues it.
@@ -123,6 +123,13 @@ class HostProcess {
     std::string output, errors; ///< all that it has written on standard output and standard error
 
   private:
+    bool wait_for_text(const std::string& where, const std::string& text, std::chrono::milliseconds timeout) {
+        const auto end = std::chrono::steady_clock::now() + timeout;
+        while (where.find(text) == std::string::npos)
+            if (std::chrono::steady_clock::now() > end || !read_some())
+                return where.find(text) != std::string::npos;
+        return true;
+    }
     // Reads what comes on either pipe within 50 ms; false: both are closed.
     bool read_some() {
         pollfd fds[2] = {{out_open_ ? out_ : -1, POLLIN, 0}, {err_open_ ? err_ : -1, POLLIN, 0}};

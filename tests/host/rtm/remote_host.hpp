@@ -25,12 +25,13 @@ struct RemoteHost {
 
     static std::vector<std::string> arguments(const std::string& components, const std::string& port,
                                               const std::vector<std::string>& settings) {
-        std::vector<std::string> all{"-f", "/dev/null",
-                                     "-o", "manager.modules.load_path:" TANDEM_TEST_PLUGINS,
-                                     "-o", "manager.modules.preload:TestComponents.so",
-                                     "-o", "manager.components.precreate:" + components,
-                                     "-o", "exec_cxt.periodic.rate:200",
-                                     "-p", port};
+        std::vector<std::string> all{"-f",      "/dev/null",
+                                     "-o",      "manager.modules.load_path:" TANDEM_TEST_PLUGINS,
+                                     "-o",      "manager.modules.preload:TestComponents.so",
+                                     "-o",      "manager.components.precreate:" + components,
+                                     "-o",      "exec_cxt.periodic.rate:200",
+                                     "-p",      port,
+                                     "--grace", "2"};
         for (const auto& setting : settings) {
             all.push_back("-o");
             all.push_back(setting);

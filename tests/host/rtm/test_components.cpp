@@ -160,6 +160,31 @@ class FaultInjector : public RTC::DataFlowComponentBase {
     }
 };
 
+/// A device, a camera for instance, that needs `ms` milliseconds in the callback that the property `in` names. With
+/// `fails` that callback then fails; with `breaks` onExecute does.
+class SlowDevice : public RTC::DataFlowComponentBase {
+  public:
+    using DataFlowComponentBase::DataFlowComponentBase;
+    RTC::ReturnCode_t onInitialize() override { return at("initialize"); }
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return at("activated"); }
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return at("deactivated"); }
+    RTC::ReturnCode_t onReset(RTC::UniqueId) override { return at("reset"); }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        return getProperties().getProperty("breaks").empty() ? RTC::RTC_OK : RTC::RTC_ERROR;
+    }
+    RTC::ReturnCode_t onFinalize() override {
+        print_line("device closed");
+        return RTC::RTC_OK;
+    }
+
+  private:
+    RTC::ReturnCode_t at(const std::string& callback) {
+        if (getProperties().getProperty("in") != callback) return RTC::RTC_OK;
+        std::this_thread::sleep_for(std::chrono::milliseconds(std::stol(getProperties().getProperty("ms"))));
+        return getProperties().getProperty("fails").empty() ? RTC::RTC_OK : RTC::RTC_ERROR;
+    }
+};
+
 } // namespace
 
 extern "C" void TestComponentsInit(RTC::Manager* manager) {
@@ -170,6 +195,7 @@ extern "C" void TestComponentsInit(RTC::Manager* manager) {
     register_component_type<FaultInjector>(*manager, "FaultInjector");
     register_component_type<BadPeer>(*manager, "BadPeer");
     register_openrtm_components(*manager);
+    register_component_type<SlowDevice>(*manager, "SlowDevice");
 }
 extern "C" void OnlyReporters(RTC::Manager* manager) {
     register_component_type<Reporter>(*manager, "Reporter");

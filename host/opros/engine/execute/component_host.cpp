@@ -88,28 +88,28 @@ std::string ComponentHost::run_guarded(const char* callback, const std::function
     }
 }
 
-bool ComponentHost::run_transition(const char* name, ReturnType (LifecycleInterface::*transition)()) {
+bool ComponentHost::run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)()) {
     ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
     // Device components call dlerror() after dlsym() without clearing it first, and would take an error that
     // somebody else has left in this thread for their own.
     dlerror();
     std::string why;
-    const std::string thrown = run_guarded(name, [&] {
+    const std::string thrown = run_guarded(callback, [&] {
         try {
             result = (component_.get()->*transition)();
-            why = "its callback returned code " + code_text(component_->getErrorInfo());
+            why = "it returned code " + code_text(component_->getErrorInfo());
         } catch (const MethodInvokeException& error) {
             // In a transition, unlike in a cycle, there is no next time: it counts as a failed callback.
-            why = std::string("its callback made a call that failed: ") + error.what();
+            why = std::string("it made a call that failed: ") + error.what();
         }
     });
     if (thrown.empty() && result == OPROS_SUCCESS) return true;
-    if (thrown.empty()) spdlog::error("component {}: {} failed, {}", name_, name, why);
+    if (thrown.empty()) spdlog::error("component {}: {} failed, {}", name_, callback, why);
     return false;
 }
 
 void ComponentHost::initialize() {
-    initialized_ = run_transition("initialize", &LifecycleInterface::initialize);
+    initialized_ = run_transition("onInitialize", &LifecycleInterface::initialize);
     if (initialized_)
         configure_input_ports();
     else
@@ -117,12 +117,12 @@ void ComponentHost::initialize() {
 }
 
 void ComponentHost::start() {
-    if (!failed_ && !run_transition("start", &LifecycleInterface::start)) mark_failed();
+    if (!failed_ && !run_transition("onStart", &LifecycleInterface::start)) mark_failed();
 }
 
 void ComponentHost::mark_failed() {
     failed_ = error_logged_ = true;
-    run_transition("fail", &LifecycleInterface::fail);
+    run_transition("onError", &LifecycleInterface::fail);
 }
 
 // Only ports that the code has added, since profiles list others as well. setQueue() leaves a queue alone that
@@ -151,12 +151,12 @@ bool ComponentHost::has_polled_sources() const {
 }
 
 void ComponentHost::stop() {
-    if (is_active()) run_transition("stop", &LifecycleInterface::stop);
+    if (is_active()) run_transition("onStop", &LifecycleInterface::stop);
 }
 
 void ComponentHost::destroy() {
     if (initialized_ && component_->getStatus() != OPROS_CS_DESTROYED)
-        run_transition("destroy", &LifecycleInterface::destroy);
+        run_transition("onDestroy", &LifecycleInterface::destroy);
 }
 
 void ComponentHost::destroy_instance() {

@@ -94,7 +94,7 @@ class ComponentHost {
     bool consume_dependency_cycles();
 
   private:
-    bool run_transition(const char* name, ReturnType (LifecycleInterface::*transition)());
+    bool run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
     /// Logs what the callback threw and puts the component in ERROR. Returns the text that execute() returns.
     std::string enter_error(const char* callback, const std::string& why);
     void mark_failed();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts common to all execution contexts, but for the cycle (execution_cycle.cpp): options, start and
 // stop, participants, profile.
+#include "host/process/callback_scope.hpp"
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <cmath>
@@ -85,6 +86,8 @@ ReturnCode_t ExecutionContextBase::stop() {
     std::unique_lock<std::recursive_timed_mutex> transition(m_startStopMutex, std::defer_lock);
     if (!isInsideCycle() && !transition.try_lock_for(2 * host_options().stop_timeout)) return RTC_ERROR;
     if (!setRunning(false)) return PRECONDITION_NOT_MET;
+    { std::lock_guard<std::mutex> lock(m_cycleDoneMutex); } // as in invokeWorker(): no waiter misses it
+    m_cycleDone.notify_all();
     const ReturnCode_t result = onStopping();
     if (result == RTC_OK) forEach(&RTC_impl::RTObjectStateMachine::shutdown);
     return result;
@@ -174,6 +177,20 @@ const char* ExecutionContextBase::getStateString(LifeCycleState state) {
     return state <= ERROR_STATE ? names[state] : "unknown";
 }
 
+namespace {
+
+// The callback that a component of this process is in, for tools that wait for a transition. Short ones, which every
+// cycle has, would only come and go.
+void add_running_callback(coil::Properties& properties, const RTObject_impl* component) {
+    const auto running = tandem::process::find_running_callback(component);
+    if (component == nullptr || !running || running->seconds() < 0.1) return;
+    properties.setProperty("callback.component", component->getInstanceName());
+    properties.setProperty("callback.name", running->name);
+    properties.setProperty("callback.seconds", coil::sprintf("%.1f", running->seconds()));
+}
+
+} // namespace
+
 ExecutionContextProfile* ExecutionContextBase::getProfile() {
     ExecutionContextProfile_var profile = new ExecutionContextProfile;
     profile->kind = m_kind;
@@ -187,6 +204,7 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
     }
     coil::Properties properties(m_properties);
     addStatistics(properties);
+    for (auto& participant : *participants()) add_running_callback(properties, participant->local());
     NVUtil::copyFromProperties(profile->properties, properties);
     return profile._retn();
 }

@@ -84,7 +84,8 @@ ReturnCode_t ExecutionContextBase::waitForTransition(const Participant& particip
         std::min<std::chrono::nanoseconds>(2 * getPeriod(), std::chrono::minutes(1));
     const auto bound = timeout + cycle_wait;
     std::unique_lock<std::mutex> lock(m_cycleDoneMutex);
-    m_cycleDone.wait_for(lock, bound, [&] { return !participant->hasPendingTransition(); });
+    // No cycle comes any more when the context stops: a tool that waits here must not keep the ORB from ending.
+    m_cycleDone.wait_for(lock, bound, [&] { return !participant->hasPendingTransition() || !isRunning(); });
     return participant->state() == to && !participant->hasPendingTransition() ? RTC_OK : RTC_ERROR;
 }
 

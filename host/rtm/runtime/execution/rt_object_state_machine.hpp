@@ -28,6 +28,8 @@ class RTObjectStateMachine {
     /// Is exactly this transition pending?
     bool isRequested(RTC::LifeCycleState from, RTC::LifeCycleState to) const;
     bool refersTo(RTC::LightweightRTObject_ptr component) const;
+    /// NULL: of another process.
+    const RTC::RTObject_impl* local() const { return local_; }
     /// Not duplicated: valid as long as this object.
     RTC::LightweightRTObject_ptr reference() const { return reference_.in(); }
 

@@ -10,6 +10,7 @@ namespace {
 void load_module(Manager& manager, const std::string& entry) {
     const std::size_t open = entry.find('(');
     const std::size_t close = entry.find(')', open);
+    manager.impl().begin_setup_step("the loading of module " + entry);
     const std::string init = open == std::string::npos ? "" : entry.substr(open + 1, close - open - 1);
     manager.loadOrThrow(coil::eraseBothEndsBlank(entry.substr(0, open)), coil::eraseBothEndsBlank(init));
 }
@@ -30,8 +31,10 @@ void activate_all(Manager& manager, ModuleInitProc init_proc, Attempt attempt) {
     if (init_proc != nullptr) init_proc(&manager);
     for_each_entry("manager.components.precreate",
                    [&](const std::string& entry) { manager.createOrThrow(entry); });
-    for_each_entry("manager.components.preconnect",
-                   [&](const std::string& entry) { manager.connectOrThrow(entry); });
+    for_each_entry("manager.components.preconnect", [&](const std::string& entry) {
+        manager.impl().begin_setup_step("the connection " + entry);
+        manager.connectOrThrow(entry);
+    });
     for_each_entry("manager.components.preactivation",
                    [&](const std::string& entry) { manager.activateComponentOrThrow(entry); });
 }

@@ -38,13 +38,38 @@ void Manager::connectOrThrow(const std::string& text) {
 // A component that fails to become active is in the error state, which is a state of its life and not an
 // error of rtc.conf: it is logged.
 void Manager::activateComponentOrThrow(const std::string& instance_name) {
-    RTObject_impl& component = m_impl->require_component(*this, instance_name);
-    Logger& rtclog = m_impl->log;
+    m_impl->begin_setup_step("onActivated of component " + instance_name);
+    m_impl->activate(m_impl->require_component(*this, instance_name));
+}
+
+// A context answers after activation_timeout at the latest, when a slow onActivated may still be running.
+void Manager::Impl::activate(RTObject_impl& component) {
+    Logger& rtclog = log;
+    const std::string name = component.getInstanceName();
     RTObject_var self = component.getObjRef();
-    for (auto* context : component.getOwnContexts())
-        if (context->activateComponent(self.in()) != RTC_OK)
-            RTC_ERROR(("%s did not become active, it is in state %s", instance_name.c_str(),
-                       ExecutionContextBase::getStateString(context->getComponentState(self.in()))));
+    for (auto* context : component.getOwnContexts()) {
+        const ReturnCode_t code = context->activateComponent(self.in());
+        if (code == RTC_OK) continue;
+        const LifeCycleState state = context->getComponentState(self.in());
+        const auto running = tandem::process::find_running_callback(&component);
+        if (code != RTC_ERROR) {
+            RTC_ERROR(
+                ("the execution context of %s refuses to activate it: the component is %s, the context %s",
+                 name.c_str(), ExecutionContextBase::getStateString(state),
+                 context->isRunning() ? "runs" : "does not run"));
+        } else if (running && is_transition_callback(running->name)) {
+            RTC_WARN(("%s is still activating: %s has taken %.1f s so far; the host goes on and logs its end",
+                      name.c_str(), running->name, running->seconds()));
+            slow_transitions.expect_end(component);
+        } else if (state == INACTIVE_STATE) {
+            RTC_WARN(("%s is still INACTIVE: its execution context has not begun the activation, its thread "
+                      "is busy",
+                      name.c_str()));
+        } else {
+            // ACTIVE: the failure of onActivated leads to ERROR in the next cycle.
+            RTC_ERROR(("%s went to ERROR: its onActivated has failed", name.c_str()));
+        }
+    }
 }
 
 void Manager::step(const std::string& instance_name) {

@@ -15,6 +15,7 @@ namespace RTC {
 RTObject_impl& Manager::makeOrThrow(FactoryBase& factory) {
     const std::string type = factory.profile().getProperty("implementation_id");
     const std::string failure = "component type " + type + " cannot be created";
+    m_impl->begin_setup_step("the constructor of component type " + type);
     const tandem::crash::CallbackScope scope(type.c_str(), "its constructor", nullptr);
     try {
         if (RTObject_impl* component = factory.create(this)) return *component;
@@ -89,6 +90,7 @@ void Manager::Impl::set_up_component(RTObject_impl& component, const std::string
     auto& callbacks = listeners.rtclifecycle_;
     component.setInstanceName(name.c_str());
     const coil::Properties own_settings = configure_component(*this, component, factory.profile(), arguments);
+    begin_setup_step("onInitialize or onStartup of component " + name);
     callbacks.forEach([](auto& listener) { listener.preInitialize(); });
     if (component.initialize() != RTC_OK)
         throw ManagerError("component " + name + " cannot be started: its onInitialize has failed");

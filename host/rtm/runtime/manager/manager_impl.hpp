@@ -5,6 +5,7 @@
 #include "host/plugin/library.hpp"
 #include "host/rtm/runtime/manager/connection_keeper.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
+#include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/naming/name_bindings.hpp"
 #include <atomic>
 #include <map>
@@ -57,9 +58,11 @@ struct Manager::Impl {
     std::vector<std::pair<std::chrono::steady_clock::time_point, std::function<void()>>> tasks; // by due time
     std::vector<std::shared_ptr<coil::PeriodicFunction>> periodic_tasks;
     bool shut_down = false;
+    coil::vstring left_behind; // what did not return when the manager was shut down
+
+    SlowTransitions slow_transitions; // used by the main thread only, without the mutex
 
     std::atomic<bool> ever_had_components{false};
-    std::atomic<bool> stopped_in_order{true};
     std::atomic<bool> restart_requested{false};
 
     std::vector<LogstreamBase*> log_streams; // created by open_log_streams()
@@ -85,11 +88,20 @@ struct Manager::Impl {
     RTObject_impl& require_component(Manager& manager, const std::string& name);
     /// Folders in which modules are searched, in order.
     std::vector<std::filesystem::path> module_dirs() const;
+    /// Activates the component in its own contexts, and logs why if one has not done so when it answers.
+    void activate(RTObject_impl& component);
+    /// Logs callbacks of transitions that take long, and their end. [main-thread]
+    void log_slow_transitions();
     /// Runs the tasks of invoke() and addTask() whose time has come. [main-thread]
     void run_due_tasks();
     /// Calls `destroy`, which ends with the destructor of component `name`, in a thread of its own. A
     /// destructor that does not return in time is logged and its thread is left behind.
     void destroy_component(const std::string& name, std::function<void()> destroy);
+    /// Logs that a component's code does not return, and notes it for left_behind().
+    void leave_behind(const std::string& what);
+    void begin_setup_step(std::string step) const {
+        if (options.on_setup_step) options.on_setup_step(std::move(step));
+    }
     void schedule_periodic(Manager& manager, const std::shared_ptr<coil::PeriodicFunction>& task,
                            std::chrono::nanoseconds period);
     /// References to the components that `accept` is true for. They stay valid when the component exits

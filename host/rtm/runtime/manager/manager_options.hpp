@@ -4,6 +4,7 @@
 #include "host/plugin/probe.hpp"
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <rtm/Manager.h>
 #include <vector>
@@ -17,6 +18,9 @@ struct HostOptions {
     std::chrono::nanoseconds tick_spin{0}; ///< how long before a tick a context polls the clock
     /// How long a context that is stopped waits for its running callback to return.
     std::chrono::nanoseconds stop_timeout = std::chrono::seconds(2);
+    /// Called before each step of the set-up in which a component's code runs, so that one that hangs can be
+    /// named: `onInitialize or onStartup of component Camera0`. [any-thread]
+    std::function<void(std::string step)> on_setup_step;
     std::vector<std::filesystem::path> plugin_path;    ///< searched after manager.modules.load_path
     std::optional<tandem::plugin::ProbeOptions> probe; ///< modules are loaded in a child process first
     /// The program's name, if crashes are to be reported (host/crash); NULL: the program's own signal handlers stay.
@@ -28,5 +32,9 @@ struct Manager::Options : HostOptions {};
 
 /// The options of the running manager; defaults before it is started. [any-thread]
 HostOptions host_options();
+
+/// What did not return when the manager was shut down, as in `onExecute of Camera0, its destructor of Arm0`;
+/// empty: all ended in order. [any-thread]
+std::string left_behind(Manager& manager);
 
 } // namespace RTC

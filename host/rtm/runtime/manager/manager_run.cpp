@@ -91,6 +91,7 @@ void Manager::runManager(bool no_block) {
         wait_for_wake_up(round_ms);
         m_impl->run_due_tasks();
         cleanupComponents();
+        m_impl->log_slow_transitions();
         const bool has_components = !getComponents().empty();
         if (idle_shutdown.is_due(has_components, m_impl->ever_had_components)) break;
     }
@@ -127,6 +128,19 @@ void Manager::Impl::schedule_periodic(Manager& manager, const std::shared_ptr<co
         period);
 }
 
+// With the mutex: no component is deleted meanwhile. No code of a component is called.
+void Manager::Impl::log_slow_transitions() {
+    std::vector<std::string> lines;
+    {
+        std::lock_guard<std::recursive_mutex> lock(mutex);
+        std::vector<RTObject_impl*> all;
+        for (auto& component : components) all.push_back(component.object);
+        lines = slow_transitions.check(all);
+    }
+    Logger& rtclog = log;
+    for (const auto& line : lines) RTC_WARN(("%s", line.c_str()));
+}
+
 // Tasks run without the mutex, because they add tasks and call components.
 void Manager::Impl::run_due_tasks() {
     std::vector<std::function<void()>> due;
@@ -140,7 +154,10 @@ void Manager::Impl::run_due_tasks() {
     for (auto& task : due) task();
 }
 
-bool Manager::stoppedInOrder() const { return m_impl->stopped_in_order; }
+bool Manager::stoppedInOrder() const {
+    std::lock_guard<std::recursive_mutex> lock(m_impl->mutex);
+    return m_impl->left_behind.empty();
+}
 bool Manager::restartRequested() const { return m_impl->restart_requested; }
 
 } // namespace RTC

@@ -3,18 +3,34 @@
 // callback that does not return keeps the process alive; here every step has a time limit, and a component
 // that exceeds it is left behind.
 #include "host/process/bounded_call.hpp"
+#include "host/process/callback_scope.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <algorithm>
-#include <atomic>
 #include <future>
 #include <thread>
 
 namespace RTC {
 namespace {
 
-// Twice the time that a context waits for its callback: a context that gives up waiting has returned by then.
-bool returns_in_time(std::function<void()> call) {
-    return tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout, std::move(call));
+// `onExecute of Camera0`; without a name of the callback when none of the component's own is running, but one of
+// another component in its execution context, for instance.
+std::string callback_text(const RTObject_impl* component, const std::string& name) {
+    const auto running = tandem::process::find_running_callback(component);
+    return (running ? std::string(running->name) : "a callback") + " of " + name;
+}
+
+// Whether the component, whose exit() has returned, is no longer listed. Unless it hangs, another thread that exits it
+// may still be about to take it off the list.
+bool leaves_in_time(Manager& manager, const RTObject_impl* component, const std::string& name) {
+    const auto timeout = host_options().stop_timeout;
+    const auto end = std::chrono::steady_clock::now() + timeout;
+    while (manager.getComponent(name.c_str()) == component) {
+        const auto running = tandem::process::find_running_callback(component);
+        const auto now = std::chrono::steady_clock::now();
+        if (now > end || (running && now - running->since > timeout)) return false;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
 }
 
 // Stops the component's own contexts and deactivates it in each. A context that does not halt is passed over:
@@ -29,28 +45,36 @@ void halt_and_deactivate(RTObject_impl* component) {
 } // namespace
 
 // All components are stopped before the first exits, because they may call each other while they stop.
-// Returns false when one did not stop or exit in time.
+// Returns false when one did not stop or exit in time. The limit is twice the time that a context waits for its
+// callback: a context that gives up waiting has returned by then.
 bool Manager::stopComponents(std::vector<RTObject_impl*> components) {
     Logger& rtclog = m_impl->log;
-    const std::size_t all = components.size();
-    auto exceeds_time = [&](RTObject_impl* component, std::function<void()> call) {
-        const std::string name(component->getInstanceName());
-        if (returns_in_time(std::move(call))) return false;
-        RTC_ERROR(("%s: a callback does not return; the host ends without waiting for it", name.c_str()));
-        return true;
+    bool all_exited = true;
+    auto leave_behind = [&](RTObject_impl* component, const std::string& name) {
+        m_impl->leave_behind(callback_text(component, name));
+        all_exited = false;
+    };
+    auto returns = [&](RTObject_impl* component, const std::string& name, std::function<void()> call) {
+        return tandem::process::BoundedCall::returns_within(
+            2 * host_options().stop_timeout, std::move(call), [&](std::chrono::seconds time) {
+                RTC_WARN(("%s has taken %ld s so far; the host waits for it",
+                          callback_text(component, name).c_str(), static_cast<long>(time.count())));
+            });
     };
     std::erase_if(components, [&](auto* component) {
-        return exceeds_time(component, [component] { halt_and_deactivate(component); });
+        const std::string name(component->getInstanceName());
+        if (returns(component, name, [component] { halt_and_deactivate(component); })) return false;
+        leave_behind(component, name);
+        return true;
     });
-    std::size_t exited = 0;
     for (auto* component : components) {
-        // Shared with the call, which may outlive this function.
-        auto result = std::make_shared<std::atomic<ReturnCode_t>>(RTC_ERROR);
-        if (!exceeds_time(component, [component, result] { *result = component->exit(); }) &&
-            *result == RTC_OK)
-            ++exited;
+        const std::string name(component->getInstanceName());
+        // One whose onFinalize has failed, which is logged, has exited nevertheless. One that is still listed has not:
+        // exit() has failed, or a tool has called it before and waits for a callback.
+        const bool returned = returns(component, name, [component] { component->exit(); });
+        if (!returned || !leaves_in_time(*this, component, name)) leave_behind(component, name);
     }
-    return exited == all;
+    return all_exited;
 }
 
 // Deletes the components that have exited. Without the mutex: a destructor may call the manager.
@@ -66,10 +90,20 @@ void Manager::cleanupComponents() {
 }
 
 void Manager::Impl::destroy_component(const std::string& name, std::function<void()> call) {
-    if (returns_in_time(std::move(call))) return;
+    if (!tandem::process::BoundedCall::returns_within(2 * host_options().stop_timeout, std::move(call)))
+        leave_behind("the destructor of " + name);
+}
+
+void Manager::Impl::leave_behind(const std::string& what) {
     Logger& rtclog = log;
-    RTC_ERROR(("%s: its destructor does not return; the host goes on without waiting for it", name.c_str()));
-    stopped_in_order = false;
+    RTC_ERROR(("%s does not return; the host goes on without waiting for it", what.c_str()));
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    left_behind.push_back(what);
+}
+
+std::string left_behind(Manager& manager) {
+    std::lock_guard<std::recursive_mutex> lock(manager.impl().mutex);
+    return coil::flatten(manager.impl().left_behind);
 }
 
 bool Manager::shutdown() {
@@ -84,7 +118,7 @@ bool Manager::shutdown() {
     auto components = getComponents();
     // Reverse order of creation: later components may use earlier ones.
     std::reverse(components.begin(), components.end());
-    bool all_exited = stopComponents(components);
+    const bool all_exited = stopComponents(components);
     m_impl->run_due_tasks();
     cleanupComponents();
 
@@ -95,11 +129,11 @@ bool Manager::shutdown() {
     });
     auto ended = end_orb.get_future();
     std::thread(std::move(end_orb)).detach();
-    if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready) all_exited = false;
+    if (ended.wait_for(host_options().stop_timeout) != std::future_status::ready)
+        m_impl->leave_behind("an operation that another process has called");
     m_impl->listeners.manager_.forEach([](auto& listener) { listener.postShutdown(); });
     close_log_streams(*m_impl);
-    if (!all_exited) m_impl->stopped_in_order = false;
-    return m_impl->stopped_in_order;
+    return all_exited && stoppedInOrder();
 }
 
 } // namespace RTC

@@ -146,9 +146,8 @@ TEST_CASE("a call of an unconnected method in onStart is reported in one line") 
     const Folder folder;
     Process host({OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start calls")});
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.output,
-               Catch::Contains("component M: start failed, its callback made a call that failed: "
-                               "required method add is not connected\n"));
+    CHECK_THAT(host.output, Catch::Contains("component M: onStart failed, it made a call that failed: "
+                                            "required method add is not connected\n"));
 }
 
 TEST_CASE("a host whose component hangs in onExecute names it and exits") {
@@ -193,17 +192,35 @@ TEST_CASE("a host whose component hangs in the set-up can be ended") {
     CHECK_THAT(host.output, Catch::Contains("onInitialize of component M does not return within 0.1 s"));
 }
 
+TEST_CASE("a host says which callback it waits for when one is slow and goes on when it has returned") {
+    const Folder folder;
+    Process host(
+        {OPROS_HOST, "--plugin-path", FIXTURES, one_component(folder, "maker", "start and stop are slow")});
+    REQUIRE(host.prints("ready\n"));
+    CHECK_THAT(host.output,
+               Catch::Contains("onStart of component M has taken 2 s so far; Ctrl-C ends the host\n"));
+    host.signal(SIGTERM);
+    CHECK(host.exit_code() == 0);
+    CHECK_THAT(
+        host.output,
+        Catch::Contains("onStop of component M has taken 2 s so far; the host waits for it up to 10 s\n") &&
+            Catch::Contains("M is gone\n"));
+}
+
 TEST_CASE("a host whose component hangs during shutdown names it and the callback and exits") {
-    const std::string where =
-        GENERATE("stop hangs", "destroy hangs", "its destructor hangs", "its static destructors hang");
+    const auto [where, callback] = GENERATE(
+        table<std::string, std::string>({{"stop hangs", "onStop"},
+                                         {"destroy hangs", "onDestroy"},
+                                         {"its destructor hangs", "its destructor"},
+                                         {"its static destructors hang", "its static destructors"}}));
     const Folder folder;
     Process host(
         {OPROS_HOST, "--plugin-path", FIXTURES, "--grace", "0.1", one_component(folder, "maker", where)});
     REQUIRE(host.prints("ready\n"));
     host.signal(SIGTERM);
     CHECK(host.exit_code() == 1);
-    CHECK_THAT(host.output, Catch::Contains("component M does not return from " +
-                                            where.substr(0, where.rfind(' ')) + " within 0.1 s"));
+    CHECK_THAT(host.output,
+               Catch::Contains("component M does not return from " + callback + " within 0.1 s"));
 }
 
 TEST_CASE("a library that stays loaded and hangs after main() is named and the host exits") {

@@ -140,7 +140,7 @@ TEST_CASE("A tool that asks for a component that can neither initialize nor be d
     CHECK_FALSE(CORBA::is_nil(another.in()));
     other.host.send_signal(SIGTERM);
     CHECK(other.host.wait_for_exit() == 0);
-    CHECK_THAT(other.host.errors, Catch::Contains("never: its destructor does not return"));
+    CHECK_THAT(other.host.errors, Catch::Contains("the destructor of never does not return"));
 }
 
 TEST_CASE("Only one of several simultaneous requests gets a component of the same name") {

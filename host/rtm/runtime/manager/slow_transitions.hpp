@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "host/process/callback_scope.hpp"
+#include <map>
+#include <rtm/RTObject.h>
+
+namespace RTC {
+
+/// `onActivated` ... `onShutdown`: called once for a transition of the life cycle, and not in every cycle.
+bool is_transition_callback(const std::string& name);
+
+/// Logs callbacks of transitions that take 2 s, 4 s, 8 s, ... and the end of each that it has logged. A slow
+/// onActivated, of a camera for instance, is no failure, but somebody waits for it. [main-thread]
+class SlowTransitions {
+  public:
+    /// Looks at the callbacks that the components are in, and returns the lines for the log; the components must not be
+    /// deleted meanwhile.
+    std::vector<std::string> check(const std::vector<RTObject_impl*>& components);
+    /// The end of the callback that the component is in will be logged, however short it is.
+    void expect_end(const RTObject_impl& component);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::seconds first_report{2}, hang_report{16};
+    struct Slow {
+        tandem::process::RunningCallback callback;
+        std::chrono::seconds next_report = first_report;
+        Clock::time_point end{}; // zero while it runs
+    };
+    std::string report(RTObject_impl& component, Slow& slow);
+
+    std::map<const RTObject_impl*, Slow> slow_;
+};
+
+} // namespace RTC

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/process/callback_scope.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <future>
+#include <string>
+#include <thread>
+
+using tandem::process::CallbackScope;
+using tandem::process::find_running_callback;
+
+namespace {
+// Any address names a component.
+std::string running_in(const int& component) {
+    const auto found = find_running_callback(&component);
+    return found ? found->name : "none";
+}
+} // namespace
+
+TEST_CASE("the callback of a component is known in every thread while it runs") {
+    const int camera = 0, arm = 0;
+    std::promise<void> entered, end;
+    std::thread thread([&] {
+        const CallbackScope scope(&camera, "onActivated");
+        entered.set_value();
+        end.get_future().wait();
+    });
+    entered.get_future().wait();
+    CHECK(running_in(camera) == "onActivated");
+    CHECK(running_in(arm) == "none");
+    end.set_value();
+    thread.join();
+    CHECK(running_in(camera) == "none");
+}
+
+TEST_CASE("of nested callbacks the innermost of the component is known, also when it has called another "
+          "component") {
+    const int camera = 0, arm = 0;
+    const CallbackScope outer(&camera, "onExecute");
+    {
+        const CallbackScope inner(&camera, "onEvent");
+        const CallbackScope called(&arm, "move");
+        CHECK(running_in(camera) == "onEvent");
+        CHECK(running_in(arm) == "move");
+    }
+    CHECK(running_in(camera) == "onExecute");
+    CHECK(running_in(arm) == "none");
+}
+
+TEST_CASE(
+    "of callbacks in several threads the one that has run longest is known, however deep a thread nests") {
+    const int camera = 0;
+    const CallbackScope first(&camera, "onActivated");
+    std::thread([&] {
+        const CallbackScope second(&camera, "onEvent");
+        CHECK(running_in(camera) == "onActivated");
+    }).join();
+    const auto nest = [&](auto& self, int depth) -> void {
+        const CallbackScope scope(&camera, "deep");
+        if (depth > 0) self(self, depth - 1);
+    };
+    nest(nest, 50);
+    CHECK(running_in(camera) == "onActivated");
+}
