@@ -2,63 +2,186 @@
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <rtm/NVUtil.h>
 #include <thread>
 
 namespace tandem::command {
 namespace {
 
-// A reset leads from ERROR to INACTIVE, as a deactivation does from ACTIVE.
-const char* target_state(Transition transition) {
-    return transition == Transition::activate ? "ACTIVE" : "INACTIVE";
-}
+using Clock = std::chrono::steady_clock;
 
-// Not for Transition::exit, which is an operation of the component and not of a context.
-RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component,
-                                     Transition transition) {
+/// How messages speak of a transition that leads to `state`.
+struct Wording {
+    const char* state;
+    const char* callback; ///< of the component, which the transition waits for
+    const char* verb;
+    const char* participle;
+};
+
+// A reset leads from ERROR to INACTIVE, as a deactivation does from ACTIVE.
+Wording wording(Transition transition) {
     switch (transition) {
     case Transition::activate:
-        return context->activate_component(component);
+        return {"ACTIVE", "onActivated", "activating", "activated"};
     case Transition::deactivate:
-        return context->deactivate_component(component);
+        return {"INACTIVE", "onDeactivated", "deactivating", "deactivated"};
+    case Transition::reset:
+        return {"INACTIVE", "onReset", "resetting", "reset"};
     default:
-        return context->reset_component(component);
+        return {"", "", "exiting", ""};
     }
 }
 
-// Waits until the component is in the wanted state or in ERROR, and returns the last state seen. Polls, because the
-// context carries a transition out in its next cycle, which may be after it has answered the request.
-std::string wait_for_state(const RemoteComponent& component, const std::string& wanted, double timeout_s) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
-    for (;;) {
-        std::string state = component_state(component.object.in());
-        if (state == wanted || state == "ERROR" || std::chrono::steady_clock::now() > end) return state;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+// Not for Transition::exit, which is an operation of the component and not of a context. RTC_ERROR also when the context
+// has not answered in time: it still waits for the component.
+RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTObject_ptr component,
+                                     Transition transition) {
+    try {
+        switch (transition) {
+        case Transition::activate:
+            return context->activate_component(component);
+        case Transition::deactivate:
+            return context->deactivate_component(component);
+        default:
+            return context->reset_component(component);
+        }
+    } catch (const CORBA::TIMEOUT&) {
+        return RTC::RTC_ERROR;
     }
 }
 
-// Requests the transition from the first context of the component, as rtshell does. Returns the state that was reached.
-std::string apply_transition(const RemoteComponent& component, Transition transition, double timeout_s) {
-    if (transition == Transition::exit) {
+/// What the first context of a component tells about itself.
+class ContextInfo {
+  public:
+    // Empty when the context is not of OpenRTM-aist's kind, or has gone.
+    explicit ContextInfo(RTC::ExecutionContext_ptr context) {
+        try {
+            RTC::ExecutionContextService_var service = RTC::ExecutionContextService::_narrow(context);
+            if (!CORBA::is_nil(service.in())) profile_ = service->get_profile();
+        } catch (const CORBA::SystemException&) {
+            profile_ = nullptr;
+        }
+    }
+    /// `onActivated has taken 1.3 s so far`; empty when the component is in none, or the host does not tell (only
+    /// Tandem's does).
+    std::string running_callback(const std::string& instance) const {
+        if (property("callback.component") != instance) return "";
+        return fmt::format("{} has taken {} s so far", property("callback.name"),
+                           property("callback.seconds"));
+    }
+    /// Whether the absence of a running callback means that there is none.
+    bool tells_callbacks() const { return !property("tick.cycles").empty(); }
+    /// Of a cycle; bounded, for contexts with periods of hours.
+    double period_s() const {
+        return profile_.operator->() && profile_->rate > 0 ? std::min(1 / profile_->rate, 1.0) : 0;
+    }
+
+  private:
+    std::string property(const char* name) const {
+        return profile_.operator->() ? NVUtil::toString(profile_->properties, name) : "";
+    }
+    RTC::ExecutionContextProfile_var profile_;
+};
+
+/// One request of a transition, and the wait for its end.
+class TransitionRequest {
+  public:
+    TransitionRequest(const RemoteComponent& component, Transition transition, double timeout_s)
+        : component_(component), transition_(transition), words_(wording(transition)),
+          deadline_(start_ +
+                    std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s))),
+          context_(execution_contexts(component.object.in()).front()) {}
+
+    /// Returns the state that was reached. Throws std::runtime_error: in ERROR, refused, or not done in time.
+    std::string apply() {
+        code_ = request_transition(context_.in(), component_.object.in(), transition_);
+        std::string state = component_state(component_.object.in());
+        while (state != words_.state && is_under_way(state)) {
+            if (Clock::now() > deadline_) throw_error(state);
+            // Polls, because a context that has answered carries the transition out later.
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            state = component_state(component_.object.in());
+        }
+        // When onActivated has failed, the component is ACTIVE until the next cycle, which leads to ERROR.
+        if (state == "ACTIVE") {
+            std::this_thread::sleep_for(std::chrono::duration<double>(2 * info().period_s()));
+            state = component_state(component_.object.in());
+        }
+        if (state != words_.state) throw_error(state);
+        return state;
+    }
+
+  private:
+    ContextInfo info() const { return ContextInfo(context_.in()); }
+    std::string running_callback() const { return info().running_callback(component_.instance); }
+
+    // Whether the transition may still be carried out. RTC_ERROR says that it has failed, or takes longer than the
+    // context waits for it.
+    bool is_under_way(const std::string& state) const {
+        if (code_ != RTC::RTC_OK && code_ != RTC::RTC_ERROR)
+            return !running_callback().empty(); // asked for by another
+        if (state != "ERROR") return true;
+        if (transition_ != Transition::reset) return false;
+        return info().tells_callbacks() ? !running_callback().empty() : code_ == RTC::RTC_ERROR;
+    }
+
+    [[noreturn]] void throw_error(const std::string& state) const {
+        const std::chrono::duration<double> spent = Clock::now() - start_;
+        const std::string running = running_callback();
+        const std::string& name = component_.instance;
+        if (!running.empty() && state != words_.state)
+            throw std::runtime_error(
+                fmt::format("{} is still {} after {:.1f} s: {}; it is slow and --timeout waits "
+                            "longer, or it hangs",
+                            name, words_.verb, spent.count(), running));
+        if (code_ != RTC::RTC_OK && code_ != RTC::RTC_ERROR)
+            throw std::runtime_error(fmt::format("{} is {} and refuses to be {}: {}", name, state,
+                                                 words_.participle, to_string(code_)));
+        if (state == "ERROR")
+            throw std::runtime_error(
+                fmt::format("{} is in ERROR after {:.1f} s: its {}{} has failed; see its log, then "
+                            "tandem rtm reset {}",
+                            name, spent.count(), words_.callback,
+                            transition_ == Transition::activate ? " or onExecute" : "", name));
+        throw std::runtime_error(
+            fmt::format("{} is still {} after {:.1f} s, expected {}: its {} has not returned, or "
+                        "its context has not begun with it; --timeout waits longer",
+                        name, state, spent.count(), words_.state, words_.callback));
+    }
+
+    const RemoteComponent& component_;
+    const Transition transition_;
+    const Wording words_;
+    const Clock::time_point start_ = Clock::now(), deadline_;
+    RTC::ExecutionContext_var context_; // the first one of the component, as in rtshell
+    RTC::ReturnCode_t code_ = RTC::RTC_OK;
+};
+
+// An exit waits for the callback that runs, then for onDeactivated, onShutdown and onFinalize.
+std::string exit_component(const RemoteComponent& component, double timeout_s) {
+    const auto contexts = execution_contexts(component.object.in());
+    try {
         const RTC::ReturnCode_t code = component.object->exit();
-        if (code != RTC::RTC_OK)
-            throw std::runtime_error(component.instance + " does not exit: " + to_string(code));
-        return "exited";
+        if (code == RTC::RTC_OK) return "exited";
+        throw std::runtime_error(component.instance + " does not exit: " + to_string(code));
+    } catch (const CORBA::TIMEOUT&) {
+        const std::string running = ContextInfo(contexts.front().in()).running_callback(component.instance);
+        throw std::runtime_error(fmt::format("{} is still exiting after {:.1f} s{}; --timeout waits longer",
+                                             component.instance, timeout_s,
+                                             running.empty() ? "" : ": " + running));
     }
-    std::string wanted = target_state(transition);
+}
+
+std::string apply_transition(const RemoteComponent& component, Transition transition, double timeout_s) {
+    if (transition == Transition::exit) return exit_component(component, timeout_s);
     // Asking an active component to activate would be refused. A reset is requested in any state: only the
     // component knows whether it applies.
+    const std::string wanted = wording(transition).state;
     if (component_state(component.object.in()) == wanted && transition != Transition::reset) return wanted;
-    const auto contexts = execution_contexts(component.object.in());
-    const RTC::ReturnCode_t code =
-        request_transition(contexts.front().in(), component.object.in(), transition);
-    // After a refusal the state is looked at once: another client may have brought the component there.
-    std::string state = wait_for_state(component, wanted, code == RTC::RTC_OK ? timeout_s : 0);
-    if (state == wanted) return state;
-    const char* hint = state == "ERROR" ? "; see its log, then tandem rtm reset" : "";
-    throw std::runtime_error(fmt::format("{} is {}, expected {}{}{}", component.instance, state, wanted,
-                                         code == RTC::RTC_OK ? "" : ": " + to_string(code), hint));
+    return TransitionRequest(component, transition, timeout_s).apply();
 }
 
 } // namespace
