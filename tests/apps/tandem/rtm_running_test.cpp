@@ -14,7 +14,10 @@ namespace {
 
 /// A host, and `tandem rtm` with its manager as the only place to look.
 struct Running {
-    testing::RemoteHost other{"Counter,Reporter,Thrower"};
+    explicit Running(const std::string& components = "Counter,Reporter,Thrower",
+                     const std::vector<std::string>& settings = {})
+        : other(components, testing::unused_port(), settings) {}
+    testing::RemoteHost other;
     std::string at = "rtcloc://127.0.0.1:" + other.port + "/";
 
     Result run(std::vector<std::string> arguments) {
@@ -102,6 +105,61 @@ TEST_CASE("tandem rtm shows components and changes their states and parameters")
     CHECK(host.good({"conf", "Counter0"}).output_contains("step=5"));
     CHECK(host.good({"exit", "Thrower0"}).output_contains("exited"));
     CHECK_THAT(host.failed({"info", "Thrower0"}), Catch::Contains("there is no component Thrower0"));
+}
+
+TEST_CASE(
+    "tandem rtm waits for slow transitions and tells those that hang from those that fail or are refused") {
+    Running host("SlowDevice?in=activated&ms=1500, SlowDevice?in=activated&ms=700&fails=YES, "
+                 "SlowDevice?in=activated&ms=1000000, SlowDevice?in=deactivated&ms=1500, "
+                 "SlowDevice?in=reset&ms=1500&breaks=YES, SlowDevice?in=reset&ms=0&breaks=YES&fails=YES");
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    CHECK(host.good({"activate", "SlowDevice0"}).output == "SlowDevice0 ACTIVE\n");
+    CHECK_THAT(host.failed({"activate", "SlowDevice1"}),
+               Catch::Contains("SlowDevice1 is in ERROR after ") &&
+                   Catch::Contains(" s: its onActivated or onExecute has failed; see its log, then tandem "
+                                   "rtm reset SlowDevice1"));
+    CHECK_THAT(host.failed({"activate", "SlowDevice1"}),
+               Catch::Contains("SlowDevice1 is ERROR and refuses to be activated: "));
+    CHECK_THAT(host.failed({"activate", "SlowDevice2", "--timeout", "1"}),
+               Catch::Contains("SlowDevice2 is still activating after ") &&
+                   Catch::Contains(" s: onActivated has taken ") && Catch::Contains(" or it hangs"));
+    host.good({"activate", "SlowDevice3"});
+    CHECK(host.good({"deactivate", "SlowDevice3"}).output == "SlowDevice3 INACTIVE\n");
+    for (const char* name : {"SlowDevice4", "SlowDevice5"}) {
+        host.run({"activate", name}); // it breaks at once
+        REQUIRE(testing::eventually([&] { return host.run({"info", name}).output_contains("ERROR"); }));
+    }
+    CHECK(host.good({"reset", "SlowDevice4"}).output == "SlowDevice4 INACTIVE\n");
+    CHECK_THAT(host.failed({"reset", "SlowDevice5"}), Catch::Contains("its onReset has failed"));
+}
+
+TEST_CASE("a host ends in order while a tool waits for a transition") {
+    Running host("Counter", {"exec_cxt.periodic.rate:0.01", "exec_cxt.activation_timeout:1000"});
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    std::thread tool([&] { host.run({"activate", "Counter0", "--timeout", "60"}); });
+    // Long enough for the request to be there, as a rule: if it is not, the host ends in order anyway.
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    host.other.host.send_signal(SIGTERM);
+    CHECK(host.other.host.wait_for_exit() == 0);
+    CHECK_THAT(host.other.host.errors, !Catch::Contains("does not return"));
+    tool.join();
+}
+
+TEST_CASE("each value that tandem rtm inject sends is read, however few and however fast") {
+    Running host;
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    CHECK_THAT(
+        host.failed({"inject", "Reporter0:in", "7"}),
+        Catch::Contains("1 of 1 sent to Reporter0.in were delivered and 1 of these not read within ") &&
+            Catch::Contains("Reporter0 is INACTIVE; tandem rtm activate Reporter0"));
+    host.good({"activate", "Reporter0"});
+    for (int i = 0; i < 9; ++i)
+        CHECK(host.good({"inject", "Reporter0:in", "7"}).output == "Reporter0.in: 1 value sent and read\n");
+    CHECK_FALSE(host.other.host.wait_for_output("received", std::chrono::seconds(0)));
+    CHECK(host.good({"inject", "Reporter0:in", "7", "-p", "subscription_type=new"}).output_contains("read"));
+    CHECK(host.other.host.wait_for_output("received 10\n"));
+    // Many more than the buffer of an InPort holds.
+    CHECK(host.good({"inject", "Reporter0:in", "7", "-n", "50", "--json"}).json()["read"] == true);
 }
 
 TEST_CASE("tandem rtm connects ports and prints and injects their values") {

@@ -71,6 +71,13 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
                 throw std::runtime_error(names + " cannot be connected: " + to_string(code) +
                                          "; their logs say more");
             const std::string id(profile->connector_id);
+            // A port may take a connection and drop it at once, with its first value for instance.
+            for (const auto* port : {&first, &other}) {
+                RTC::ConnectorProfile_var made = port->object->get_connector_profile(id.c_str());
+                if (id != made->connector_id.in())
+                    throw std::runtime_error(fmt::format(
+                        "{} has dropped the connection of {} at once; its log says why", port->name, names));
+            }
             json.push_back({{"ports", {first.name, other.name}}, {"name", name}, {"id", id}});
             if (!client_options.json) print_text(first.name + " <-> " + other.name + "  " + id + "\n");
         });

@@ -4,8 +4,12 @@
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 #include "apps/tandem/rtm/stream/untyped_ports.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <iostream>
+#include <optional>
+#include <rtm/NVUtil.h>
 #include <thread>
 
 namespace tandem::command {
@@ -27,6 +31,66 @@ RTC::ByteData encode_sample(const CdrJsonConverter& converter, CORBA::TypeCode_p
     }
 }
 
+/// Follows what becomes of the values at the receiver: a component sees them only while its InPort is connected.
+class Receiver {
+  public:
+    Receiver(const RemotePort& remote, UntypedOutPort& port, const std::string& connection, double timeout_s)
+        : remote_(remote), port_(port), connection_(connection), timeout_(timeout_s) {}
+
+    /// Waits until `sent` values were delivered and read, at most for the timeout. A host that does not tell what was
+    /// read gets two cycles of its component for it. True: known to be read. Throws if they were not.
+    bool wait_until_read(std::size_t sent) {
+        const auto start = std::chrono::steady_clock::now();
+        for (;;) {
+            const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+            const std::size_t delivered = port_.delivered();
+            const auto unread = count_unread();
+            if (delivered >= sent && unread == 0u) return true;
+            if (delivered >= sent && !unread && spent.count() > 2 * period_s()) return false;
+            if (interrupted()) return false;
+            // A component that is not active has no cycles in which it reads; another thread of it may still do so.
+            const std::string state = owner_state();
+            if (spent.count() > (state == "ACTIVE" ? timeout_ : std::min(timeout_, 0.5)))
+                throw std::runtime_error(
+                    describe_failure(sent, delivered, unread.value_or(0), spent.count(), state));
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+
+  private:
+    std::optional<std::size_t> count_unread() const {
+        return call_remote(remote_.name, [&]() -> std::optional<std::size_t> {
+            RTC::ConnectorProfile_var profile = remote_.object->get_connector_profile(connection_.c_str());
+            const std::string unread = NVUtil::toString(profile->properties, "dataport.unread");
+            if (unread.empty()) return std::nullopt;
+            return std::stoul(unread);
+        });
+    }
+    std::string owner_state() const {
+        return call_remote(remote_.name, [&] { return component_state(remote_.profile->owner); });
+    }
+    // Bounded, for contexts with periods of hours.
+    double period_s() const {
+        return call_remote(remote_.name, [&] {
+            const double rate = execution_contexts(remote_.profile->owner).front()->get_rate();
+            return rate > 1 ? 1 / rate : 1.0;
+        });
+    }
+    std::string describe_failure(std::size_t sent, std::size_t delivered, std::size_t unread, double spent_s,
+                                 const std::string& state) const {
+        const std::string component = remote_.name.substr(0, remote_.name.rfind('.'));
+        return fmt::format(
+            "{} of {} sent to {} were delivered and {} of these not read within {:.1f} s: {} is {}{}",
+            delivered, sent, remote_.name, unread, spent_s, component, state,
+            state == "ACTIVE" ? " and does not read the port" : "; tandem rtm activate " + component);
+    }
+
+    const RemotePort& remote_;
+    UntypedOutPort& port_;
+    const std::string connection_;
+    const double timeout_;
+};
+
 } // namespace
 
 int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& options) {
@@ -42,12 +106,18 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
             fmt::format("{} carries {}, which is not known here; name the component's library with --types",
                         remote_port.name, type));
     UntypedOutPort port("out", type.c_str());
-    const PortConnection connection(remote_port, port, options.properties, "tandem-inject");
+    auto properties = options.properties;
+    properties.emplace_back("report_unread=YES"); // see Receiver
+    const PortConnection connection(remote_port, port, properties, "tandem-inject");
+    Receiver receiver(remote_port, port, connection.id(), client_options.timeout_s);
     unsigned long sent = 0;
-    // The pause is before every value but the first, so that the program ends right after the last one.
+    // The pause is before every value but the first, so that the program ends right after the last one. Without a rate
+    // each value waits until the one before was read: the buffer of an InPort holds but a few.
     auto send = [&](const std::string& text) {
         if (sent > 0 && options.rate > 0)
             std::this_thread::sleep_for(std::chrono::duration<double>(1 / options.rate));
+        else if (sent > 0)
+            receiver.wait_until_read(sent);
         port.send(encode_sample(converter, code.in(), text, port.is_little_endian()));
         ++sent;
     };
@@ -66,7 +136,13 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
             for (std::string line; !interrupted() && std::getline(std::cin, line);)
                 if (!line.empty()) send(line);
         }
-    if (client_options.json) print_json({{"port", remote_port.name}, {"type", type}, {"sent", sent}});
+    const bool read = sent > 0 && receiver.wait_until_read(sent);
+    if (client_options.json)
+        print_json({{"port", remote_port.name}, {"type", type}, {"sent", sent}, {"read", read}});
+    else
+        print_text(
+            fmt::format("{}: {} value{} {}\n", remote_port.name, sent, sent == 1 ? "" : "s",
+                        read ? "sent and read" : "delivered; its host does not tell whether they were read"));
     return 0;
 }
 

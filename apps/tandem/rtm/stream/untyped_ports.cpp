@@ -59,8 +59,26 @@ void UntypedInPort::fetch() {
     }
 }
 
-UntypedOutPort::UntypedOutPort(const char* name, const char* type) : OutPortBase(name, type) {
+DeliveryCounter::ReturnCode DeliveryCounter::operator()(RTC::ConnectorInfo&, RTC::ByteData&,
+                                                        const std::string&) {
+    ++count_;
+    return NO_CHANGE;
+}
+
+// ON_RECEIVED: the receiver has answered that it has the sample. One that pulls samples gives no answer: for it
+// ON_SEND is the last that the sender sees.
+UntypedOutPort::UntypedOutPort(const char* name, const char* type)
+    : OutPortBase(name, type), pushed_(new DeliveryCounter), pulled_(new DeliveryCounter) {
     addProperty("dataport.marshaling_types", "cdr");
+    addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, pushed_);
+    addConnectorDataListener(RTC::ConnectorDataListenerType::ON_SEND, pulled_);
+}
+
+std::size_t UntypedOutPort::delivered() const {
+    std::lock_guard<std::mutex> lock(m_connectorsMutex);
+    const bool pulls = !m_connectors.empty() &&
+                       m_connectors.front()->profile().properties.getProperty("dataflow_type") == "pull";
+    return (pulls ? pulled_ : pushed_)->count();
 }
 
 // Little-endian without a connection.

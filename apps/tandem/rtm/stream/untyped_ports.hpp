@@ -3,6 +3,7 @@
 #pragma once
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -39,15 +40,30 @@ class UntypedInPort : public RTC::InPortBase {
     SampleQueue* samples_; // owned by the port's list of listeners
 };
 
+/// Counts the samples of an OutPort that receivers have taken. [any-thread]
+class DeliveryCounter : public RTC::ConnectorDataListener {
+  public:
+    ReturnCode operator()(RTC::ConnectorInfo& info, RTC::ByteData& data, const std::string& type) override;
+    std::size_t count() const { return count_; }
+
+  private:
+    std::atomic<std::size_t> count_{0};
+};
+
 /// Sends CDR that the caller has encoded.
 class UntypedOutPort : public RTC::OutPortBase {
   public:
     UntypedOutPort(const char* name, const char* type);
     bool write() override { return false; }
+    /// How many of the samples that were sent the receiver has taken.
+    std::size_t delivered() const;
     /// Throws std::runtime_error if the port is not connected or the connection refuses the sample.
     void send(const RTC::ByteData& bytes);
     /// The byte order that the connection has agreed on, in which samples are to be encoded.
     bool is_little_endian();
+
+  private:
+    DeliveryCounter *pushed_, *pulled_; // owned by the port's list of listeners
 };
 
 /// The repository id of a port's data type. Throws std::runtime_error if the port is not of the kind (DataInPort,
@@ -64,6 +80,7 @@ class PortConnection {
     ~PortConnection();
     PortConnection(const PortConnection&) = delete;
     PortConnection& operator=(const PortConnection&) = delete;
+    const std::string& id() const { return id_; }
 
   private:
     RTC::PortBase& own_port_;

@@ -4,7 +4,10 @@
 #include <chrono>
 #include <coil/UUID.h>
 #include <coil/stringutil.h>
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/InPortBase.h>
 #include <rtm/Manager.h>
+#include <rtm/NVUtil.h>
 #include <rtm/PortBase.h>
 #include <thread>
 
@@ -55,8 +58,21 @@ ConnectorProfileList* PortBase::get_connector_profiles() {
     return new ConnectorProfileList(m_profile.connector_profiles);
 }
 
+// With `dataport.report_unread: YES` the connection's profile also says in `dataport.unread` how many messages an InPort
+// has not read: without a connection a component does not see them. Of an InPort with several connections, which share a
+// buffer, that is not known.
 ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
-    return new ConnectorProfile(findConnProfile(connector_id));
+    ConnectorProfile_var profile = new ConnectorProfile(findConnProfile(connector_id));
+    auto* in_port = dynamic_cast<InPortBase*>(this);
+    if (in_port == nullptr || !NVUtil::isStringValue(profile->properties, "dataport.report_unread", "YES"))
+        return profile._retn();
+    std::lock_guard<std::mutex> lock(m_connectorsMutex); // the component reads with this mutex, too
+    for (auto* connector : in_port->connectors())
+        if (in_port->connectors().size() == 1 && connector->getBuffer() != nullptr)
+            CORBA_SeqUtil::push_back(
+                profile->properties,
+                NVUtil::newNV("dataport.unread", std::to_string(connector->readableCount()).c_str()));
+    return profile._retn();
 }
 
 void PortBase::setName(const char* name) {
