@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <ctime>
 
 namespace tandem::adaptor {
@@ -15,12 +16,18 @@ namespace control = link::control;
 using link::CallStatus;
 using link::PortKind;
 using link::Reply;
+using namespace std::chrono_literals;
 
 namespace {
 
 // After a reconnection: the RTC's host may still be starting when the link is up already.
 constexpr int activation_attempts = 3;
 constexpr const char* peer_name = "InterceptorComp of the RTM host";
+
+/// Whether a call has failed because the peer's process or its component ends.
+bool peer_has_gone(CallStatus status) {
+    return status == CallStatus::peer_died || status == CallStatus::shut_down;
+}
 
 /// Returns an error if two ports of the peer would get mirrors of the same name.
 std::string check_names(const link::PortTable& peer, const std::string& link) {
@@ -83,7 +90,7 @@ ReturnType AdaptorComp::onStart() {
 
 ReturnType AdaptorComp::onStop() {
     started_ = false;
-    // A peer that has gone has nothing left to deactivate.
+    // A peer that has gone, or goes meanwhile because both hosts are ended at once, has nothing left to deactivate.
     return link_->is_up() ? drive_rtc(control::deactivate) : OPROS_SUCCESS;
 }
 
@@ -189,9 +196,14 @@ MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
 // ---- commands to the peer
 
 /// An activation waits for the execution contexts of two components, and for a call that the RTC may make
-/// from its onActivated: so it gets the time of several calls.
+/// from its onActivated: so it gets the time of several calls. A transition waits for a callback of the RTC, which
+/// the peer limits itself; it has a second more for its answer.
 std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) const {
-    return command == control::activate ? 4 * settings_.call_timeout : settings_.call_timeout;
+    if (command == control::activate)
+        return std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
+    if (command == control::deactivate || command == control::reset)
+        return std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
+    return settings_.call_timeout;
 }
 
 Reply AdaptorComp::send_command(std::string_view command, std::span<const std::byte> arguments) {
@@ -216,6 +228,7 @@ ReturnType AdaptorComp::drive_rtc(std::string_view command) {
     if (error.empty()) {
         const auto reply = send_command(command);
         if (reply.status == CallStatus::ok) return OPROS_SUCCESS;
+        if (command == control::deactivate && peer_has_gone(reply.status)) return OPROS_SUCCESS;
         error = describe_failure(reply, timeout_of(command));
     }
     spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command, peer_ports_.component,

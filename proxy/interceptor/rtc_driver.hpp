@@ -3,6 +3,7 @@
 
 #include <rtm/RTObject.h>
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -12,7 +13,8 @@
 namespace tandem::interceptor {
 
 /// Activates, deactivates and resets one RTC, in the first execution context that it owns. Each function waits
-/// for the transition, at most `timeout`, and returns an empty string or an error of one line. [any-thread]
+/// for the callback of the RTC, for `timeout` or control::activation_timeout, whichever is longer, or likewise
+/// deactivation_timeout, and returns an empty string or an error of one line. [any-thread]
 class RtcDriver {
   public:
     /// `on_error` is called in the execution context's thread when the RTC goes to ERROR; it must not wait.
@@ -25,12 +27,18 @@ class RtcDriver {
     std::string reset();
 
   private:
-    class ErrorListener;
+    class CallbackListener;
     using Operation = RTC::ReturnCode_t (RTC::_objref_ExecutionContext::*)(RTC::LightweightRTObject_ptr);
     // Both return as the functions above do.
-    std::string transition_and_wait(RTC::LifeCycleState from, RTC::LifeCycleState to, Operation operation,
-                                    const char* verb);
-    std::string wait_for_state(RTC::LifeCycleState wanted, const char* verb) const;
+    struct Transition {
+        RTC::LifeCycleState from, to;
+        Operation operation;
+        const char* verb;     ///< participle, for messages
+        const char* callback; ///< of the RTC
+        std::chrono::milliseconds timeout;
+    };
+    std::string transition_and_wait(const Transition& transition);
+    std::string wait_for_end(const Transition& transition) const;
     RTC::LifeCycleState state() const;
 
     RTC::RTObject_impl& rtc_;
@@ -39,7 +47,8 @@ class RtcDriver {
     RTC::ExecutionContext_var context_;
     const std::chrono::milliseconds timeout_;
     std::mutex mutex_; ///< one transition at a time: a new peer's activation waits for the old one's end
-    std::unique_ptr<ErrorListener> listener_;
+    std::unique_ptr<CallbackListener> error_listener_, reset_listener_;
+    std::atomic<bool> reset_ended_{false}; ///< onReset has returned, whatever
 };
 
 } // namespace tandem::interceptor

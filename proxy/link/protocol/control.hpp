@@ -3,6 +3,7 @@
 
 #include "proxy/link/protocol/port_table.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,6 +22,10 @@ inline constexpr std::string_view deactivate = "deactivate"; ///< no arguments; 
 inline constexpr std::string_view reset = "reset";           ///< no arguments; ok when it has left ERROR
 inline constexpr std::string_view bind = "bind";     ///< a ServiceBinding: what a required service now offers
 inline constexpr std::string_view listen = "listen"; ///< names of the data ports whose messages ring the bell
+
+/// How long InterceptorComp waits for the callback of the RTC, unless its call_timeout is longer: a device may need
+/// seconds to open. Below the 10 s after which opros_host gives an onStop up.
+inline constexpr std::chrono::milliseconds activation_timeout{10'000}, deactivation_timeout{5'000};
 
 // Executed by AdaptorComp.
 inline constexpr std::string_view failed = "failed"; ///< a string for the log: the RTC went to ERROR
