@@ -61,6 +61,12 @@ ReturnType AdaptorComp::onInitialize() {
         options.wait = link::wait_options_from_environment();
         link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
                                              static_cast<LinkHandler&>(*this));
+        if (!settings_.port_table.empty()) {
+            const std::string error = check_peer_ports(link::decode_port_table_text(settings_.port_table));
+            if (!error.empty()) throw link::LinkError(error);
+            create_mirror_ports();
+            return OPROS_SUCCESS;
+        }
         link_->open();
         // The host connects ports as soon as this function returns, so the peer's table must be here by then.
         link_->wait_until_up(settings_.wait, peer_name);
@@ -113,8 +119,9 @@ void AdaptorComp::create_mirror_ports() {
     const std::lock_guard lock(mutex_);
     for (const auto& port : peer_ports_.ports) create_mirror_port(port);
     mirrors_created_ = true;
-    spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
-                 peer_ports_.ports.size(), peer_ports_.component);
+    if (link_->is_up())
+        spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
+                     peer_ports_.ports.size(), peer_ports_.component);
 }
 
 void AdaptorComp::create_mirror_port(const link::Port& port) {

@@ -37,6 +37,8 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
         std::size_t{1024} * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
     if (const auto group = properties.find("group"); group != properties.end())
         settings.group = group->second;
+    if (const auto table = properties.find("port_table"); table != properties.end())
+        settings.port_table = table->second;
     return settings;
 }
 

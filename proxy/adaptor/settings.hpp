@@ -16,7 +16,9 @@ struct Settings {
     std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port, see README
     std::size_t segment_bytes =
         std::size_t{4} * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
-    std::string group;                ///< `group`: may join the link beside the owner; empty: the owner only
+    /// `port_table`, for tools: the ports to mirror (link::encode_as_text()). No link is opened then.
+    std::string port_table;
+    std::string group; ///< `group`: may join the link beside the owner; empty: the owner only
 };
 
 /// Throws std::runtime_error, one line, when `link` is missing or another property is not a number above 0.

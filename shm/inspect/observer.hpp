@@ -57,6 +57,11 @@ struct ObservedObject {
     std::string damage; ///< empty: valid; otherwise the fields of the derived struct mean nothing
 };
 
+/// A blob with a copy of its bytes, of the first MiB of a larger one.
+struct ObservedBlob : ObservedObject {
+    std::vector<std::byte> content;
+};
+
 /// See RingOptions for the sizes and RingCounters for the counters.
 struct ObservedRing : ObservedObject {
     Side writer{};
@@ -82,7 +87,7 @@ struct Observation {
     ObservedSegment segment;
     std::vector<ObservedRing> rings;
     std::vector<ObservedCallQueue> call_queues;
-    std::vector<ObservedObject> blobs;
+    std::vector<ObservedBlob> blobs;
     std::vector<std::string> damage; ///< one line for each directory entry that cannot be read
 };
 

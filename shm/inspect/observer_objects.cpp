@@ -135,6 +135,15 @@ ObservedCallQueue read_call_queue(const ReadOnlySnapshot& file, ObservedObject o
     return queue;
 }
 
+/// Reads the blob that begins at `base`; damage says what is wrong with it.
+ObservedBlob read_blob(const ReadOnlySnapshot& file, ObservedObject object, std::uint64_t base) {
+    constexpr std::uint64_t max_content = std::uint64_t{1} << 20;
+    ObservedBlob blob{std::move(object), {}};
+    blob.content.resize(std::min(blob.bytes, max_content));
+    if (!file.read(base, blob.content)) blob.damage = truncated_text;
+    return blob;
+}
+
 /// Reads one entry of a directory and the object that it names. An entry that points outside of the arena is not
 /// followed.
 void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std::uint32_t index) {
@@ -169,7 +178,7 @@ void read_entry(const ReadOnlySnapshot& file, Observation& into, Side owner, std
         into.call_queues.push_back(read_call_queue(file, std::move(object), at));
         break;
     case layout::ObjectKind::blob:
-        into.blobs.push_back(std::move(object));
+        into.blobs.push_back(read_blob(file, std::move(object), at));
         break;
     }
 }

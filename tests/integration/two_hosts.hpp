@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/wait.h>
 
 /// The files of a bridge between TalkerComp and EchoRtc0; texts may be changed before they are used.
 class TwoHosts {
@@ -50,6 +52,8 @@ class TwoHosts {
         rtc_ = rtc;
         set_interceptor("rtc=" + rtc + "0");
     }
+    /// Properties of that RTC, as in `slow_ms=100`.
+    void set_rtc_properties(const std::string& properties) { rtc_properties_ = "?" + properties; }
     void set_large_kib(const std::string& of_adaptor) { large_kib_ = of_adaptor; }
     void set_wait(const std::string& seconds) { wait_ = seconds; }
     void set_interceptor(const std::string& parameters) { interceptor_ = parameters; }
@@ -58,7 +62,8 @@ class TwoHosts {
     void set_switches(const std::vector<std::string>& switches) { switches_ = switches; }
     const std::string& link() const { return link_; }
 
-    void start_opros() {
+    /// Returns the application's profile.
+    std::filesystem::path write_application() const {
         std::ofstream(folder_ / "app.xml")
             << "<?xml version=\"1.0\"?>\n<package_profile><name>app</name>\n<subcomponents>\n"
             << "<subcomponent><name>Talker</name><reference>" << talker_
@@ -71,15 +76,26 @@ class TwoHosts {
         std::filesystem::copy_file(
             std::filesystem::path(OPROS_HOST).parent_path() / "../plugins/opros/AdaptorComp.xml",
             folder_ / "AdaptorComp.xml", std::filesystem::copy_options::overwrite_existing);
-        start("opros", {OPROS_HOST, (folder_ / "app.xml").string(), "--strict"});
+        return folder_ / "app.xml";
+    }
+    void start_opros() { start("opros", {OPROS_HOST, write_application().string(), "--strict"}); }
+    /// Runs `tandem opros check` on the application. Returns its exit code and what it printed.
+    std::pair<int, std::string> check_application() const {
+        const auto log = folder_ / "check.log";
+        const std::string command = std::string(TANDEM_PROGRAM) + " opros check " +
+                                    write_application().string() + " --plugin-path " + TEST_PLUGINS + " > " +
+                                    log.string() + " 2>&1";
+        const int status = std::system(command.c_str());
+        std::ifstream file(log);
+        return {WEXITSTATUS(status), {std::istreambuf_iterator<char>(file), {}}};
     }
     void start_rtm() {
         std::ofstream(folder_ / "rtc.conf")
             << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: "
                "100\n"
             << "manager.modules.preload: " << rtc_ << ".so, InterceptorComp.so\n"
-            << "manager.components.precreate: " << rtc_ << ", InterceptorComp?link=" << link_ << "&"
-            << interceptor_ << "\n"
+            << "manager.components.precreate: " << rtc_ << rtc_properties_
+            << ", InterceptorComp?link=" << link_ << "&" << interceptor_ << "\n"
             << rtc_conf_more_;
         start("rtm", {RTM_HOST, "-f", (folder_ / "rtc.conf").string()});
     }
@@ -104,6 +120,12 @@ class TwoHosts {
     int stop(const std::string& host) {
         const auto& ended = hosts_.at(host).stop(std::chrono::seconds(30));
         return ended && !ended->signalled ? ended->code : -1;
+    }
+    /// Asks both hosts to end at the same time. True if both have ended in order.
+    bool stop_both() {
+        for (const auto& [name, host] : hosts_) ::kill(host.pid(), SIGTERM);
+        const int opros = exit_code("opros"), rtm = exit_code("rtm");
+        return opros == 0 && rtm == 0;
     }
     void kill(const std::string& host) {
         ::kill(hosts_.at(host).pid(), SIGKILL);
@@ -131,7 +153,7 @@ class TwoHosts {
 
     std::filesystem::path folder_;
     std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
-                                     interceptor_ = "rtc=EchoRtc0", rtc_conf_more_;
+                                     interceptor_ = "rtc=EchoRtc0", rtc_conf_more_, rtc_properties_;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::process::ChildProcess> hosts_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
+#include "apps/tandem/opros/partner_ports.hpp"
 #include "apps/tandem/opros/port_mismatches.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/type_profile_errors.hpp"
@@ -11,14 +12,16 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
+#include <map>
+#include <set>
 
 namespace tandem::command {
 namespace {
 
 using engine::ApplicationProfile;
 
-/// The errors found so far, one line each.
-class ErrorList {
+/// What has been found so far, one line each.
+class Findings {
   public:
     /// Runs a step. True if it did not throw; otherwise what it threw has been added to the list.
     bool run_step(const std::function<void()>& step) {
@@ -30,14 +33,40 @@ class ErrorList {
             return false;
         }
     }
-    std::vector<std::string> lines;
+    void add(const std::vector<std::string>& errors) {
+        lines.insert(lines.end(), errors.begin(), errors.end());
+    }
+    std::vector<std::string> lines; ///< the errors
     std::vector<std::string> notes; ///< what need not be wrong
+    /// Lines about components whose ports are not known now.
+    std::vector<std::string> unknown;
+    std::set<std::string> unknown_components;
+    /// The ports that each AdaptorComp will have, as link::encode_as_text().
+    std::map<std::string, std::string> port_tables;
 };
 
-/// Where a component does not fit its profile; `notes` gets what need not be wrong. Throws if there is no component that could be connected.
-std::vector<std::string> check_component(const ApplicationProfile& application,
-                                         const engine::Subcomponent& entry, const InspectOptions& options,
-                                         std::vector<std::string>& notes) {
+/// Adds the ports of an AdaptorComp to those that it has without its peer. False, with a line that says so, if they
+/// are not known now.
+bool find_mirrors(const engine::Subcomponent& entry, const std::string& link, nlohmann::json& ports,
+                  Findings& findings) {
+    const auto table = read_shared_ports(link);
+    if (!table) {
+        findings.unknown.push_back(fmt::format(
+            "{}: component '{}' will have the ports of the RTC on link '{}', which no RTM host shares now: "
+            "its connections cannot be checked; start that host and check again",
+            entry.location.text(), entry.name, link));
+        findings.unknown_components.insert(entry.name);
+        return false;
+    }
+    findings.port_tables[entry.name] = link::encode_as_text(*table);
+    for (auto& port : describe_mirrors(*table)) ports.push_back(std::move(port));
+    return true;
+}
+
+/// Adds where a component does not fit its profile. False if it cannot be connected, because its ports are not known
+/// now. Throws if there is no component that could be connected.
+bool check_component(const ApplicationProfile& application, const engine::Subcomponent& entry,
+                     const InspectOptions& options, Findings& findings) {
     // The application's folder comes first, as in opros_host.
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.location.file.parent_path());
@@ -49,20 +78,23 @@ std::vector<std::string> check_component(const ApplicationProfile& application,
     const auto library = engine::find_component_library(profile, dirs);
     try {
         engine::require_opros_component(library);
-        const auto description = describe_in_child(library, file, options);
-        auto errors = find_port_mismatches(profile, description["ports"], options.initialize);
-        const auto add = [&](const std::vector<std::string>& lines) {
-            errors.insert(errors.end(), lines.begin(), lines.end());
-        };
-        add(find_type_profile_errors(profile));
-        add(engine::check_properties(profile, entry.properties, dirs));
+        const bool mirrors = is_adaptor(library);
+        // Without its peer an AdaptorComp does not initialize, and then has but few of its ports.
+        auto inspection = options;
+        inspection.initialize = options.initialize && !mirrors;
+        const auto description = describe_in_child(library, file, inspection);
+        findings.add(engine::check_properties(profile, entry.properties, dirs));
         // What the application sets is not in the profile. A component may do without other properties.
         for (const auto& absent : description["absent_properties"]) {
             const auto is_it = [&](const auto& property) { return property.first == absent["name"]; };
             if (std::any_of(entry.properties.begin(), entry.properties.end(), is_it)) continue;
-            (absent["misspelt"] ? errors : notes).push_back(absent["line"]);
+            (absent["misspelt"] ? findings.lines : findings.notes).push_back(absent["line"]);
         }
-        return errors;
+        auto ports = description["ports"];
+        if (mirrors && !find_mirrors(entry, adaptor_link(entry, profile), ports, findings)) return false;
+        findings.add(find_port_mismatches(profile, ports, options.initialize || mirrors));
+        findings.add(find_type_profile_errors(profile));
+        return true;
         // A library's own errors do not say which profile names it: the line of <library_name> is put before them.
     } catch (const plugin::Error& error) {
         throw engine::SetupError(profile.library_location, error.what());
@@ -76,23 +108,32 @@ std::string count_text(std::size_t count, const char* what) {
 
 // The last line of the text is a summary, also of an application without errors.
 // Returns the exit code: 1 if there is an error.
-int print_report(const ApplicationProfile& application, const ErrorList& errors, bool as_json) {
+int print_report(const ApplicationProfile& application, const Findings& errors, bool as_json) {
     const int code = errors.lines.empty() ? 0 : 1;
     if (as_json) {
         print_json({{"application", application.name},
                     {"components", application.subcomponents.size()},
                     {"connections", application.connections.size()},
                     {"errors", errors.lines},
-                    {"notes", errors.notes}});
+                    {"notes", errors.notes},
+                    {"not_checked", errors.unknown}});
         return code;
     }
-    for (const auto* lines : {&errors.lines, &errors.notes})
+    for (const auto* lines : {&errors.lines, &errors.notes, &errors.unknown})
         for (const std::string& line : *lines) print_text(line + "\n");
-    print_text(application.name + ": " +
-               (errors.lines.empty() ? count_text(application.subcomponents.size(), "component") + " and " +
-                                           count_text(application.connections.size(), "connection") + " fit"
-                                     : count_text(errors.lines.size(), "error")) +
-               "\n");
+    const auto is_unknown = [&](const std::string& component) {
+        return errors.unknown_components.count(component) != 0;
+    };
+    const auto not_checked = static_cast<std::size_t>(std::count_if(
+        application.connections.begin(), application.connections.end(), [&](const auto& connection) {
+            return is_unknown(connection.source.component) || is_unknown(connection.target.component);
+        }));
+    const std::string fit = count_text(application.subcomponents.size(), "component") + " and " +
+                            count_text(application.connections.size() - not_checked, "connection") + " fit";
+    const std::string unknown =
+        errors.unknown.empty() ? "" : "; " + count_text(not_checked, "connection") + " not checked";
+    print_text(application.name + ": " + (code == 0 ? fit : count_text(errors.lines.size(), "error")) +
+               unknown + "\n");
     return code;
 }
 
@@ -101,23 +142,22 @@ int print_report(const ApplicationProfile& application, const ErrorList& errors,
 // Goes on after an error, so that one run reports all of them.
 int opros_check(const InspectOptions& options) {
     auto application = engine::read_application_profile(options.file);
-    ErrorList errors;
+    Findings errors;
     // A missing profile is not an error here: check_component() reports each one below.
     if (engine::has_composites(application, options.plugin_dirs))
         application = engine::flatten_composites(application, options.plugin_dirs);
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
             errors.lines.push_back(connection.location.text() + ": " + connection.error);
-    const auto add = [&](const std::vector<std::string>& lines) {
-        errors.lines.insert(errors.lines.end(), lines.begin(), lines.end());
-    };
     std::vector<std::string> excluded;
-    for (const auto& entry : application.subcomponents)
-        if (!errors.run_step([&] { add(check_component(application, entry, options, errors.notes)); }))
-            excluded.push_back(entry.name);
+    for (const auto& entry : application.subcomponents) {
+        bool is_known = false;
+        errors.run_step([&] { is_known = check_component(application, entry, options, errors); });
+        if (!is_known) excluded.push_back(entry.name);
+    }
     // Components that cannot be run are left out, so that the connections of the others are still checked.
     errors.run_step([&] { engine::start_order(application); });
-    errors.run_step([&] { add(check_connections_in_child(excluded, options)); });
+    errors.run_step([&] { errors.add(check_connections_in_child(excluded, errors.port_tables, options)); });
     return print_report(application, errors, options.json);
 }
 

@@ -63,9 +63,11 @@ json describe_in_child(const std::filesystem::path& library, const std::filesyst
 }
 
 std::vector<std::string> check_connections_in_child(const std::vector<std::string>& excluded,
+                                                    const std::map<std::string, std::string>& port_tables,
                                                     const InspectOptions& options) {
     json request = make_request(options);
     request["excluded"] = excluded;
+    request["port_tables"] = port_tables;
     return json::parse(
         plugin::run_probe(make_probe(options, "application"), connect_task, options.file, {request.dump()}));
 }
@@ -103,22 +105,27 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
     const auto excluded = request["excluded"].get<std::vector<std::string>>();
+    const auto port_tables = request["port_tables"].get<std::map<std::string, std::string>>();
     const auto dirs = plugin_dirs(request);
     auto profile = engine::read_application_profile(task.library);
     if (engine::has_composites(profile, dirs)) profile = engine::flatten_composites(profile, dirs);
     std::vector<std::string> errors;
     std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
-    for (const auto& entry : profile.subcomponents) {
+    for (auto& entry : profile.subcomponents) {
         if (std::find(excluded.begin(), excluded.end(), entry.name) != excluded.end()) continue;
         report.begin_stage("the constructor of component " + entry.name);
         auto search = dirs;
         search.insert(search.begin(), profile.location.file.parent_path());
+        const auto mirrored = port_tables.find(entry.name);
+        if (mirrored != port_tables.end()) entry.properties.emplace_back("port_table", mirrored->second);
         auto component = std::make_unique<engine::ComponentHost>(
             entry,
             engine::read_component_profile(
                 entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
             engine::ComponentHostOptions{search, std::nullopt, 1, engine::TaskQueue::Mode::in_caller});
-        if (request["initialize"]) initialize_and_report(component->component(), entry.name, report);
+        // An AdaptorComp creates its ports in onInitialize.
+        if (request["initialize"] || mirrored != port_tables.end())
+            initialize_and_report(component->component(), entry.name, report);
         components.emplace(entry.name, std::move(component));
     }
     std::vector<std::unique_ptr<engine::Connection>> connections;

@@ -7,6 +7,7 @@
 #include "apps/tandem/opros/commands.hpp"
 #include "host/plugin/probe.hpp"
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -16,15 +17,17 @@ namespace tandem::command {
 /// "plugin_dirs". Result: describe_component().
 constexpr char describe_task[] = "describe-opros";
 /// Task of an application, whose profile takes the place of the library. Argument: JSON with "plugin_dirs",
-/// "initialize" and "excluded", the names of components to leave out. Result: a list of errors.
+/// "initialize", "excluded", the names of components to leave out, and "port_tables". Result: a list of errors.
 constexpr char connect_task[] = "connect-opros";
 
 /// Describes the component in this library. Throws plugin::Error.
 nlohmann::json describe_in_child(const std::filesystem::path& library, const std::filesystem::path& profile,
                                  const InspectOptions& options);
-/// Creates the components of the application and connects them; returns an error for each connection that is refused.
-/// Throws plugin::Error.
+/// Creates the components of the application but the excluded ones and connects them; returns an error for each
+/// connection that is refused. `port_tables`: the ports of each AdaptorComp, as link::encode_as_text(). Throws
+/// plugin::Error.
 std::vector<std::string> check_connections_in_child(const std::vector<std::string>& excluded,
+                                                    const std::map<std::string, std::string>& port_tables,
                                                     const InspectOptions& options);
 
 /// The tasks themselves. [child process]

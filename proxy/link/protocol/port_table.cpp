@@ -5,6 +5,7 @@
 #include "proxy/link/protocol/service_operations.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 namespace tandem::link {
 namespace {
@@ -62,6 +63,28 @@ PortTable decode_port_table(std::span<const std::byte> bytes) {
     if (!in.ok())
         throw LinkError("the peer's port table is damaged: it ends early or holds a malformed string");
     return table;
+}
+
+std::string encode_as_text(const PortTable& table) {
+    static constexpr char digits[] = "0123456789abcdef";
+    std::string text;
+    for (const std::byte byte : encode(table)) {
+        text += digits[std::to_integer<unsigned>(byte) >> 4];
+        text += digits[std::to_integer<unsigned>(byte) & 15];
+    }
+    return text;
+}
+
+PortTable decode_port_table_text(std::string_view text) {
+    std::vector<std::byte> bytes(text.size() / 2);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        unsigned value = 0;
+        const char* begin = text.data() + 2 * i;
+        if (std::from_chars(begin, begin + 2, value, 16).ptr != begin + 2)
+            throw LinkError("a port table as text consists of pairs of hexadecimal digits");
+        bytes[i] = static_cast<std::byte>(value);
+    }
+    return decode_port_table(bytes);
 }
 
 } // namespace tandem::link

@@ -47,4 +47,9 @@ std::vector<std::byte> encode(const PortTable&);
 /// Throws LinkError when the bytes, which another process wrote, are no table.
 PortTable decode_port_table(std::span<const std::byte>);
 
+/// The same bytes as hexadecimal digits, for a property of a component.
+std::string encode_as_text(const PortTable&);
+/// Throws LinkError when the text is no table.
+PortTable decode_port_table_text(std::string_view text);
+
 } // namespace tandem::link

@@ -9,6 +9,10 @@
 #include <rtm/Manager.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
+#include <chrono>
+#include <string>
+#include <thread>
+
 namespace {
 
 class DictionaryService : public POA_TestDictionary::Dictionary,
@@ -43,6 +47,9 @@ class EchoRtc : public RTC::DataFlowComponentBase {
         addPort(dictionaryPort_);
         return RTC::RTC_OK;
     }
+    // As a device that needs its time to open and to close: the property `slow_ms`.
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override { return take_time(); }
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override { return take_time(); }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
         while (wordIn_.isNew()) {
             wordIn_.read();
@@ -59,6 +66,12 @@ class EchoRtc : public RTC::DataFlowComponentBase {
     }
 
   private:
+    RTC::ReturnCode_t take_time() {
+        std::this_thread::sleep_for(
+            std::chrono::milliseconds(std::stol(getProperties().getProperty("slow_ms", "0"))));
+        return RTC::RTC_OK;
+    }
+
     RTC::TimedString word_, reply_;
     RTC::TimedDoubleSeq numbers_;
     RTC::InPort<RTC::TimedString> wordIn_;

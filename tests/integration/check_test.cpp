@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// `tandem opros check` of an application with an AdaptorComp, whose ports are those of the RTC behind its link.
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+using Catch::Contains;
+
+TEST_CASE("check asks the RTM host that runs which ports an AdaptorComp will have and disturbs nobody") {
+    TwoHosts hosts;
+    hosts.start_rtm();
+    REQUIRE(hosts.says("rtm", "ready"));
+    const auto [code, text] = hosts.check_application();
+    CHECK(code == 0);
+    CHECK(text == "app: 2 components and 3 connections fit\n");
+
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "numbers", "Adaptor", "numbers") +
+                          TwoHosts::connection("data", "Talker", "word", "Adaptor", "wort"));
+    const auto [code_of_errors, errors] = hosts.check_application();
+    CHECK(code_of_errors == 1);
+    CHECK_THAT(errors,
+               Contains("'ai'") && Contains("'(uu)ad'") && Contains("'wort'") && Contains("app: 2 errors\n"));
+    CHECK_THAT(hosts.output("rtm"), !Contains("is up"));
+    CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("check says which connections cannot be checked while the RTM host does not run") {
+    TwoHosts hosts;
+    const auto [code, text] = hosts.check_application();
+    CHECK(code == 0);
+    CHECK_THAT(text,
+               Contains("component 'Adaptor' will have the ports of the RTC on link '" + hosts.link() +
+                        "', which no RTM host shares now: its connections cannot be checked; start that host "
+                        "and check again\n") &&
+                   Contains("app: 2 components and 0 connections fit; 3 connections not checked\n"));
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("two hosts that are ended at the same time end in order and without an error") {
+    for (int round = 0; round < 5; ++round) {
+        TwoHosts hosts;
+        hosts.start_rtm();
+        hosts.start_opros();
+        REQUIRE(hosts.says("opros", "reply: hello 5 "));
+        CHECK(hosts.stop_both());
+        for (const auto* host : {"opros", "rtm"}) {
+            INFO(hosts.output(host));
+            CHECK_THAT(hosts.output(host), !Contains("failed") && !Contains("error"));
+        }
+        CHECK_FALSE(hosts.left_in_shared_memory());
+    }
+}
