@@ -405,7 +405,7 @@ TEST_CASE("Modules of OpenRTM-aist that rtc.conf files name are passed over or e
     using Catch::Contains;
     HostProcess host({"-o", "logger.log_level:INFO", "-o",
                       "manager.modules.preload:ComponentObserverConsumer.so, /opt/sdo/LoggerConsumer.so"});
-    REQUIRE(host.wait_for_output("ready\n"));
+    REQUIRE(host.wait_for_output("ready"));
     host.send_signal(SIGTERM);
     CHECK(host.wait_for_exit() == 0);
     CHECK_THAT(host.errors, Contains("module ComponentObserverConsumer.so of OpenRTM-aist is passed over: "));
