@@ -32,7 +32,8 @@ ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreCom
                                         PostComponentActionListenerType post, Callback callback,
                                         bool warm_up) {
     const tandem::crash::CallbackScope scope(getInstanceName(), what, &typeid(*this));
-    const tandem::process::CallbackScope timed_scope(this, what); // so that one that does not return can be named
+    const tandem::process::CallbackScope timed_scope(this,
+                                                     what); // so that one that does not return can be named
     ReturnCode_t result = RTC_ERROR;
     std::string error;
     auto attempt = [&](auto call) {
