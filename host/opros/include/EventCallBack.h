@@ -9,7 +9,6 @@
 #include <ReturnType.h>
 #include <archive/opros_iarchive.h>
 
-#include <memory>
 #include <string>
 
 /// Takes the events of one input event port, in place of the component's onEvent() and in the same thread. Made with
@@ -117,11 +116,15 @@ template <typename T>
 class owned_callback : public typed_callback<T> {
   public:
     explicit owned_callback(EventCallBack* call) : m_call(call) {}
+    virtual ~owned_callback() { delete m_call; }
+    owned_callback(const owned_callback&) = delete;
+    owned_callback& operator=(const owned_callback&) = delete;
     using typed_callback<T>::onEvent;
     virtual ReturnType onEvent(Event* p) { return m_call->onEvent(p); }
 
   private:
-    const std::unique_ptr<EventCallBack> m_call;
+    EventCallBack* const
+        m_call; // owned; without <memory>, for components that have a shared_ptr of their own
 };
 
 } // namespace detail

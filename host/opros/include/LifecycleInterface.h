@@ -11,8 +11,11 @@
 #include <OPRoSTypes.h>
 #include <ReturnType.h>
 
-#include <atomic>
-#include <mutex>
+namespace opros {
+namespace detail {
+struct lifecycle_state;
+}
+} // namespace opros
 
 /// The transitions are called by the host, and may be called by the component itself and by tools: [any-thread], one
 /// at a time, each with its callback in the calling thread. What a callback throws passes through.
@@ -56,11 +59,8 @@ class LifecycleInterface {
     bool succeeded(ReturnType result);
     ReturnType enter(LifecycleState from, LifecycleState to);
 
-    std::atomic<LifecycleState> m_state;
-    std::atomic<ReturnType> m_error;
-    // One transition at a time; recursive because callbacks may ask for transitions. stopOnError() goes without it,
-    // since onStop() may wait for the thread that reports the error.
-    std::recursive_mutex m_transition;
+    // Not members: <mutex> and <atomic> would bring names of std that components define themselves.
+    opros::detail::lifecycle_state* const m_lifecycle;
 };
 
 #endif

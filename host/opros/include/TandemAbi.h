@@ -3,7 +3,7 @@
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
-#define TANDEM_OPROS_ABI 3 // headers: 7e182d6cb04651ad
+#define TANDEM_OPROS_ABI 4 // headers: 7a80212b0fae3b5a
 
 // Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
 // or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.

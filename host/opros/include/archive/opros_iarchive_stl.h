@@ -46,6 +46,23 @@ void load_map(iarchive& ar, Container& t) {
     load_each<std::pair<K, T>>(ar, [&t](std::pair<K, T>&& entry) { t.insert(std::move(entry)); });
 }
 
+// In the order of pop(): into a stack the last one comes first. The order is nothing to a std::priority_queue.
+template <typename Queue, typename T>
+auto push_all(Queue& queue, const std::vector<T>& values, int) -> decltype(static_cast<void>(queue.front())) {
+    for (std::size_t i = 0; i < values.size(); ++i) queue.push(values[i]);
+}
+template <typename Stack, typename T>
+void push_all(Stack& stack, const std::vector<T>& values, long) {
+    for (std::size_t i = values.size(); i > 0; --i) stack.push(values[i - 1]);
+}
+template <typename T, typename Adaptor>
+void load_adaptor(iarchive& ar, Adaptor& t) {
+    std::vector<T> values;
+    load_list<T>(ar, values);
+    t = Adaptor();
+    push_all(t, values, 0);
+}
+
 } // namespace detail
 
 // In place, so that a vector of the same size as before allocates nothing.
@@ -83,23 +100,16 @@ template <typename T, typename C, typename A, typename = if_serializable<T>>
 void load_this(iarchive& ar, std::multiset<T, C, A>& t) {
     detail::load_set<T>(ar, t);
 }
-template <typename T, typename C, typename = if_serializable<T>>
-void load_this(iarchive& ar, std::queue<T, C>& t) {
-    t = std::queue<T, C>();
-    detail::load_each<T>(ar, [&t](T&& element) { t.push(std::move(element)); });
+// std::queue and std::stack, then std::priority_queue.
+template <template <typename, typename> class Adaptor, typename T, typename C, typename = if_serializable<T>,
+          typename = opros::detail::if_container_adaptor<Adaptor<T, C>>>
+void load_this(iarchive& ar, Adaptor<T, C>& t) {
+    detail::load_adaptor<T>(ar, t);
 }
-// Written from the top on: pushed in the reverse order.
-template <typename T, typename C, typename = if_serializable<T>>
-void load_this(iarchive& ar, std::stack<T, C>& t) {
-    std::vector<T> from_top;
-    detail::load_list<T>(ar, from_top);
-    t = std::stack<T, C>();
-    for (std::size_t i = from_top.size(); i > 0; --i) t.push(from_top[i - 1]);
-}
-template <typename T, typename C, typename L, typename = if_serializable<T>>
-void load_this(iarchive& ar, std::priority_queue<T, C, L>& t) {
-    t = std::priority_queue<T, C, L>();
-    detail::load_each<T>(ar, [&t](T&& element) { t.push(std::move(element)); });
+template <template <typename, typename, typename> class Adaptor, typename T, typename C, typename L,
+          typename = if_serializable<T>, typename = opros::detail::if_container_adaptor<Adaptor<T, C, L>>>
+void load_this(iarchive& ar, Adaptor<T, C, L>& t) {
+    detail::load_adaptor<T>(ar, t);
 }
 template <typename T, typename = if_serializable<T>>
 void load_this(iarchive& ar, std::complex<T>& t) {

@@ -27,17 +27,20 @@ void save_each(oarchive& ar, const Container& container, std::size_t count) {
     ar.write_sequence_end();
 }
 
-// Containers that show only one end are copied and taken apart.
+// The element that pop() takes: of a queue the front, of the others the top.
 template <typename Queue>
-void save_fronts(oarchive& ar, Queue copy) {
-    ar.write_sequence_head(copy.size());
-    for (; !copy.empty(); copy.pop()) ar.save(copy.front());
-    ar.write_sequence_end();
+auto save_next(oarchive& ar, const Queue& queue, int) -> decltype(static_cast<void>(queue.front())) {
+    ar.save(queue.front());
 }
 template <typename Stack>
-void save_tops(oarchive& ar, Stack copy) {
+void save_next(oarchive& ar, const Stack& stack, long) {
+    ar.save(stack.top());
+}
+// Container adaptors show only one end: a copy is taken apart.
+template <typename Adaptor>
+void save_adaptor(oarchive& ar, Adaptor copy) {
     ar.write_sequence_head(copy.size());
-    for (; !copy.empty(); copy.pop()) ar.save(copy.top());
+    for (; !copy.empty(); copy.pop()) save_next(ar, copy, 0);
     ar.write_sequence_end();
 }
 
@@ -79,17 +82,16 @@ template <typename T, typename C, typename A, typename = if_serializable<T>>
 void save_this(oarchive& ar, const std::multiset<T, C, A>& t) {
     detail::save_each(ar, t, t.size());
 }
-template <typename T, typename C, typename = if_serializable<T>>
-void save_this(oarchive& ar, const std::queue<T, C>& t) {
-    detail::save_fronts(ar, t);
+// std::queue and std::stack, then std::priority_queue.
+template <template <typename, typename> class Adaptor, typename T, typename C, typename = if_serializable<T>,
+          typename = opros::detail::if_container_adaptor<Adaptor<T, C>>>
+void save_this(oarchive& ar, const Adaptor<T, C>& t) {
+    detail::save_adaptor(ar, t);
 }
-template <typename T, typename C, typename = if_serializable<T>>
-void save_this(oarchive& ar, const std::stack<T, C>& t) {
-    detail::save_tops(ar, t);
-}
-template <typename T, typename C, typename L, typename = if_serializable<T>>
-void save_this(oarchive& ar, const std::priority_queue<T, C, L>& t) {
-    detail::save_tops(ar, t);
+template <template <typename, typename, typename> class Adaptor, typename T, typename C, typename L,
+          typename = if_serializable<T>, typename = opros::detail::if_container_adaptor<Adaptor<T, C, L>>>
+void save_this(oarchive& ar, const Adaptor<T, C, L>& t) {
+    detail::save_adaptor(ar, t);
 }
 template <typename T, typename = if_serializable<T>>
 void save_this(oarchive& ar, const std::complex<T>& t) {

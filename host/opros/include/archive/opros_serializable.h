@@ -6,13 +6,12 @@
 
 #include <archive/opros_access.h>
 #include <archive/opros_boost_serialization.h>
+#include <archive/opros_type_info.h>
 
 #include <deque>
 #include <list>
 #include <map>
-#include <queue>
 #include <set>
-#include <stack>
 #include <type_traits>
 #include <utility>
 #include <valarray>
@@ -24,7 +23,7 @@ namespace detail {
 
 /// The standard containers: archives see them as sequences, not as classes.
 template <typename T>
-struct is_container : std::false_type {};
+struct is_container : std::integral_constant<bool, opros::detail::is_container_adaptor<T>::value> {};
 template <typename T, typename A>
 struct is_container<std::vector<T, A>> : std::true_type {};
 template <typename T, typename A>
@@ -37,12 +36,6 @@ template <typename T, typename C, typename A>
 struct is_container<std::set<T, C, A>> : std::true_type {};
 template <typename T, typename C, typename A>
 struct is_container<std::multiset<T, C, A>> : std::true_type {};
-template <typename T, typename C>
-struct is_container<std::queue<T, C>> : std::true_type {};
-template <typename T, typename C>
-struct is_container<std::stack<T, C>> : std::true_type {};
-template <typename T, typename C, typename L>
-struct is_container<std::priority_queue<T, C, L>> : std::true_type {};
 template <typename K, typename T, typename C, typename A>
 struct is_container<std::map<K, T, C, A>> : std::true_type {};
 template <typename K, typename T, typename C, typename A>

@@ -11,9 +11,7 @@
 #include <iostream>
 #include <list>
 #include <map>
-#include <queue>
 #include <set>
-#include <stack>
 #include <string>
 #include <type_traits>
 #include <typeinfo>
@@ -28,6 +26,25 @@ std::string getTypeName(T* unused = 0);
 namespace opros {
 /// "std::vector<Point>" for the implementation's name of the type.
 std::string readable_name(const std::type_info& type);
+
+namespace detail {
+
+/// std::true_type for std::queue, std::stack and std::priority_queue, which are recognized by their members. Their
+/// headers are not included: components define a `queue` of their own beside `using namespace std`.
+template <typename T>
+struct is_container_adaptor {
+    template <typename U>
+    static auto test(int)
+        -> decltype(std::declval<U&>().push(std::declval<const typename U::container_type::value_type&>()),
+                    std::declval<U&>().pop(), std::true_type());
+    template <typename U>
+    static std::false_type test(long);
+    static const bool value = decltype(test<T>(0))::value;
+};
+template <typename T>
+using if_container_adaptor = typename std::enable_if<is_container_adaptor<T>::value>::type;
+
+} // namespace detail
 } // namespace opros
 
 inline std::string typeName(bool*) { return "bool"; }
@@ -67,9 +84,6 @@ std::string typeName(std::basic_string<wchar_t, Traits, A>*) {
 OPROS_TYPE_NAME_OF_1(vector)
 OPROS_TYPE_NAME_OF_1(deque)
 OPROS_TYPE_NAME_OF_1(list)
-OPROS_TYPE_NAME_OF_1(queue)
-OPROS_TYPE_NAME_OF_1(priority_queue)
-OPROS_TYPE_NAME_OF_1(stack)
 OPROS_TYPE_NAME_OF_1(set)
 OPROS_TYPE_NAME_OF_1(multiset)
 OPROS_TYPE_NAME_OF_1(complex)
@@ -79,6 +93,20 @@ OPROS_TYPE_NAME_OF_2(multimap)
 OPROS_TYPE_NAME_OF_2(pair)
 #undef OPROS_TYPE_NAME_OF_1
 #undef OPROS_TYPE_NAME_OF_2
+
+// std::queue and std::stack, then std::priority_queue, by the template's name and that of their elements.
+template <template <typename, typename> class Adaptor, typename T,
+          typename = opros::detail::if_container_adaptor<Adaptor<T, std::deque<T>>>>
+std::string typeName(Adaptor<T, std::deque<T>>*) {
+    const std::string name = opros::readable_name(typeid(Adaptor<T, std::deque<T>>));
+    return name.substr(0, name.find('<')) + "<" + getTypeName<T>() + ">";
+}
+template <template <typename, typename, typename> class Adaptor, typename T,
+          typename = opros::detail::if_container_adaptor<Adaptor<T, std::vector<T>, std::less<T>>>>
+std::string typeName(Adaptor<T, std::vector<T>, std::less<T>>*) {
+    const std::string name = opros::readable_name(typeid(Adaptor<T, std::vector<T>, std::less<T>>));
+    return name.substr(0, name.find('<')) + "<" + getTypeName<T>() + ">";
+}
 
 // A pointer has a name, for messages, but cannot be archived.
 template <typename T>

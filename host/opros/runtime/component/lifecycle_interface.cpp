@@ -1,40 +1,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <LifecycleInterface.h>
 
+#include <atomic>
+#include <mutex>
+
+struct opros::detail::lifecycle_state {
+    std::atomic<LifecycleState> state{OPROS_CS_CREATED};
+    std::atomic<ReturnType> error{OPROS_SUCCESS};
+    // One transition at a time; recursive because callbacks may ask for transitions. stopOnError() goes without it,
+    // since onStop() may wait for the thread that reports the error.
+    std::recursive_mutex transition;
+};
+
 namespace {
 /// Held during a transition and its callback. Recursive: a callback may ask for another transition.
 typedef std::lock_guard<std::recursive_mutex> Transition;
 } // namespace
 
-LifecycleInterface::LifecycleInterface() : m_state(OPROS_CS_CREATED), m_error(OPROS_SUCCESS) {}
-LifecycleInterface::~LifecycleInterface() = default;
+LifecycleInterface::LifecycleInterface() : m_lifecycle(new opros::detail::lifecycle_state) {}
+LifecycleInterface::~LifecycleInterface() { delete m_lifecycle; }
 
-LifecycleState LifecycleInterface::getStatus() { return m_state.load(); }
-ReturnType LifecycleInterface::getErrorInfo() { return m_error.load(); }
+LifecycleState LifecycleInterface::getStatus() { return m_lifecycle->state.load(); }
+ReturnType LifecycleInterface::getErrorInfo() { return m_lifecycle->error.load(); }
 
 /// Keeps the code of a callback that has failed for getErrorInfo().
 bool LifecycleInterface::succeeded(ReturnType result) {
     if (result == OPROS_SUCCESS) return true;
-    m_error = result;
+    m_lifecycle->error = result;
     return false;
 }
 
 /// Completes a transition, unless the state has changed while its callback ran: another thread may have put the
 /// component in ERROR with stopOnError(), and a late success must not hide that.
 ReturnType LifecycleInterface::enter(LifecycleState from, LifecycleState to) {
-    return m_state.compare_exchange_strong(from, to) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
+    return m_lifecycle->state.compare_exchange_strong(from, to) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
 
 ReturnType LifecycleInterface::initialize() {
-    const Transition lock(m_transition);
-    if (m_state == OPROS_CS_READY) return OPROS_SUCCESS;
-    if (m_state != OPROS_CS_CREATED || !succeeded(onInitialize())) return OPROS_PRECONDITION_NOT_MET;
+    const Transition lock(m_lifecycle->transition);
+    if (m_lifecycle->state == OPROS_CS_READY) return OPROS_SUCCESS;
+    if (m_lifecycle->state != OPROS_CS_CREATED || !succeeded(onInitialize()))
+        return OPROS_PRECONDITION_NOT_MET;
     return enter(OPROS_CS_CREATED, OPROS_CS_READY);
 }
 
 ReturnType LifecycleInterface::start() {
-    const Transition lock(m_transition);
-    const LifecycleState before = m_state;
+    const Transition lock(m_lifecycle->transition);
+    const LifecycleState before = m_lifecycle->state;
     if (before == OPROS_CS_ACTIVE) return OPROS_SUCCESS;
     if (before != OPROS_CS_READY && before != OPROS_CS_INACTIVE) return OPROS_PRECONDITION_NOT_MET;
     if (!succeeded(onStart())) return OPROS_PRECONDITION_NOT_MET;
@@ -42,9 +54,9 @@ ReturnType LifecycleInterface::start() {
 }
 
 ReturnType LifecycleInterface::stop() {
-    const Transition lock(m_transition);
-    if (m_state == OPROS_CS_INACTIVE) return OPROS_SUCCESS;
-    if (m_state != OPROS_CS_ACTIVE || !succeeded(onStop())) return OPROS_PRECONDITION_NOT_MET;
+    const Transition lock(m_lifecycle->transition);
+    if (m_lifecycle->state == OPROS_CS_INACTIVE) return OPROS_SUCCESS;
+    if (m_lifecycle->state != OPROS_CS_ACTIVE || !succeeded(onStop())) return OPROS_PRECONDITION_NOT_MET;
     const ReturnType result = enter(OPROS_CS_ACTIVE, OPROS_CS_INACTIVE);
     if (result == OPROS_SUCCESS) afterStop();
     return result;
@@ -52,41 +64,41 @@ ReturnType LifecycleInterface::stop() {
 
 // From ERROR as well: what has been initialized must be able to release its device.
 ReturnType LifecycleInterface::destroy() {
-    const Transition lock(m_transition);
-    const LifecycleState before = m_state;
+    const Transition lock(m_lifecycle->transition);
+    const LifecycleState before = m_lifecycle->state;
     if (before == OPROS_CS_DESTROYED) return OPROS_SUCCESS;
     if (before == OPROS_CS_CREATED || !succeeded(onDestroy())) return OPROS_PRECONDITION_NOT_MET;
-    m_state = OPROS_CS_DESTROYED;
+    m_lifecycle->state = OPROS_CS_DESTROYED;
     return OPROS_SUCCESS;
 }
 
 // The three callbacks in a row, whatever the state, as LifecycleInterface.h defines it.
 ReturnType LifecycleInterface::reset() {
-    const Transition lock(m_transition);
+    const Transition lock(m_lifecycle->transition);
     if (!succeeded(onReset()) || !succeeded(onInitialize()) || !succeeded(onStart()))
         return OPROS_PRECONDITION_NOT_MET;
-    m_state = OPROS_CS_ACTIVE;
+    m_lifecycle->state = OPROS_CS_ACTIVE;
     return OPROS_SUCCESS;
 }
 
 // Without the lock: onStop(), which holds it, may wait for the thread that calls this. The exchange makes sure
 // that of several threads one calls onError().
 ReturnType LifecycleInterface::stopOnError() {
-    if (m_state == OPROS_CS_ERROR) return OPROS_SUCCESS;
+    if (m_lifecycle->state == OPROS_CS_ERROR) return OPROS_SUCCESS;
     if (enter(OPROS_CS_ACTIVE, OPROS_CS_ERROR) != OPROS_SUCCESS) return OPROS_PRECONDITION_NOT_MET;
     return succeeded(onError()) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
 
 ReturnType LifecycleInterface::fail() {
     // A component in CREATED has nothing that onError() could switch off, and may not be prepared for it.
-    const LifecycleState before = m_state.exchange(OPROS_CS_ERROR);
+    const LifecycleState before = m_lifecycle->state.exchange(OPROS_CS_ERROR);
     if (before == OPROS_CS_ERROR || before == OPROS_CS_CREATED) return OPROS_SUCCESS;
     return succeeded(onError()) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
 
 ReturnType LifecycleInterface::recover() {
-    const Transition lock(m_transition);
-    if (m_state == OPROS_CS_READY) return OPROS_SUCCESS;
-    if (m_state != OPROS_CS_ERROR || !succeeded(onRecover())) return OPROS_PRECONDITION_NOT_MET;
+    const Transition lock(m_lifecycle->transition);
+    if (m_lifecycle->state == OPROS_CS_READY) return OPROS_SUCCESS;
+    if (m_lifecycle->state != OPROS_CS_ERROR || !succeeded(onRecover())) return OPROS_PRECONDITION_NOT_MET;
     return enter(OPROS_CS_ERROR, OPROS_CS_READY);
 }

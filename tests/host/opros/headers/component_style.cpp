@@ -10,6 +10,7 @@
 #include <device/OprosPrintMessage.h>
 #include <device/OprosTimer.h>
 #include <device/Property.h>
+#include <stack>
 struct P {
     int a;
     double b;

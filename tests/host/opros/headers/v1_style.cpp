@@ -22,6 +22,28 @@
 #include "device/USB.h"
 #include "device/WheelController.h"
 
+// Names of std that v1's headers did not bring: the headers of devices say `using namespace std`. As C++20, the
+// library's own headers bring std::mutex.
+class queue {
+  public:
+    void push(int) {}
+};
+class stack : public queue {};
+#if __cplusplus < 202002L
+int mutex = 0;
+inline int next_number() { return ++mutex; }
+#endif
+class Path {
+    queue open;
+    stack closed;
+
+  public:
+    void visit(int node) {
+        open.push(node);
+        closed.push(node);
+    }
+};
+
 class Velocity {
     friend class boost::serialization::access;
 

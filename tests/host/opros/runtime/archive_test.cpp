@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <device/ApiTypes.h>
 #include <device/Property.h>
+#include <queue>
+#include <stack>
 
 using opros::archive::is_serializable;
 
@@ -28,6 +30,8 @@ TEST_CASE("each type has its name on ports") {
     CHECK(getTypeName<std::vector<std::vector<unsigned char>>>() ==
           "std::vector<std::vector<unsigned char>>");
     CHECK(getTypeName<std::map<std::string, int>>() == "std::map<std::string,int>");
+    CHECK(getTypeName<std::queue<std::string>>() == "std::queue<std::string>");
+    CHECK(getTypeName<std::priority_queue<Pose>>() == "std::priority_queue<Pose>");
     CHECK(getTypeName<Pose>() == "Pose");
     CHECK(getTypeName<std::vector<Pose>*>() == "std::vector<Pose>*");
     CHECK(getTypeName<Color>() == "Enum");
@@ -42,6 +46,8 @@ TEST_CASE("is_serializable tells at compile time which types can be archived") {
     CHECK(is_serializable<Color>::value);
     CHECK_FALSE(is_serializable<Opaque>::value);
     CHECK_FALSE(is_serializable<std::vector<Opaque>>::value);
+    CHECK(is_serializable<std::queue<Point>>::value);
+    CHECK_FALSE(is_serializable<std::stack<Opaque>>::value);
     CHECK_FALSE(is_serializable<double*>::value);
     CHECK(has_opros_serialization<Pose>::value);
     CHECK_FALSE(has_opros_serialization<Point>::value);
@@ -60,6 +66,15 @@ TEST_CASE("values are read back from the binary archive unchanged") {
     stack.push(1);
     stack.push(2);
     CHECK(through_archive(stack) == stack);
+    std::queue<std::string> queue;
+    queue.push("first");
+    queue.push("second");
+    CHECK(through_archive(queue) == queue);
+    std::priority_queue<int> by_size;
+    for (const int each : {2, 3, 1}) by_size.push(each);
+    std::priority_queue<int> read_back = through_archive(by_size);
+    CHECK(read_back.size() == 3);
+    CHECK(read_back.top() == 3);
     Property property;
     property.SetValue("k", "v");
     CHECK(through_archive(property).GetValue("k") == "v");
