@@ -10,18 +10,21 @@ set(package_installed ${PROJECT_BINARY_DIR}/package) # what differs in the insta
 
 function(tandem_package_config file prefix)
   configure_package_config_file(${package_source}/TandemConfig.cmake.in ${file}
-    INSTALL_DESTINATION ${package_dir} INSTALL_PREFIX ${prefix} PATH_VARS RTM_GENERATED_DIR RTM_CMAKE_DIR
+    INSTALL_DESTINATION ${package_dir} INSTALL_PREFIX ${prefix} PATH_VARS RTM_GENERATED_DIR RTM_CMAKE_DIR OPENCV1_DIR
     NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 endfunction()
 set(RTM_GENERATED_DIR ${TANDEM_RTM_IDL_INCLUDE})
 set(RTM_CMAKE_DIR ${PROJECT_SOURCE_DIR}/host/rtm/cmake)
+set(OPENCV1_DIR ${package_source}/opencv1)
 tandem_package_config(${package_built}/TandemConfig.cmake ${PROJECT_BINARY_DIR})
 set(RTM_GENERATED_DIR ${CMAKE_INSTALL_INCLUDEDIR}/tandem/rtm)
 set(RTM_CMAKE_DIR ${CMAKE_INSTALL_DATADIR}/tandem/rtm/cmake)
+set(OPENCV1_DIR ${CMAKE_INSTALL_INCLUDEDIR}/tandem/opencv1)
 tandem_package_config(${package_installed}/TandemConfig.cmake ${CMAKE_INSTALL_PREFIX})
 write_basic_package_version_file(${package_built}/TandemConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-configure_file(${package_source}/TandemOpros.cmake ${package_built}/TandemOpros.cmake COPYONLY)
-configure_file(${package_source}/TandemRtm.cmake ${package_built}/TandemRtm.cmake COPYONLY)
+foreach(file TandemOpros.cmake TandemRtm.cmake TandemComponent.cmake)
+  configure_file(${package_source}/${file} ${package_built}/${file} COPYONLY)
+endforeach()
 
 # Sets of targets of their own, since one may be installed without the other.
 tandem_install(tandem_opros EXPORT TandemTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT opros)
@@ -34,7 +37,9 @@ install(FILES ${package_source}/TandemOpros.cmake DESTINATION ${package_dir} COM
 install(FILES ${package_source}/TandemRtm.cmake DESTINATION ${package_dir} COMPONENT rtm)
 foreach(component opros rtm)
   install(FILES ${package_installed}/TandemConfig.cmake ${package_built}/TandemConfigVersion.cmake
-    DESTINATION ${package_dir} COMPONENT ${component})
+    ${package_source}/TandemComponent.cmake DESTINATION ${package_dir} COMPONENT ${component})
+  install(DIRECTORY ${package_source}/opencv1/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tandem/opencv1
+    COMPONENT ${component} PATTERN "README.md" EXCLUDE)
   tandem_install(tandem RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
 endforeach()
 # The program `tandem` is of both models.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # tandem_add_opros_component(NAME [FOLDER dir] [SOURCES a.cpp ...] [INCLUDE_DIRS dir ...] [PROFILES X.xml ...]
-#                            [DEFINITIONS X=1 ...] [LIBRARIES x ...] [CXX_STANDARD 14])
+#                            [DEFINITIONS X=1 ...] [LIBRARIES x ...] [PKG_CONFIG module ...] [CXX_STANDARD 14])
 # The plugin NAME.so of an OPRoS component, its profiles copied beside it. All but NAME has a default: the sources and
 # profiles that lie in the folder (the current source folder), as OPRoS components are laid out.
 
@@ -31,7 +31,8 @@ function(tandem_opros_folder folder sources include_dirs profiles)
 endfunction()
 
 function(tandem_add_opros_component name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER;CXX_STANDARD" "SOURCES;INCLUDE_DIRS;PROFILES;DEFINITIONS;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FOLDER;CXX_STANDARD;FORWARDS"
+    "SOURCES;INCLUDE_DIRS;PROFILES;DEFINITIONS;LIBRARIES;PKG_CONFIG;PKG_CONFIG_IF_FOUND")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tandem_add_opros_component(${name}): unknown arguments ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -56,6 +57,8 @@ function(tandem_add_opros_component name)
   list(TRANSFORM api APPEND /device OUTPUT_VARIABLE device_api)
   target_include_directories(${name} PRIVATE ${include_dirs} ${arg_INCLUDE_DIRS} ${api} ${device_api})
   target_link_libraries(${name} PRIVATE Tandem::opros ${arg_LIBRARIES} ${CMAKE_DL_LIBS})
+  tandem_component_libraries(${name} FORWARDS "${arg_FORWARDS}"
+    PKG_CONFIG ${arg_PKG_CONFIG} PKG_CONFIG_IF_FOUND ${arg_PKG_CONFIG_IF_FOUND})
   # What the components' own makefiles define; without it some sources take their Windows branch.
   target_compile_definitions(${name} PRIVATE _OPROS_LINUX_ ${arg_DEFINITIONS})
   # Without symbols that are unique in the process the library can be unloaded and built anew; what is missing is told

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/plugin_build.hpp"
 #include "apps/tandem/build/first_error.hpp"
+#include "apps/tandem/build/include_scan.hpp"
 #include "apps/tandem/build/package_folder.hpp"
+#include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "host/process/run_command.hpp"
 
@@ -58,25 +60,60 @@ std::string cmake_argument(const char* keyword, const std::vector<std::string>& 
     return text;
 }
 
+std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
+    std::vector<std::string> names;
+    for (const auto& file : files) names.push_back(fs::absolute(file).string());
+    return names;
+}
+
+// What is built: a model's component in the build folder.
+struct Plugin {
+    std::string model, name;
+    SelectedSources sources;
+    IncludeScan includes;
+};
+
 // The CMakeLists.txt. Paths are absolute, because it lies in the build folder.
-std::string cmake_project(const std::string& model, const std::string& name,
-                          const PluginBuildOptions& options, const fs::path& output) {
-    std::vector<std::string> include_dirs;
-    for (const auto& dir : options.include_dirs) include_dirs.push_back(fs::absolute(dir).string());
+std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
+    const std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
+    const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
+                                                 plugin.includes.pkg_config.end());
+    const bool rtm = plugin.model == "rtm"; // whose CMake function passes programs over
     return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
            "find_package(Tandem REQUIRED COMPONENTS " +
-           model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote(output.string()) +
-           ")\ntandem_add_" + model + "_component(" + name + "\n  FOLDER " +
-           cmake_quote(fs::absolute(options.folder).string()) + cmake_argument("INCLUDE_DIRS", include_dirs) +
+           plugin.model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote((build / "made").string()) +
+           ")\ntandem_add_" + plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
+           cmake_quote(fs::absolute(options.folder).string()) +
+           cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
+           (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
+           cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs)) +
            cmake_argument("DEFINITIONS", options.definitions) +
-           cmake_argument("LIBRARIES", options.libraries) +
+           cmake_argument("LIBRARIES", options.libraries) + cmake_argument("PKG_CONFIG", options.pkg_config) +
+           cmake_argument("PKG_CONFIG_IF_FOUND", found_modules) +
+           cmake_argument("FORWARDS", {(build / "forwards").string()}) +
            fmt::format("\n  CXX_STANDARD {})\n", options.standard);
 }
 
+// What the exception of a failed step adds to the first error.
+std::string advice(const std::string& error, const Plugin& plugin, const fs::path& folder) {
+    std::string text = find_remedy(error, folder);
+    // A function of no library that is known may be defined in one of these.
+    if (text.find("--source FILE") != std::string::npos && !plugin.sources.left_out.empty()) {
+        text = "left out, because " + plugin.sources.project_files + " does not list it:";
+        for (const auto& file : plugin.sources.left_out) text += " " + file.filename().string();
+        text += "; --source names all that are to be built";
+    }
+    if (const auto name = dropped_by_opencv(error); plugin.includes.old_opencv && !name.empty())
+        text = "OpenCV 4 does not have " + name + " any more; only its C++ API replaces it";
+    return text.empty() ? "" : "; " + text;
+}
+
 // Runs one step of CMake. On failure all of its output is printed, and its first error is repeated in the
-// exception, where it is the last line on the terminal.
-void run_cmake(const std::vector<std::string>& command, double timeout_s, const std::string& name,
-               const std::string& what) {
+// exception, where it is the last line on the terminal, with what to do about it.
+void run_cmake(const std::vector<std::string>& command, const PluginBuildOptions& build_options,
+               const Plugin& plugin, const std::string& what) {
+    const double timeout_s = build_options.timeout_s;
+    const std::string& name = plugin.name;
     process::CommandOptions options;
     options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout_s * 1000));
     options.merge_errors = true;
@@ -95,7 +132,9 @@ void run_cmake(const std::vector<std::string>& command, double timeout_s, const 
                                              name, timeout_s));
     if (result.succeeded()) return;
     print_text(result.output);
-    throw std::runtime_error("component " + name + " " + what + ": " + first_error(result.output) +
+    const std::string error = first_error(result.output);
+    throw std::runtime_error("component " + name + " " + what + ": " + error +
+                             advice(error, plugin, build_options.folder) +
                              " (the compiler's output is above)");
 }
 
@@ -131,6 +170,13 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
         ->type_name("DIR");
     repeated("-D,--define", options.definitions, "preprocessor definition (repeatable)");
     repeated("-l,--library", options.libraries, "library to link: a name or a file (repeatable)");
+    repeated("--pkg-config", options.pkg_config, "module of pkg-config to use, e.g. opencv4 (repeatable)")
+        ->type_name("MODULE");
+    repeated("--source", options.sources.sources,
+             "source or pattern to build, in place of those found (repeatable)")
+        ->type_name("FILE");
+    repeated("--exclude", options.sources.excluded, "source or pattern to leave out (repeatable)")
+        ->type_name("FILE");
     command->add_option("--standard", options.standard, "C++ standard (14)")
         ->check(CLI::IsMember({11, 14, 17, 20}));
     command
@@ -151,22 +197,26 @@ void require_folder(const fs::path& folder) {
 
 // CMake configures anew each time: a second build in a kept folder compiles only what has changed.
 // Everything is made in the build folder; the output folder is touched only after the build has succeeded.
-fs::path build_plugin(const std::string& model, const std::string& name, const PluginBuildOptions& options,
-                      const fs::path& default_folder) {
+fs::path build_plugin(const std::string& model, const std::string& name, const std::string& entry_point,
+                      const PluginBuildOptions& options, const fs::path& default_folder) {
     for (const auto& dir : options.include_dirs) require_folder(dir);
     const fs::path output =
         fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
     for (const auto& dir : options.include_dirs) require_no_semicolon(dir);
     for (const auto& dir : {options.folder, output, options.build}) require_no_semicolon(dir);
+    Plugin plugin{model, name, select_sources(options.folder, entry_point, options.sources), {}};
+    plugin.includes = scan_includes(options.folder, plugin.sources.sources,
+                                    {options.include_dirs.begin(), options.include_dirs.end()});
     const BuildFolder build(options.build);
     const fs::path cmake_output = build.path() / "made";
-    std::ofstream(build.path() / "CMakeLists.txt") << cmake_project(model, name, options, cmake_output);
+    write_forwards(plugin.includes.forwards, build.path() / "forwards");
+    std::ofstream(build.path() / "CMakeLists.txt") << cmake_project(plugin, options, build.path());
     const std::string bin = (build.path() / "bin").string();
     run_cmake({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                "-DTandem_DIR=" + cmake_package_folder().string()},
-              options.timeout_s, name, "cannot be set up");
+              options, plugin, "cannot be set up");
     // Two steps, each with its own time limit and its own message.
-    run_cmake({"cmake", "--build", bin, "--parallel"}, options.timeout_s, name, "does not compile");
+    run_cmake({"cmake", "--build", bin, "--parallel"}, options, plugin, "does not compile");
     fs::create_directories(output);
     fs::path library = output / (name + ".so");
     replace_library(cmake_output / library.filename(), library);

@@ -3,6 +3,8 @@
 // calls the function of the Tandem package, and run CMake on it.
 #pragma once
 
+#include "apps/tandem/build/select_sources.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
@@ -16,7 +18,8 @@ struct PluginBuildOptions {
     std::filesystem::path folder;
     std::filesystem::path output; ///< empty: the default folder of the model
     std::filesystem::path build;  ///< empty: a temporary folder
-    std::vector<std::string> include_dirs, definitions, libraries;
+    std::vector<std::string> include_dirs, definitions, libraries, pkg_config;
+    SourceOptions sources;
     int standard = 14;
     double timeout_s = 600; ///< bound for CMake's set-up and for the compilation, each
 };
@@ -27,11 +30,12 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
 /// Throws std::runtime_error if there is no such folder.
 void require_folder(const std::filesystem::path& folder);
 
-/// Builds NAME.so with tandem_add_<model>_component() and puts it into `default_folder`, or into options.output
-/// together with the files that CMake has put beside it. An old library is replaced only by a complete new one.
-/// Returns its path. Throws std::runtime_error with one line, after the compiler's output has been printed.
+/// Builds NAME.so, whose function `entry_point` the host looks for, with tandem_add_<model>_component() and puts it into
+/// `default_folder`, or into options.output together with the files that CMake has put beside it. An old library is
+/// replaced only by a complete new one. Returns its path. Throws std::runtime_error with one line, after the compiler's
+/// output has been printed.
 std::filesystem::path build_plugin(const std::string& model, const std::string& name,
-                                   const PluginBuildOptions& options,
+                                   const std::string& entry_point, const PluginBuildOptions& options,
                                    const std::filesystem::path& default_folder);
 
 } // namespace tandem::command

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // tandem opros build: builds a component from its folder, under the library name in its profile.
+#include "apps/tandem/build/source_text.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "host/opros/engine/profile/component_profile.hpp"
+#include "host/opros/engine/profile/profile_kind.hpp"
 #include "host/plugin/find_library.hpp"
 
 #include <algorithm>
@@ -16,29 +18,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The component profiles in the folder itself and where OPRoS's own tools put them. Other profiles are passed over.
-std::vector<engine::ComponentProfile> find_component_profiles(const fs::path& folder) {
-    std::vector<engine::ComponentProfile> found;
-    for (const char* subfolder : {"", "profile", "profiles"}) {
-        // A subfolder that does not exist has no profiles: the iterator is then at its end.
-        std::error_code ignored;
-        for (const auto& entry : fs::directory_iterator(folder / subfolder, ignored)) {
-            if (entry.path().extension() != ".xml") continue;
-            try {
-                found.push_back(engine::read_component_profile(entry.path()));
-            } catch (const engine::SetupError&) {
-                continue; // the profile of a service, a data type or an application
-            }
+// What is wrong with a file that is not a readable component profile; "" if it is one of another kind.
+std::string profile_error(const fs::path& file, const engine::SetupError& error) {
+    try {
+        return engine::read_profile_kind(file) == engine::ProfileKind::component ? error.what() : "";
+    } catch (const engine::SetupError& cause) {
+        // Other XML files, such as data of OpenCV, have a root element that no profile has.
+        return std::strstr(cause.what(), "not well-formed XML") ? cause.what() : "";
+    }
+}
+
+// The component profiles in a folder; others are passed over. `error`: of the first file that would be one, were it not
+// for the error.
+void add_component_profiles(const fs::path& folder, std::vector<engine::ComponentProfile>& found,
+                            std::string& error) {
+    for (const auto& file : list_files(folder)) {
+        if (file.extension() != ".xml") continue;
+        try {
+            found.push_back(engine::read_component_profile(file));
+        } catch (const engine::SetupError& cause) {
+            if (error.empty()) error = profile_error(file, cause);
         }
     }
+}
+
+// Those in the component's folder and where OPRoS's own tools put them; without one, those of the folder's name that a
+// workspace has for all of its components.
+std::vector<engine::ComponentProfile> find_component_profiles(const fs::path& folder, std::string& error) {
+    std::vector<engine::ComponentProfile> found;
+    for (const char* place : {"", "profile", "profiles"})
+        add_component_profiles(folder / place, found, error);
+    if (!found.empty() || !error.empty()) return found;
+    const fs::path whole = fs::canonical(folder);
+    for (const fs::path& parent : {whole.parent_path(), whole.parent_path().parent_path()})
+        for (const char* place : {"profile", "profiles"}) {
+            std::string of_another_component;
+            add_component_profiles(parent / place, found, of_another_component);
+        }
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const auto& profile) { return profile.name != whole.filename(); }),
+                found.end());
     return found;
 }
 
-// The profile of --profile, otherwise the only one in the folder.
+// The profile of --profile, relative to the current folder or else to the component's; otherwise the only one.
 engine::ComponentProfile select_profile(const OprosBuildOptions& options) {
-    if (!options.profile.empty()) return engine::read_component_profile(options.folder / options.profile);
-    const auto all = find_component_profiles(options.folder);
+    if (!options.profile.empty())
+        return engine::read_component_profile(fs::exists(options.profile) ? fs::absolute(options.profile)
+                                                                          : options.folder / options.profile);
+    std::string error;
+    const auto all = find_component_profiles(options.folder, error);
     if (all.size() == 1) return all.front();
+    if (all.empty() && !error.empty()) throw std::runtime_error(error);
     if (all.empty())
         throw std::runtime_error("no component profile (XML with <component_profile>) in " +
                                  options.folder.string() +
@@ -72,8 +103,8 @@ int opros_build(const OprosBuildOptions& options) {
     require_folder(options.folder);
     const auto profile = select_profile(options);
     // Beside the profile, where opros_host looks first.
-    const auto library =
-        build_plugin("opros", library_stem(profile), options, profile.location.file.parent_path());
+    const auto library = build_plugin("opros", library_stem(profile), "getComponent", options,
+                                      profile.location.file.parent_path());
     print_text(library.string() + "\n");
     return 0;
 }

@@ -64,12 +64,14 @@ void add_build(CLI::App& opros, Action& selected) {
     auto options = std::make_shared<OprosBuildOptions>();
     CLI::App* command = add_command(
         opros, "build", "Builds a component from the sources in its folder",
-        "Takes the sources in DIR and DIR/src, and the component profile in DIR or DIR/profile, which\n"
-        "gives the plugin its name; the plugin is put beside the profile. Nothing else is\n"
-        "changed. Exit code 1 if it cannot be built.");
+        "Takes the sources in DIR and DIR/src, or what its CMakeLists.txt, makefile or Visual C++ project\n"
+        "lists, and the component profile in DIR or DIR/profile, which gives the plugin its name; the\n"
+        "plugin is put beside the profile. Nothing else is changed. Exit code 1 if it cannot be built.");
     add_build_options(command, *options,
                       "folder for the plugin and its profiles (the folder of the profile)");
-    command->add_option("--profile", options->profile, "component profile in DIR, when there are several")
+    command
+        ->add_option("--profile", options->profile,
+                     "component profile, when DIR has several: relative to the current folder or to DIR")
         ->type_name("FILE");
     command->callback([=, &selected] { selected = [options] { return opros_build(*options); }; });
 }

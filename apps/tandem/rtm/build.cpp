@@ -18,7 +18,7 @@ std::string select_module(const RtmBuildOptions& options) {
     if (modules.empty())
         throw std::runtime_error(
             "no source in " + options.folder.string() +
-            " nor in its src/ defines a module function, void NAMEInit(RTC::Manager*); "
+            " nor below it defines a module function, void NAMEInit(RTC::Manager*); "
             "name the module with --name NAME if a macro or an included file defines it");
     std::string names;
     for (const auto& each : modules) names += (names.empty() ? "" : ", ") + each;
@@ -33,7 +33,7 @@ int rtm_build(const RtmBuildOptions& options) {
     const std::string name = select_module(options);
     // Also for a name that was found: it becomes the name of a file and of a CMake target.
     require_component_name(name);
-    print_text(build_plugin("rtm", name, options, options.folder).string() + "\n");
+    print_text(build_plugin("rtm", name, name + "Init", options, options.folder).string() + "\n");
     return 0;
 }
 

@@ -14,10 +14,10 @@ void add_build(CLI::App& rtm, Action& selected) {
     auto options = std::make_shared<RtmBuildOptions>();
     CLI::App* command = add_command(
         rtm, "build", "Builds an RT-Component from nothing but its folder",
-        "Takes the sources in DIR and DIR/src without those that have a main(), the IDL files in DIR and\n"
-        "DIR/idl, and the headers there and in DIR/include. The function NAMEInit(RTC::Manager*) gives\n"
-        "the plugin its name; it is put into DIR. Nothing else is changed. Exit code 1 if it cannot\n"
-        "be built.");
+        "Takes the sources in DIR and DIR/src, or what its CMakeLists.txt or makefile lists, without those\n"
+        "that have a main(), the IDL files in DIR and DIR/idl, those above DIR that a source needs, and the\n"
+        "headers there and in DIR/include. The function NAMEInit(RTC::Manager*) gives the plugin its name;\n"
+        "it is put into DIR. Nothing else is changed. Exit code 1 if it cannot be built.");
     add_build_options(command, *options, "folder for the plugin instead of DIR");
     command->add_option("--name", options->name, "name of the module, when DIR has several");
     command->callback([=, &selected] { selected = [options] { return rtm_build(*options); }; });

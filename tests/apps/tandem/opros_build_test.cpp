@@ -175,3 +175,94 @@ TEST_CASE("a build that takes too long is ended and leaves the folder as it was"
     CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
     CHECK(files_in(folder.path() / "Old/profile") == std::vector<std::string>{"Old.xml", "OldService.xml"});
 }
+
+TEST_CASE(
+    "a component of another platform is built by what its makefile lists and with its headers in any case") {
+    const Folder folder;
+    old_component(folder, "");
+    folder.write("Old/Old_2009.cpp", "Component* getComponent() { return 0; }\n#error not listed\n");
+    folder.write("Old/Makefile", "SRCS = Old.cpp src/Helper.cpp\nCFLAGS = -I../neighbour\n");
+    folder.write("Old/Old.h", "#include \"..\\neighbour\\GAIN.h\"\n");
+    folder.write("Old/src/Helper.cpp",
+                 "#include \"helper.H\"\n#include \"old.h\"\ndouble helped() { return gain(); }\n");
+    const auto built = build({folder.path() / "Old"});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(fs::exists(folder.path() / "Old/profile/Old.so"));
+}
+
+TEST_CASE("what cannot be built is said in one line with the profile's line, the package or the cause") {
+    const Folder folder;
+    const auto last_line = [&](std::vector<std::string> arguments) {
+        const auto result = build(std::move(arguments));
+        INFO(result.output << result.errors);
+        CHECK(result.exit_code == 1);
+        CHECK(std::count(result.errors.begin(), result.errors.end(), '\n') == 1);
+        return result.errors;
+    };
+    old_component(folder, "");
+    const std::string old = folder.path() / "Old", neighbour = folder.path() / "neighbour";
+    CHECK_THAT(last_line({old}),
+               !Catch::Contains("-I DIR") && Catch::Contains("Gain.h: No such file or directory; -I " +
+                                                             fs::canonical(neighbour).string()));
+    folder.write("neighbour/Gain.h", "#include <cwiid.h>\n");
+    if (!fs::exists("/usr/include/cwiid.h"))
+        CHECK_THAT(last_line({old, "-I", neighbour}), Catch::Contains("; apt install libcwiid-dev"));
+    CHECK_THAT(last_line({old, "--pkg-config", "no_such_module"}),
+               Catch::Contains("pkg-config knows no module no_such_module"));
+    folder.write("Old/profile/Old.xml",
+                 "<component_profile>\n<name>Old</name>\n<oops>\n</component_profile>\n");
+    CHECK_THAT(last_line({old}), Catch::Contains("Old.xml:4: not well-formed XML"));
+}
+
+TEST_CASE("the file that --profile names is relative to the current folder, as others are") {
+    const Folder folder;
+    folder.component("One/Second", "Second.dll");
+    folder.component("One/Third", "Third.dll");
+    folder.write("One/x.cpp", "#include <Component.h>\nextern \"C\" Component* getComponent() { return 0; }\n"
+                              "extern \"C\" void releaseComponent(Component*) {}\n");
+    const auto here = fs::current_path();
+    fs::current_path(folder.path());
+    const auto built = build({"One", "--profile", "One/Third.xml"});
+    fs::current_path(here);
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(fs::exists(folder.path() / "One/Third.so"));
+}
+
+// In the style of the vision components of OPRoS: OpenCV's C API of 2010.
+TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its package is named where it is not") {
+    const Folder folder;
+    folder.write(
+        "Eye/Eye.cpp",
+        "#include <Component.h>\n#include <cv.h>\n#include <highgui.h>\n"
+        "class Eye : public Component {\n  IplImage* image;\n public:\n"
+        "  ReturnType onInitialize() {\n"
+        "    image = cvCreateImage(cvSize(8, 4), IPL_DEPTH_8U, 1);\n"
+        "    cvSet(image, cvScalarAll(7));\n    IplImage* copy = 0;\n"
+        "    const bool saved = cvSaveImage(\"eye.png\", image) && (copy = cvLoadImage(\"eye.png\"));\n"
+        "    const bool same = saved && copy->nChannels == 3 && cvGet2D(copy, 3, 7).val[2] == 7;\n"
+        "    cvReleaseImage(&copy);\n    cvReleaseImage(&image);\n"
+        "    return same ? OPROS_SUCCESS : 1;\n  }\n};\n"
+        "extern \"C\" {\nComponent* getComponent() { return new Eye; }\n"
+        "void releaseComponent(Component* com) { delete com; }\n}\n");
+    folder.component("Eye/Eye", "Eye.dll");
+    const auto built = build({folder.path() / "Eye"});
+    INFO(built.output << built.errors);
+    if (!fs::exists("/usr/include/opencv4/opencv2/core/core_c.h")) {
+        CHECK(built.exit_code == 1);
+        CHECK_THAT(built.errors,
+                   Catch::Contains("cv.h: No such file or directory; apt install libopencv-dev"));
+        return;
+    }
+    REQUIRE(built.exit_code == 0);
+    const auto here = fs::current_path();
+    fs::current_path(folder.path());
+    const auto info = tandem_program({"opros", "info", folder.path() / "Eye/Eye.xml", "--initialize"});
+    fs::current_path(here);
+    INFO(info.errors);
+    CHECK(info.exit_code == 0);
+    folder.write("Eye/Eye.cpp", "#include <cv.h>\nvoid* eye() { return cvHaarDetectObjects(0, 0, 0); }\n");
+    CHECK_THAT(build({folder.path() / "Eye"}).errors,
+               Catch::Contains("OpenCV 4 does not have cvHaarDetectObjects any more"));
+}

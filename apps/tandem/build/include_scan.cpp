@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/header_packages.hpp"
+#include "apps/tandem/build/project_files.hpp"
+#include "apps/tandem/build/source_text.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+bool is_file(const fs::path& file) {
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored);
+}
+
+// The names between the quotes or brackets of #include, in whatever branch of the preprocessor they stand.
+std::vector<std::string> included_names(const fs::path& file) {
+    std::istringstream stream(strip_comments(read_text(file)));
+    std::vector<std::string> names;
+    for (std::string line; std::getline(stream, line);) {
+        const auto hash = line.find_first_not_of(" \t");
+        if (hash == std::string::npos || line[hash] != '#') continue;
+        const auto word = line.find_first_not_of(" \t", hash + 1);
+        if (word == std::string::npos || line.compare(word, 7, "include") != 0) continue;
+        const auto begin = line.find_first_of("\"<", word);
+        const auto end = begin == std::string::npos ? begin : line.find_first_of("\">", begin + 1);
+        if (end != std::string::npos) names.push_back(line.substr(begin + 1, end - begin - 1));
+    }
+    return names;
+}
+
+// A header of OPRoS's or OpenRTM-aist's own beside a component must not hide Tandem's.
+bool has_upstream_api(const fs::path& dir) {
+    return is_file(dir / "Component.h") || is_file(dir / "rtm/Manager.h") || is_file(dir / "OPRoSTypes.h");
+}
+
+class Scanner {
+  public:
+    Scanner(const fs::path& folder, const Paths& sources, const Paths& include_dirs)
+        : folder_(fs::canonical(folder)), dirs_(include_dirs), found_(list_files_below(folder_)) {
+        for (const char* place : {".", "include", "src"})
+            dirs_.push_back((folder_ / place).lexically_normal());
+        std::error_code ignored;
+        for (const auto& entry : fs::directory_iterator(folder_ / "include", ignored))
+            dirs_.push_back(entry.path());
+        for (const auto& source : sources) places_.insert(source.parent_path());
+        for (const auto& place : std::set<fs::path>(places_)) add_project_dirs(place);
+        add_project_dirs(folder_);
+    }
+
+    void read(const fs::path& file) {
+        if (!visited_.insert(file).second) return;
+        for (const auto& name : included_names(file)) resolve(name, file.parent_path());
+    }
+
+    IncludeScan result;
+
+  private:
+    // Their headers are found only by what nothing else has, so that the order of the folders does not matter.
+    void add_project_dirs(const fs::path& place) {
+        for (const auto& dir : read_include_dirs(place))
+            if (!has_upstream_api(dir))
+                for (const auto& file : list_files(dir))
+                    if (std::find(found_.begin(), found_.end(), file) == found_.end()) found_.push_back(file);
+    }
+
+    void resolve(const std::string& name, const fs::path& place) {
+        if (is_old_opencv_header(name)) result.old_opencv = true;
+        if (const auto* package = find_package_of_header(name); package && *package->pkg_config)
+            result.pkg_config.insert(package->pkg_config);
+        if (is_file(place / name)) return read((place / name).lexically_normal());
+        for (const auto& dir : dirs_)
+            if (is_file(dir / name)) return read((dir / name).lexically_normal());
+        if (result.forwards.count(name) != 0) return;
+        if (const auto file = find_below(name); !file.empty()) {
+            result.forwards[name] = file.string();
+            return read(file);
+        }
+        find_idl(name);
+    }
+
+    // The file whose path ends so: in the same case if there is one, otherwise in any.
+    fs::path find_below(const std::string& name) const {
+        std::string end = to_posix_path(name);
+        while (end.rfind("../", 0) == 0 || end.rfind("./", 0) == 0) end.erase(0, end.find('/') + 1);
+        if (end.empty() || end[0] == '/') return {};
+        fs::path in_other_case;
+        for (const auto& file : found_) {
+            if (!is_source_or_header(file)) continue;
+            const std::string path = file.string();
+            if (path.size() <= end.size() || path[path.size() - end.size() - 1] != '/') continue;
+            const std::string last = path.substr(path.size() - end.size());
+            if (last == end) return file;
+            if (in_other_case.empty() && to_lower(last) == to_lower(end)) in_other_case = file;
+        }
+        return in_other_case;
+    }
+
+    // XSkel.h, XStub.h and X.hh are made from X.idl, which several components may have in a folder above theirs. In
+    // projects of catkin they are included as PROJECT/idl/X.hh.
+    void find_idl(const std::string& name) {
+        const fs::path header(name);
+        std::string base = header.stem().string();
+        if (header.extension() != ".h" && header.extension() != ".hh") return;
+        if (header.extension() == ".h") {
+            if (!base.ends_with("Skel") && !base.ends_with("Stub")) return;
+            base.resize(base.size() - 4);
+        }
+        for (const char* place : {"idl", ".", "../idl", "..", "../../idl"}) {
+            const auto idl = (folder_ / place / (base + ".idl")).lexically_normal();
+            if (!is_file(idl)) continue;
+            if (header.has_parent_path()) result.forwards[name] = header.filename().string();
+            return add_idl(idl, std::string(place).rfind("..", 0) == 0);
+        }
+    }
+
+    // With those that it includes and that lie beside it.
+    void add_idl(const fs::path& idl, bool outside) {
+        if (!outside ||
+            std::find(result.idl_files.begin(), result.idl_files.end(), idl) != result.idl_files.end())
+            return;
+        result.idl_files.push_back(idl);
+        for (const auto& name : included_names(idl))
+            if (is_file(idl.parent_path() / name))
+                add_idl((idl.parent_path() / name).lexically_normal(), true);
+    }
+
+    fs::path folder_;
+    Paths dirs_, found_;
+    std::set<fs::path> places_, visited_;
+};
+
+} // namespace
+
+IncludeScan scan_includes(const fs::path& folder, const Paths& sources, const Paths& include_dirs) {
+    Scanner scanner(folder, sources, include_dirs);
+    for (const auto& source : sources) scanner.read(source);
+    return scanner.result;
+}
+
+void write_forwards(const std::map<std::string, std::string>& forwards, const fs::path& folder) {
+    fs::create_directories(folder);
+    for (const auto& [name, meant] : forwards) {
+        // A name with ".." would leave the folder; one with '\' is a file's name here.
+        if (name.find("../") != std::string::npos || name.empty() || name[0] == '/') continue;
+        const auto file = folder / name;
+        fs::create_directories(file.parent_path());
+        // In brackets one that is made from an IDL file: quotes would find this file, which may have the same name.
+        std::ofstream(file) << (meant[0] == '/' ? "#include \"" + meant + "\"\n"
+                                                : "#include <" + meant + ">\n");
+    }
+}
+
+std::string find_neighbour_with(const fs::path& folder, const std::string& header) {
+    std::error_code error;
+    const auto parent = fs::canonical(folder, error).parent_path();
+    if (error || parent == parent.root_path()) return "";
+    for (const auto& entry : fs::directory_iterator(parent, error))
+        for (const auto& dir : {entry.path(), entry.path() / "include", entry.path() / "src"})
+            if (is_file(dir / header)) return dir.string();
+    return "";
+}
+
+} // namespace tandem::command

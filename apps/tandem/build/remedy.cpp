@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/remedy.hpp"
+#include "apps/tandem/build/header_packages.hpp"
+#include "apps/tandem/build/include_scan.hpp"
+
+#include <utility>
+
+namespace tandem::command {
+namespace {
+
+// The text between two others; "" if they are not there.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+    const auto begin = text.find(before);
+    if (begin == std::string::npos) return "";
+    const auto end = text.find(after, begin + before.size());
+    return end == std::string::npos ? "" : text.substr(begin + before.size(), end - begin - before.size());
+}
+
+std::string install(const LibraryPackage& package) { return std::string("apt install ") + package.package; }
+
+std::string for_header(const std::string& header, const std::filesystem::path& folder) {
+    if (const auto neighbour = find_neighbour_with(folder, header); !neighbour.empty())
+        return "-I " + neighbour;
+    if (is_windows_header(header))
+        return header + " is a header of Windows: this source cannot be built here";
+    if (const auto* package = find_package_of_header(header)) return install(*package);
+    return "if you have the library or component that " + header + " belongs to, name its folder with -I DIR";
+}
+
+// The name of a function as the linker writes it, with its parameters.
+std::string for_symbol(const std::string& symbol) {
+    const auto* package = find_package_of_symbol(symbol);
+    if (package && *package->pkg_config) return std::string("--pkg-config ") + package->pkg_config;
+    if (package) return std::string("-l ") + package->library;
+    return "name the library that has it with -l NAME, or the source with --source FILE";
+}
+
+} // namespace
+
+std::string find_remedy(const std::string& error, const std::filesystem::path& folder) {
+    if (const auto header = between(error, "fatal error: ", ": No such file or directory"); !header.empty())
+        return for_header(header, folder);
+    if (const auto symbol = between(error, "undefined reference to `", "'"); !symbol.empty())
+        return for_symbol(symbol);
+    if (const auto library = between(error + ":", "cannot find -l", ":"); !library.empty()) {
+        if (const auto* package = find_package_of_library(library)) return install(*package);
+        return "the folder of lib" + library + ".so can be named with -l /FOLDER/lib" + library + ".so";
+    }
+    if (error.find("required packages were not found") != std::string::npos)
+        return "install the Debian package that has the module's .pc file, or leave --pkg-config out";
+    return "";
+}
+
+std::string dropped_by_opencv(const std::string& error) {
+    // g++ writes names between these quotes in a locale of UTF-8, otherwise between apostrophes.
+    for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
+        const auto name = between(error, std::string("error: ") + open, close);
+        for (const char* prefix : {"cv", "Cv", "CV_", "Ipl", "IPL_"})
+            if (name.rfind(prefix, 0) == 0 && name.find(':') == std::string::npos) return name;
+    }
+    return "";
+}
+
+} // namespace tandem::command

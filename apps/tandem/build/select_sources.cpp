@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/select_sources.hpp"
+#include "apps/tandem/build/project_files.hpp"
+#include "apps/tandem/build/source_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fnmatch.h>
+#include <set>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+// Whether the text defines the function: its name, parameters without a ';', and a body. A source with a main() is a
+// program of its own and does not count.
+bool defines(const std::string& text, const std::string& function) {
+    bool found = false;
+    for (std::size_t at = 0; !found && (at = text.find(function, at)) != std::string::npos;
+         at += function.size()) {
+        if (at > 0 && is_word(text[at - 1])) continue;
+        const auto open = text.find_first_not_of(" \t\r\n", at + function.size());
+        if (open == std::string::npos || text[open] != '(') continue;
+        const auto close = text.find(')', open);
+        const auto body = text.find_first_not_of(" \t\r\n", close == std::string::npos ? close : close + 1);
+        found = close != std::string::npos && body != std::string::npos && text[body] == '{';
+    }
+    return found && text.find("int main(") == std::string::npos &&
+           text.find("int main (") == std::string::npos;
+}
+
+Paths filter(const Paths& files, const std::string& function) {
+    Paths found;
+    for (const auto& file : files)
+        if (is_source(file) && defines(strip_comments(read_text(file)), function)) found.push_back(file);
+    return found;
+}
+
+void add_sources(const fs::path& folder, Paths& sources) {
+    for (const auto& file : list_files(folder))
+        if (is_source(file) && std::find(sources.begin(), sources.end(), file) == sources.end())
+            sources.push_back(file);
+}
+
+bool matches(const fs::path& file, const fs::path& folder, const std::string& pattern) {
+    const auto relative = file.lexically_relative(folder).string();
+    return fnmatch(pattern.c_str(), relative.c_str(), 0) == 0 ||
+           fnmatch(pattern.c_str(), file.filename().c_str(), 0) == 0 ||
+           fs::absolute(pattern).lexically_normal() == file;
+}
+
+// A file as the user names it: relative to the current folder, else to the component's, else a pattern in the latter.
+Paths named_sources(const fs::path& folder, const std::vector<std::string>& names) {
+    Paths sources;
+    for (const auto& name : names) {
+        std::error_code ignored;
+        const auto here = fs::absolute(name).lexically_normal(), there = (folder / name).lexically_normal();
+        if (fs::is_regular_file(here, ignored) || fs::is_regular_file(there, ignored)) {
+            sources.push_back(fs::is_regular_file(here, ignored) ? here : there);
+            continue;
+        }
+        const auto before = sources.size();
+        for (const auto& file : list_files_below(folder))
+            if (is_source(file) && matches(file, folder, name)) sources.push_back(file);
+        if (sources.size() == before)
+            throw std::runtime_error("--source " + name + ": no such file here nor in " + folder.string());
+    }
+    return sources;
+}
+
+void remove_excluded(const fs::path& folder, const std::vector<std::string>& excluded, Paths& sources) {
+    for (const auto& pattern : excluded) {
+        const auto end = std::remove_if(sources.begin(), sources.end(),
+                                        [&](const auto& source) { return matches(source, folder, pattern); });
+        if (end == sources.end())
+            throw std::runtime_error("--exclude " + pattern + ": no source of " + folder.string() +
+                                     " has that name");
+        sources.erase(end, sources.end());
+    }
+}
+
+std::string names_of(const Paths& files, const fs::path& folder) {
+    std::string names;
+    for (const auto& file : files)
+        names += (names.empty() ? "" : ", ") + file.lexically_relative(folder).string();
+    return names;
+}
+
+// Takes what the project files list together with a source that defines the entry point.
+void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSources& selected) {
+    std::set<fs::path> places{folder, folder / "src"};
+    for (const auto& entry : entries) places.insert(entry.parent_path());
+    Paths listed, project_files;
+    const auto add = [](Paths& all, const fs::path& file) {
+        if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(file);
+    };
+    for (const auto& place : places)
+        for (const auto& list : read_source_lists(place)) {
+            const bool has_entry =
+                std::any_of(list.sources.begin(), list.sources.end(), [&](const auto& source) {
+                    return std::find(entries.begin(), entries.end(), source) != entries.end();
+                });
+            if (!has_entry) continue;
+            add(project_files, list.project_file);
+            for (const auto& source : list.sources) add(listed, source);
+        }
+    if (listed.empty()) return;
+    for (const auto& source : selected.sources)
+        if (std::find(listed.begin(), listed.end(), source) == listed.end())
+            selected.left_out.push_back(source);
+    selected.sources = listed;
+    selected.project_files = names_of(project_files, folder);
+}
+
+} // namespace
+
+SelectedSources select_sources(const fs::path& named_folder, const std::string& entry_point,
+                               const SourceOptions& options) {
+    // Canonical, so that a project file's "../x.cpp" is the same path as that of the folder's own x.cpp.
+    const fs::path folder = fs::canonical(named_folder);
+    SelectedSources selected;
+    if (!options.sources.empty()) {
+        selected.sources = named_sources(folder, options.sources);
+    } else {
+        add_sources(folder, selected.sources);
+        add_sources(folder / "src", selected.sources);
+        auto entries = filter(selected.sources, entry_point);
+        if (entries.empty()) {
+            entries = filter(list_files_below(folder), entry_point);
+            for (const auto& entry : entries) add_sources(entry.parent_path(), selected.sources);
+        }
+        apply_source_lists(folder, entries, selected);
+    }
+    remove_excluded(folder, options.excluded, selected.sources);
+    if (selected.sources.empty())
+        throw std::runtime_error("no C++ source in " + named_folder.string() +
+                                 " nor in its src/; name them with --source FILE if they are elsewhere");
+    const auto entries = filter(selected.sources, entry_point);
+    if (entries.size() > 1)
+        throw std::runtime_error(names_of(entries, folder) + " each define " + entry_point +
+                                 "(), of which a library has one; leave the others out with --exclude FILE");
+    return selected;
+}
+
+} // namespace tandem::command

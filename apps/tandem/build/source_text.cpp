@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/source_text.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <set>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t max_bytes = 4 << 20; // generated sources of data have more, and define no functions
+constexpr int max_depth = 6;
+
+bool is_passed_over(const fs::path& folder) {
+    const auto name = to_lower(folder.filename().string());
+    return name.empty() || name[0] == '.' || name == "mfc" || name == "debug" || name == "release" ||
+           name.rfind("build", 0) == 0 || name.rfind("cmake", 0) == 0;
+}
+
+} // namespace
+
+std::string read_text(const fs::path& file) {
+    std::error_code error;
+    const auto size = fs::file_size(file, error);
+    if (error) return "";
+    std::string text(static_cast<std::size_t>(std::min<std::uintmax_t>(size, max_bytes)), '\0');
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    return text;
+}
+
+// String literals are not recognized: what this program looks for is not to be expected in one.
+std::string strip_comments(std::string text) {
+    // A state machine over pairs of characters; the last character cannot begin or end a comment.
+    enum { code, line, block } in = code;
+    for (std::size_t i = 0; i + 1 < text.size(); ++i) {
+        if (in == code && text[i] == '/' && (text[i + 1] == '/' || text[i + 1] == '*'))
+            in = text[i + 1] == '/' ? line : block;
+        else if (in == line && text[i] == '\n')
+            in = code;
+        else if (in == block && text[i] == '*' && text[i + 1] == '/') {
+            in = code;
+            text[i + 1] = ' ';
+        } else if (in == code)
+            continue;
+        if (text[i] != '\n') text[i] = ' ';
+    }
+    return text;
+}
+
+std::string to_posix_path(std::string text) {
+    std::replace(text.begin(), text.end(), '\\', '/');
+    return text;
+}
+
+std::string to_lower(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+bool is_source(const fs::path& file) {
+    static const std::set<std::string> endings{".cpp", ".cc", ".cxx", ".c"};
+    return endings.count(to_lower(file.extension().string())) != 0;
+}
+
+bool is_source_or_header(const fs::path& file) {
+    static const std::set<std::string> endings{".h", ".hh", ".hpp", ".hxx"};
+    return is_source(file) || endings.count(to_lower(file.extension().string())) != 0;
+}
+
+std::vector<fs::path> list_files(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    // A folder that is missing has no files: the iterator is then at its end.
+    for (const auto& entry : fs::directory_iterator(folder, ignored))
+        if (entry.is_regular_file(ignored)) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::vector<fs::path> list_files_below(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
+    for (; !error && at != end; at.increment(error)) {
+        std::error_code ignored;
+        if (at->is_directory(ignored) && (at.depth() >= max_depth || is_passed_over(at->path())))
+            at.disable_recursion_pending();
+        else if (at->is_regular_file(ignored))
+            files.push_back(at->path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+} // namespace tandem::command

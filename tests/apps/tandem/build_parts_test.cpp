@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `tandem opros build` and `tandem rtm build` decide before they compile, and what they say when that fails.
+#include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/project_files.hpp"
+#include "apps/tandem/build/remedy.hpp"
+#include "apps/tandem/build/select_sources.hpp"
+#include "tests/host/opros/engine/folder.hpp"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+using namespace tandem::command;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+const std::string entry = "Component* getComponent() {\n  return new Old;\n}\n";
+
+Names names_of(const std::vector<fs::path>& files) {
+    Names names;
+    for (const auto& file : files) names.push_back(file.filename());
+    return names;
+}
+
+Names selected(const fs::path& folder, const SourceOptions& options = {}) {
+    return names_of(select_sources(folder, "getComponent", options).sources);
+}
+
+std::string refused(const fs::path& folder, const SourceOptions& options = {}) {
+    try {
+        select_sources(folder, "getComponent", options);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+std::string text_of(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+// A component beside an older version of itself, as folders of OPRoS components are.
+void old_component(const Folder& folder) {
+    folder.write("Old/Old.cpp", entry);
+    folder.write("Old/OldBackup.cpp", entry);
+    folder.write("Old/Helper.cpp", "");
+    folder.write("common/Gain.cpp", "");
+}
+
+} // namespace
+
+TEST_CASE("what the folder's makefile, CMakeLists.txt or Visual C++ project leaves out is not built") {
+    const Folder folder;
+    const auto old = folder.path() / "Old";
+    old_component(folder);
+    const Names listed{"Old.cpp", "Helper.cpp", "Gain.cpp"};
+    folder.write("Old/Makefile",
+                 "NAME = Old # the library\nSRCS = $(NAME).cpp \\\n  Helper.cpp ../common/Gain.cpp\n"
+                 "OBJS = $(SRCS:.cpp=.o)\n");
+    CHECK(selected(old) == listed);
+    CHECK(names_of(select_sources(old, "getComponent", {}).left_out) == Names{"OldBackup.cpp"});
+    folder.write("Old/Makefile", "OBJS = Old.o Helper.o ../common/Gain.o\nother: OldBackup.o\n");
+    CHECK(selected(old) == listed);
+    fs::remove(old / "Makefile");
+    folder.write("Old/CMakeLists.txt",
+                 "project(Old)\nset(srcs Old.cpp Helper.cpp) # OldBackup.cpp\n"
+                 "add_library(Old MODULE ${srcs} ${MADE_ELSEWHERE}\n  ../common/Gain.cpp)\n");
+    CHECK(selected(old) == listed);
+    fs::remove(old / "CMakeLists.txt");
+    folder.write("Old/Old.vcproj",
+                 "<?xml version=\"1.0\" encoding=\"ks_c_5601-1987\"?>\n<VisualStudioProject><Files>\n"
+                 "<File RelativePath=\".\\Old.cpp\"/><Filter><File RelativePath=\".\\Helper.cpp\"/>"
+                 "<File RelativePath=\"..\\common\\Gain.cpp\"/></Filter>\n"
+                 "<File RelativePath=\".\\OldBackup.cpp\"><FileConfiguration Name=\"Debug\" "
+                 "ExcludedFromBuild=\"true\"/></File></Files></VisualStudioProject>\n");
+    CHECK(selected(old) == listed);
+}
+
+TEST_CASE("several sources that define the entry point are named, and --exclude or --source decides") {
+    const Folder folder;
+    const auto old = folder.path() / "Old";
+    old_component(folder);
+    CHECK_THAT(refused(old), Catch::Contains("Old.cpp, OldBackup.cpp each define getComponent()") &&
+                                 Catch::Contains("--exclude FILE"));
+    CHECK(selected(old, {{}, {"OldBackup.cpp"}}) == Names{"Helper.cpp", "Old.cpp"});
+    CHECK(selected(old, {{}, {"*Backup*"}}) == Names{"Helper.cpp", "Old.cpp"});
+    CHECK(selected(old, {{"Old.cpp", folder.path() / "common/Gain.cpp"}, {}}) ==
+          Names{"Old.cpp", "Gain.cpp"});
+    CHECK_THAT(refused(old, {{"Missing.cpp"}, {}}), Catch::Contains("--source Missing.cpp: no such file"));
+    CHECK_THAT(refused(old, {{}, {"Missing.cpp"}}), Catch::Contains("--exclude Missing.cpp: no source of"));
+    // A list that cannot be read without running the project file decides nothing.
+    folder.write("Old/Makefile", "SRCS = $(wildcard *.cpp)\n");
+    CHECK_THAT(refused(old), Catch::Contains("each define getComponent()"));
+}
+
+TEST_CASE("sources in another folder than src are found by the function that they define") {
+    const Folder folder;
+    folder.write("Deep/Source/Comp/Deep.cpp", entry);
+    folder.write("Deep/Source/Comp/Part.cpp", "");
+    folder.write("Deep/build/Deep.cpp", entry);
+    folder.write("Deep/Tool/Program.cpp", entry + "int main() {}\n");
+    CHECK(selected(folder.path() / "Deep") == Names{"Deep.cpp", "Part.cpp"});
+    folder.write("Empty/readme.txt", "");
+    CHECK_THAT(refused(folder.path() / "Empty"),
+               Catch::Contains("no C++ source in") && Catch::Contains("--source FILE"));
+}
+
+TEST_CASE(
+    "includes in the wrong case, with backslashes or of another folder mean the component's own header") {
+    const Folder folder;
+    const auto source = folder.write("Old/Old.cpp", "#include \"gain.H\"\n#include \"math\\Vector.h\"\n"
+                                                    "  #  include <Deep.h>\n// #include \"never.h\"\n"
+                                                    "#include <vector>\n#include \"Here.h\"\n");
+    folder.write("Old/Gain.h", "");
+    folder.write("Old/Here.h", "");
+    folder.write("Old/never.H", "");
+    folder.write("Old/lib/math/vector.h", "");
+    folder.write("Old/lib/Deep.h", "#include \"HERE.h\"\n");
+    const auto scan = scan_includes(folder.path() / "Old", {source}, {});
+    const auto meant = [&](const std::string& name) {
+        const auto found = scan.forwards.find(name);
+        return found == scan.forwards.end()
+                   ? ""
+                   : fs::path(found->second).lexically_relative(folder.path()).string();
+    };
+    CHECK(scan.forwards.size() == 4);
+    CHECK(meant("gain.H") == "Old/Gain.h");
+    CHECK(meant("math\\Vector.h") == "Old/lib/math/vector.h");
+    CHECK(meant("Deep.h") == "Old/lib/Deep.h");
+    CHECK(meant("HERE.h") == "Old/Here.h");
+    write_forwards(scan.forwards, folder.path() / "forwards");
+    CHECK_THAT(text_of(folder.path() / "forwards/math\\Vector.h"),
+               Catch::StartsWith("#include \"/") && Catch::Contains("Old/lib/math/vector.h\"\n"));
+}
+
+TEST_CASE(
+    "a header made from an IDL file above the component's folder means that file, with what it includes") {
+    const Folder folder;
+    folder.write("idl/Greeter.idl", "#include \"Words.idl\"\ninterface Greeter {};\n");
+    folder.write("idl/Words.idl", "");
+    folder.write("idl/Other.idl", "");
+    const auto source = folder.write("rtc/Hello/Hello.cpp", "#include \"project/idl/GreeterSkel.h\"\n");
+    const auto scan = scan_includes(folder.path() / "rtc/Hello", {source}, {});
+    CHECK(names_of(scan.idl_files) == Names{"Greeter.idl", "Words.idl"});
+    REQUIRE(scan.forwards.count("project/idl/GreeterSkel.h") == 1);
+    CHECK(scan.forwards.at("project/idl/GreeterSkel.h") == "GreeterSkel.h");
+    write_forwards(scan.forwards, folder.path() / "forwards");
+    CHECK(text_of(folder.path() / "forwards/project/idl/GreeterSkel.h") == "#include <GreeterSkel.h>\n");
+}
+
+TEST_CASE("an error about a header or a library is followed by what to do about it") {
+    const Folder folder;
+    folder.write("Old/Old.cpp", "");
+    folder.write("Neighbour/include/Gain.h", "");
+    const auto remedy = [&](const std::string& error) { return find_remedy(error, folder.path() / "Old"); };
+    const auto no_header = [&](const std::string& name) {
+        return remedy("/x/Old.cpp:3:10: fatal error: " + name + ": No such file or directory");
+    };
+    CHECK(no_header("ode/ode.h") == "apt install libode-dev");
+    CHECK(no_header("opencv/cv.h") == "apt install libopencv-dev");
+    CHECK(no_header("Gain.h") == "-I " + (fs::canonical(folder.path()) / "Neighbour/include").string());
+    CHECK_THAT(no_header("afxwin.h"), Catch::Contains("a header of Windows"));
+    CHECK_THAT(no_header("Vendor.h"), Catch::Contains("-I DIR"));
+    CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") == "--pkg-config opencv4");
+    CHECK(remedy("Old.cpp:9: undefined reference to `jpeg_CreateDecompress'") == "--pkg-config libjpeg");
+    CHECK(remedy("Old.cpp:9: undefined reference to `boost::thread::join()'") == "-l boost_thread");
+    CHECK_THAT(remedy("Old.cpp:9: undefined reference to `nowhere()'"), Catch::Contains("--source FILE"));
+    CHECK(remedy("/usr/bin/ld: cannot find -lode: No such file or directory") == "apt install libode-dev");
+    CHECK(remedy("Old.cpp:9:3: error: expected ';' before '}' token").empty());
+    CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018cvHaarDetectObjects\u2019 was not declared") ==
+          "cvHaarDetectObjects");
+    CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018helper\u2019 was not declared").empty());
+}
