@@ -22,7 +22,7 @@ set(RTM_CMAKE_DIR ${CMAKE_INSTALL_DATADIR}/tandem/rtm/cmake)
 set(OPENCV1_DIR ${CMAKE_INSTALL_INCLUDEDIR}/tandem/opencv1)
 tandem_package_config(${package_installed}/TandemConfig.cmake ${CMAKE_INSTALL_PREFIX})
 write_basic_package_version_file(${package_built}/TandemConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-foreach(file TandemOpros.cmake TandemRtm.cmake TandemComponent.cmake)
+foreach(file TandemOpros.cmake TandemRtm.cmake TandemComponent.cmake catkin/catkinConfig.cmake)
   configure_file(${package_source}/${file} ${package_built}/${file} COPYONLY)
 endforeach()
 
@@ -35,6 +35,7 @@ export(EXPORT TandemTargets NAMESPACE Tandem:: FILE ${package_built}/TandemTarge
 export(EXPORT TandemRtmTargets NAMESPACE Tandem:: FILE ${package_built}/TandemRtmTargets.cmake)
 install(FILES ${package_source}/TandemOpros.cmake DESTINATION ${package_dir} COMPONENT opros)
 install(FILES ${package_source}/TandemRtm.cmake DESTINATION ${package_dir} COMPONENT rtm)
+install(FILES ${package_source}/catkin/catkinConfig.cmake DESTINATION ${package_dir}/catkin COMPONENT rtm)
 foreach(component opros rtm)
   install(FILES ${package_installed}/TandemConfig.cmake ${package_built}/TandemConfigVersion.cmake
     ${package_source}/TandemComponent.cmake DESTINATION ${package_dir} COMPONENT ${component})

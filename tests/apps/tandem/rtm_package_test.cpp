@@ -163,3 +163,55 @@ TEST_CASE(
     run(environment + "cmake --install " + tree.at("b") + " --prefix " + tree.at("installed"));
     CHECK(fs::is_directory(tree.at("installed/doc/pages")));
 }
+
+TEST_CASE("a package of catkin with rtmbuild builds without ROS and its component runs") {
+    const Installed tree;
+    tree.folder.write("hello/package.xml",
+                      "<package><name>hello</name><depend>rtmbuild</depend></package>\n");
+    tree.folder.write("hello/CMakeLists.txt",
+                      "cmake_minimum_required(VERSION 3.0.2)\nproject(hello)\n"
+                      "find_package(catkin REQUIRED COMPONENTS rtmbuild)\nrtmbuild_init()\n"
+                      "catkin_package(LIBRARIES GreeterSkel)\nrtmbuild_genidl()\n"
+                      "add_subdirectory(rtc)\n");
+    tree.folder.write(
+        "hello/rtc/CMakeLists.txt",
+        "include_directories(${catkin_INCLUDE_DIRS})\nrtmbuild_add_library(Hello SHARED Hello.cpp)\n"
+        "target_link_libraries(Hello ${catkin_LIBRARIES})\n"
+        "set_target_properties(Hello PROPERTIES PREFIX \"\")\n"
+        "add_dependencies(Hello RTMBUILD_${PROJECT_NAME}_genrpc)\n"
+        "rtmbuild_add_executable(HelloComp HelloComp.cpp)\ntarget_link_libraries(HelloComp Hello)\n");
+    tree.folder.write("hello/idl/Greeter.idl", "module hello { interface Greeter { string greet(); }; };\n");
+    tree.folder.write("hello/rtc/HelloComp.cpp",
+                      "#include <rtm/Manager.h>\nextern \"C\" void HelloInit(RTC::Manager*);\n"
+                      "int main(int c, char** v) { HelloInit(RTC::Manager::init(c, v)); }\n");
+    tree.folder.write(
+        "hello/rtc/Hello.cpp",
+        "#include <iostream>\n#include <rtm/DataFlowComponentBase.h>\n#include <rtm/Manager.h>\n"
+        "#include \"hello/idl/Greeter.hh\"\n"
+        "struct Greeter : POA_hello::Greeter {\n"
+        "  char* greet() throw(CORBA::SystemException) { return CORBA::string_dup(\"hello\"); }\n};\n"
+        "struct Hello : RTC::DataFlowComponentBase {\n"
+        "  Hello(RTC::Manager* m) : RTC::DataFlowComponentBase(m) {}\n"
+        "  RTC::ReturnCode_t onInitialize() {\n"
+        "    std::cout << CORBA::String_var(Greeter().greet()) << \" from catkin\" << std::endl;\n"
+        "    return RTC::RTC_OK;\n  }\n};\n"
+        "const char* spec[] = {\"implementation_id\", \"Hello\", \"type_name\", \"Hello\", \"\"};\n"
+        "extern \"C\" void HelloInit(RTC::Manager* m) {\n"
+        "  m->registerFactory(coil::Properties(spec), RTC::Create<Hello>, RTC::Delete<Hello>);\n}\n");
+    const std::string package = " -Dcatkin_DIR=" + tree.moved + "/" LIBDIR "/cmake/Tandem/catkin";
+    run("cmake -S " + tree.at("hello") + " -B " + tree.at("b") + package +
+        " -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=" SANITIZER_FLAGS);
+    run("cmake --build " + tree.at("b") + " --parallel 2");
+    const std::string precreate = " -o manager.components.precreate:Hello";
+    host_runs(tree.bin + "rtm_host -o manager.modules.preload:" + tree.at("b/rtc/Hello.so") + precreate,
+              "hello from catkin");
+    // The same folder by the plain command.
+    run(tree.bin + "tandem rtm build " + tree.at("hello"));
+    host_runs(tree.bin + "rtm_host -o manager.modules.preload:" + tree.at("hello/Hello.so") + precreate,
+              "hello from catkin");
+    tree.folder.write("ros/CMakeLists.txt", "cmake_minimum_required(VERSION 3.0.2)\nproject(ros)\n"
+                                            "find_package(catkin REQUIRED COMPONENTS rtmbuild roscpp)\n");
+    const auto refused = shell("cmake -S " + tree.at("ros") + " -B " + tree.at("ros/b") + package);
+    CHECK(refused.exit_code != 0);
+    CHECK_THAT(refused.output, Catch::Contains("needs \x27roscpp\x27 of ROS"));
+}
