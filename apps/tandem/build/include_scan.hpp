@@ -14,14 +14,16 @@ struct IncludeScan {
     /// Names that no folder of headers has, with the file that is meant: one in the component's folder, in another
     /// case or in a folder that is not searched, or the header that an IDL file becomes.
     std::map<std::string, std::string> forwards;
-    std::vector<std::filesystem::path> idl_files; ///< beside the component's folder: those of the headers meant
-    std::set<std::string> pkg_config;             ///< modules of the libraries whose headers are included
-    bool old_opencv = false;                      ///< whether a header of OpenCV 1 or 2 for C is included
+    std::vector<std::filesystem::path>
+        idl_files;                    ///< beside the component's folder: those of the headers meant
+    std::set<std::string> pkg_config; ///< modules of the libraries whose headers are included
+    bool old_opencv = false;          ///< whether a header of OpenCV 1 or 2 for C is included
 };
 
 /// Reads the sources and those of the component's headers that they include. `include_dirs`: folders that are searched
 /// besides the component's own and the system's.
-IncludeScan scan_includes(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& sources,
+IncludeScan scan_includes(const std::filesystem::path& folder,
+                          const std::vector<std::filesystem::path>& sources,
                           const std::vector<std::filesystem::path>& include_dirs);
 
 /// Writes a header for each forward that includes what is meant.
