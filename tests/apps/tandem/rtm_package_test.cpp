@@ -197,7 +197,8 @@ TEST_CASE("a package of catkin with rtmbuild builds without ROS and its componen
         "    return RTC::RTC_OK;\n  }\n};\n"
         "const char* spec[] = {\"implementation_id\", \"Hello\", \"type_name\", \"Hello\", \"\"};\n"
         "extern \"C\" void HelloInit(RTC::Manager* m) {\n"
-        "  m->registerFactory(coil::Properties(spec), RTC::Create<Hello>, RTC::Delete<Hello>);\n}\n");
+        "  coil::Properties profile(spec);\n"
+        "  m->registerFactory(profile, RTC::Create<Hello>, RTC::Delete<Hello>);\n}\n");
     const std::string package = " -Dcatkin_DIR=" + tree.moved + "/" LIBDIR "/cmake/Tandem/catkin";
     run("cmake -S " + tree.at("hello") + " -B " + tree.at("b") + package +
         " -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=" SANITIZER_FLAGS);
