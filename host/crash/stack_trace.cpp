@@ -57,8 +57,8 @@ void undo_call(ucontext_t& context) { context.uc_mcontext.pc = context.uc_mconte
 
 bool is_code(std::uintptr_t address) {
     dl_find_object found{};
-    return _dl_find_object(reinterpret_cast<void*>(address), &found) ==
-           0; // NOLINT(performance-no-int-to-ptr)
+    auto* const code = reinterpret_cast<void*>(address); // NOLINT(performance-no-int-to-ptr)
+    return _dl_find_object(code, &found) == 0;
 }
 
 } // namespace

@@ -18,7 +18,7 @@ std::string StepTimer::step() const {
 std::string StepTimer::slow_step() {
     const std::lock_guard lock(mutex_);
     if (Clock::now() - start_ < next_report_) return "";
-    const std::string text = step_ + " has taken " + std::to_string(next_report_.count()) + " s so far";
+    std::string text = step_ + " has taken " + std::to_string(next_report_.count()) + " s so far";
     next_report_ *= 2;
     return text;
 }

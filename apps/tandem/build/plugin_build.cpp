@@ -62,6 +62,7 @@ std::string cmake_argument(const char* keyword, const std::vector<std::string>& 
 
 std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
     std::vector<std::string> names;
+    names.reserve(files.size());
     for (const auto& file : files) names.push_back(fs::absolute(file).string());
     return names;
 }

@@ -54,7 +54,7 @@ std::string find_remedy(const std::string& error, const std::filesystem::path& f
 std::string dropped_by_opencv(const std::string& error) {
     // g++ writes names between these quotes in a locale of UTF-8, otherwise between apostrophes.
     for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
-        const auto name = between(error, std::string("error: ") + open, close);
+        auto name = between(error, std::string("error: ") + open, close);
         for (const char* prefix : {"cv", "Cv", "CV_", "Ipl", "IPL_"})
             if (name.rfind(prefix, 0) == 0 && name.find(':') == std::string::npos) return name;
     }

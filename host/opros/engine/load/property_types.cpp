@@ -80,7 +80,7 @@ std::string type_error(const std::string& name, const std::string& type, const s
 /// Whether `name` begins one of the names by which components ask for their device library, or misses a letter of it.
 std::string device_library_name_meant(const std::string& name) {
     if (name.size() >= 3)
-        for (const std::string known : device_library_names)
+        for (std::string known : device_library_names)
             if (known.compare(0, name.size(), name) == 0) return known;
     const std::string word = XmlFile::keyword(name);
     for (const char* known : device_library_names) {
