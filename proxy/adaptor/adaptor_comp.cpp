@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/adaptor_comp.hpp"
 
-#include "proxy/adaptor/method_check.hpp"
+#include "proxy/adaptor/service/method_check.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/adaptor/mirror_in_port.hpp"
-#include "proxy/adaptor/mirror_out_port.hpp"
-#include "proxy/adaptor/mirror_provided_port.hpp"
-#include "proxy/adaptor/mirror_required_port.hpp"
+#include "proxy/adaptor/data/mirror_in_port.hpp"
+#include "proxy/adaptor/data/mirror_out_port.hpp"
+#include "proxy/adaptor/service/mirror_provided_port.hpp"
+#include "proxy/adaptor/service/mirror_required_port.hpp"
 #include "proxy/adaptor/settings.hpp"
 #include "proxy/link/link.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/interceptor_comp.hpp"
 
-#include "proxy/interceptor/link_buffer.hpp"
-#include "proxy/interceptor/mirror_in_port.hpp"
-#include "proxy/interceptor/mirror_out_port.hpp"
+#include "proxy/interceptor/data/link_buffer.hpp"
+#include "proxy/interceptor/data/mirror_in_port.hpp"
+#include "proxy/interceptor/data/mirror_out_port.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 #include "proxy/wire/signature_match.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/interceptor/mirror_provided_port.hpp"
-#include "proxy/interceptor/mirror_required_port.hpp"
 #include "proxy/interceptor/rtc_driver.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
+#include "proxy/interceptor/service/mirror_provided_port.hpp"
+#include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/interceptor/settings.hpp"
 #include "proxy/link/link.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/cdr_archive.hpp"
-#include "proxy/adaptor/type_check.hpp"
+#include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The generic servant and the generic call against compiled stubs and skeletons, in one process and over a
 // socket.
-#include "proxy/interceptor/generic_call.hpp"
-#include "proxy/interceptor/generic_servant.hpp"
+#include "proxy/interceptor/corba/generic_call.hpp"
+#include "proxy/interceptor/corba/generic_servant.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "tests/proxy/interceptor/orb.hpp"

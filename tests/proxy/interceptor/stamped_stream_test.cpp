@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // CORBA streams over a message whose time lies apart, against the ORB's own.
-#include "proxy/interceptor/stamped_stream.hpp"
+#include "proxy/interceptor/corba/stamped_stream.hpp"
 #include "proxy/wire/time.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
 

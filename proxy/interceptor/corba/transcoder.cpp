@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/transcoder.hpp"
+#include "proxy/interceptor/corba/transcoder.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/generic_servant.hpp"
+#include "proxy/interceptor/corba/generic_servant.hpp"
 
-#include "proxy/interceptor/transcoder.hpp"
+#include "proxy/interceptor/corba/transcoder.hpp"
 
 #include <omniORB4/callDescriptor.h>
 #include <omniORB4/callHandle.h>

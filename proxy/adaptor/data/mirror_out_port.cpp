@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/mirror_out_port.hpp"
+#include "proxy/adaptor/data/mirror_out_port.hpp"
 
-#include "proxy/adaptor/type_check.hpp"
+#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/wire/signature_match.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
-#include "proxy/interceptor/generic_servant.hpp"
+#include "proxy/interceptor/corba/generic_servant.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
 

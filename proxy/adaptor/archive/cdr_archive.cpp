@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/cdr_archive.hpp"
+#include "proxy/adaptor/archive/cdr_archive.hpp"
 
 #include "proxy/wire/time.hpp"
 

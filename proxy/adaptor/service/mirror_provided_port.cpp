@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/mirror_provided_port.hpp"
+#include "proxy/adaptor/service/mirror_provided_port.hpp"
 
-#include "proxy/adaptor/cdr_archive.hpp"
-#include "proxy/adaptor/method_check.hpp"
+#include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/service/method_check.hpp"
 
 #include <MethodInvokeException.h>
 

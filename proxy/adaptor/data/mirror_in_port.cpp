@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/mirror_in_port.hpp"
+#include "proxy/adaptor/data/mirror_in_port.hpp"
 
-#include "proxy/adaptor/cdr_archive.hpp"
-#include "proxy/adaptor/type_check.hpp"
+#include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/method_check.hpp"
+#include "proxy/adaptor/service/method_check.hpp"
 
-#include "proxy/adaptor/signature_archive.hpp"
+#include "proxy/adaptor/archive/signature_archive.hpp"
 #include "proxy/wire/signature_match.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/mirror_required_port.hpp"
+#include "proxy/interceptor/service/mirror_required_port.hpp"
 
 #include "proxy/wire/signature_match.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/adaptor/signature_archive.hpp"
+#include "proxy/adaptor/archive/signature_archive.hpp"
 
 #include <type_traits>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
-#include "proxy/adaptor/cdr_archive.hpp"
+#include "proxy/adaptor/archive/cdr_archive.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 

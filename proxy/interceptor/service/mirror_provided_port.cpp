@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/mirror_provided_port.hpp"
+#include "proxy/interceptor/service/mirror_provided_port.hpp"
 
-#include "proxy/interceptor/generic_call.hpp"
+#include "proxy/interceptor/corba/generic_call.hpp"
 #include "proxy/wire/signature_match.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/link_buffer.hpp"
+#include "proxy/interceptor/data/link_buffer.hpp"
 
-#include "proxy/interceptor/stamped_stream.hpp"
+#include "proxy/interceptor/corba/stamped_stream.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <algorithm>

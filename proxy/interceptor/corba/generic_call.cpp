@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/generic_call.hpp"
+#include "proxy/interceptor/corba/generic_call.hpp"
 
-#include "proxy/interceptor/transcoder.hpp"
+#include "proxy/interceptor/corba/transcoder.hpp"
 
 #include <omniORB4/IOP_C.h>
 #include <omniORB4/callDescriptor.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/stamped_stream.hpp"
+#include "proxy/interceptor/corba/stamped_stream.hpp"
 
 #include "proxy/wire/time.hpp"
 
