@@ -3,7 +3,8 @@
 #                          [DEFINITIONS X=1 ...] [LIBRARIES x ...] [PKG_CONFIG module ...] [CXX_STANDARD 14])
 # The plugin NAME.so of an RT-Component. All but NAME has a default: the sources and IDL files that lie in the folder
 # (the current source folder), as RTCBuilder and rtc-template lay them out. Sources with a main() are programs and
-# stay out, also of CANDIDATES, which are taken in place of those in the folder. MORE_IDL: IDL files besides those.
+# stay out, also of CANDIDATES, which are taken in place of those in the folder. A source whose main() a macro leaves
+# out (#ifndef NO_MAIN) is compiled with that macro. MORE_IDL: IDL files besides those.
 
 # The IDL files of a component's folder; those that come with OpenRTM-aist are compiled in the library already, and
 # omniidl-tmpNUMBER.idl is what older omniidl leaves of another file when it is interrupted.
@@ -20,6 +21,43 @@ function(tandem_rtm_folder_idl folder idls)
   set(${idls} ${own} PARENT_SCOPE)
 endfunction()
 
+# Whether a source is a program: its main() is compiled, whatever is defined. `macro`: the one that leaves its main() out,
+# as in #ifndef NO_MAIN. A main() between #ifdef TEST and #endif is left out already.
+function(tandem_rtm_is_program source program macro)
+  file(STRINGS ${source} lines REGEX "^[ \t]*(#[ \t]*(if|el|endif)|int[ \t]+main[ \t]*[(])")
+  set(branches "") # around the line, innermost last: the macro that leaves it out, #never or #always
+  set(is_program FALSE)
+  set(found "")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "#[ \t]*ifndef[ \t]+([A-Za-z0-9_]+)")
+      list(APPEND branches ${CMAKE_MATCH_1})
+    elseif(line MATCHES "#[ \t]*(ifdef|if[ \t]+0|if[ \t]+defined)")
+      list(APPEND branches "#never")
+    elseif(line MATCHES "#[ \t]*if")
+      list(APPEND branches "#always")
+    elseif(line MATCHES "#")
+      list(POP_BACK branches)
+      if(NOT line MATCHES "endif")
+        list(APPEND branches "#always")
+      endif()
+    elseif(NOT "#never" IN_LIST branches)
+      set(innermost "")
+      foreach(branch IN LISTS branches)
+        if(NOT branch STREQUAL "#always")
+          set(innermost ${branch})
+        endif()
+      endforeach()
+      if(innermost STREQUAL "")
+        set(is_program TRUE)
+      else()
+        set(found ${innermost})
+      endif()
+    endif()
+  endforeach()
+  set(${program} ${is_program} PARENT_SCOPE)
+  set(${macro} "${found}" PARENT_SCOPE)
+endfunction()
+
 # Those of the sources that are neither programs nor what was once made from the IDL files.
 function(tandem_rtm_own_sources own_sources idls)
   set(made "")
@@ -30,9 +68,12 @@ function(tandem_rtm_own_sources own_sources idls)
   set(own "")
   foreach(source ${ARGN})
     get_filename_component(file ${source} NAME)
-    file(STRINGS ${source} main REGEX "^[ \t]*int[ \t]+main[ \t]*[(]")
-    if(NOT main AND NOT file IN_LIST made)
+    tandem_rtm_is_program(${source} program macro)
+    if(NOT program AND NOT file IN_LIST made)
       list(APPEND own ${source})
+      if(NOT macro STREQUAL "")
+        set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS "${macro}=")
+      endif()
     endif()
   endforeach()
   set(${own_sources} ${own} PARENT_SCOPE)

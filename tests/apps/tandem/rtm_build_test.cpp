@@ -94,3 +94,23 @@ TEST_CASE("an RT-Component is built from a folder below and with the IDL files t
     CHECK(built.exit_code == 0);
     CHECK(built.output == dir + "/Hello.so\n");
 }
+
+// As generated solvers have it: a program or a part of a library, by a macro; two of them, as a robot with two arms has.
+TEST_CASE("a source whose main() a macro leaves out is built, and one with a main() of its own is not") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    folder.write("Rtc/Good.cpp",
+                 std::string("int left();\nint right();\nint sum = left() + right();\n") + module_text);
+    folder.write("Rtc/src/Left.cpp",
+                 "#include <stdio.h>\nint left() { return 1; }\n"
+                 "#ifndef SOLVER_NO_MAIN\n#ifdef LOUD\n#endif\nint main()\n{ puts(\"1\"); }\n#endif\n");
+    folder.write("Rtc/src/Right.cpp",
+                 "#define SOLVER_NO_MAIN\nint right() { return 2; }\n"
+                 "#ifndef SOLVER_NO_MAIN\nint main() {}\n#endif\n#ifdef SELF_TEST\nint main() {}\n#endif\n");
+    folder.write("Rtc/src/GoodComp.cpp", "#ifdef _WIN32\n#else\nint main(int argc, char** argv) {}\n#endif\n"
+                                         "#error this is a program\n");
+    const auto built = tandem_program({"rtm", "build", dir});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(tandem::test::shell("nm " + dir + "/Good.so").output.find(" main\n") == std::string::npos);
+}
