@@ -3,21 +3,125 @@
 
 #include "host/crash/alternate_stack.hpp"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <ctime>
+#include <mutex>
+#include <vector>
+
 namespace tandem::crash {
+
+/// The scopes of one thread, the outermost first. Written by that thread, read by any.
+struct ThreadCallbacks {
+    struct Entry {
+        std::atomic<const void*> component{nullptr};
+        std::atomic<const char*> component_name{nullptr};
+        std::atomic<const char*> callback{nullptr};
+        std::atomic<const void*> code{nullptr};
+        std::atomic<long> since_ns{0};
+    };
+    // Deeper scopes are counted and not recorded.
+    static constexpr unsigned max_depth = 16;
+
+    std::atomic<unsigned> depth{0};
+    std::array<Entry, max_depth> entries;
+
+    unsigned recorded() const { return std::min(depth.load(std::memory_order_acquire), max_depth); }
+};
+
 namespace {
 
-thread_local RunningCallback running;
+constexpr auto relaxed = std::memory_order_relaxed;
+
+struct Registry {
+    std::mutex mutex;
+    std::vector<const ThreadCallbacks*> threads;
+};
+
+// Never deleted: a thread that hangs in a callback may outlive static objects.
+Registry& registry() {
+    static auto* the_registry = new Registry;
+    return *the_registry;
+}
+
+struct RegisteredThread : ThreadCallbacks {
+    RegisteredThread() {
+        const std::lock_guard lock(registry().mutex);
+        registry().threads.push_back(this);
+    }
+    ~RegisteredThread() {
+        const std::lock_guard lock(registry().mutex);
+        std::erase(registry().threads, this);
+    }
+};
+
+// In static thread storage, so that no function is called to find it.
+[[gnu::tls_model("initial-exec")]] constinit thread_local ThreadCallbacks* this_thread = nullptr;
+
+[[gnu::cold, gnu::noinline]] ThreadCallbacks& register_this_thread() {
+    give_this_thread_an_alternate_stack();
+    static thread_local RegisteredThread thread;
+    this_thread = &thread;
+    return thread;
+}
+
+// steady_clock's time at the last timer interrupt: a read of the hardware's clock would cost more than all else here.
+long coarse_now_ns() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+    return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
+RunningCallback running_in(const ThreadCallbacks::Entry& entry) {
+    using Clock = std::chrono::steady_clock;
+    return {entry.component_name.load(relaxed), entry.callback.load(relaxed), entry.code.load(relaxed),
+            Clock::time_point(std::chrono::nanoseconds(entry.since_ns.load(relaxed)))};
+}
+
+// The innermost scope of the component in the thread.
+std::optional<RunningCallback> find_in(const ThreadCallbacks& thread, const void* component) {
+    for (unsigned i = thread.recorded(); i-- > 0;)
+        if (thread.entries[i].component.load(relaxed) == component) return running_in(thread.entries[i]);
+    return std::nullopt;
+}
 
 } // namespace
 
-CallbackScope::CallbackScope(const char* component, const char* callback, const void* code)
-    : outer_(running) {
-    give_this_thread_an_alternate_stack();
-    running = {component, callback, code};
+CallbackScope::CallbackScope(const void* component, const char* component_name, const char* callback,
+                             const void* code)
+    : thread_(this_thread ? *this_thread : register_this_thread()) {
+    const unsigned depth = thread_.depth.load(relaxed);
+    if (depth < ThreadCallbacks::max_depth) {
+        ThreadCallbacks::Entry& entry = thread_.entries[depth];
+        entry.component.store(component, relaxed);
+        entry.component_name.store(component_name, relaxed);
+        entry.callback.store(callback, relaxed);
+        entry.code.store(code, relaxed);
+        entry.since_ns.store(coarse_now_ns(), relaxed);
+    }
+    thread_.depth.store(depth + 1, std::memory_order_release); // the reader sees the entry complete
 }
 
-CallbackScope::~CallbackScope() { running = outer_; }
+CallbackScope::~CallbackScope() {
+    thread_.depth.store(thread_.depth.load(relaxed) - 1, std::memory_order_release);
+}
 
-RunningCallback running_callback() { return running; }
+std::optional<RunningCallback> running_callback() {
+    const unsigned depth = this_thread ? this_thread->recorded() : 0;
+    if (depth == 0) return std::nullopt;
+    return running_in(this_thread->entries[depth - 1]);
+}
+
+std::optional<RunningCallback> find_running_callback(const void* component) {
+    if (component == nullptr) return std::nullopt;
+    const std::lock_guard lock(registry().mutex);
+    std::optional<RunningCallback> longest;
+    for (const ThreadCallbacks* thread : registry().threads)
+        if (const auto found = find_in(*thread, component);
+            found && (!longest || found->since < longest->since))
+            longest = found;
+    return longest;
+}
 
 } // namespace tandem::crash

@@ -1,30 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
+#include <optional>
+
 namespace tandem::crash {
 
-/// What a thread runs of a component. A null pointer: not known.
+/// A callback of a component that has not returned yet.
 struct RunningCallback {
-    const char* component = nullptr;
-    const char* callback = nullptr;
-    const void* code = nullptr; ///< an address inside the component's library
+    const char* component; ///< the component's name
+    const char* name;      ///< of the callback, as in `onActivated`
+    const void* code;      ///< an address inside the component's library; NULL: not known
+    std::chrono::steady_clock::time_point since; ///< to 4 ms
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+    }
 };
 
-/// Names what this thread runs of a component while the object lives, for the report of a crash. Scopes nest: the
-/// innermost one counts. The texts must live as long. A few stores, but for the first scope of a thread, which gives
-/// the thread its alternate signal stack. [any-thread]
+/// While it lives, the calling thread is in a callback of a component: for the report of a crash, and to name a callback
+/// that does not return. The scopes of a thread nest: the end of one returns to the outer one. Some stores; the first
+/// scope of a thread allocates and gives the thread its alternate signal stack. [any-thread]
 class CallbackScope {
   public:
-    CallbackScope(const char* component, const char* callback, const void* code);
+    /// `component` is an address that names the component for find_running_callback(), and is never dereferenced; NULL:
+    /// it cannot be found. The texts live as long as the scope, or, if it can be found, as long as the component.
+    CallbackScope(const void* component, const char* component_name, const char* callback, const void* code);
     ~CallbackScope();
     CallbackScope(const CallbackScope&) = delete;
     CallbackScope& operator=(const CallbackScope&) = delete;
 
   private:
-    RunningCallback outer_;
+    struct ThreadCallbacks& thread_;
 };
 
-/// The innermost scope of this thread. [async-signal-safe]
-RunningCallback running_callback();
+/// The innermost callback of this thread. [async-signal-safe]
+std::optional<RunningCallback> running_callback();
+
+/// The callback that the component is in; of several threads, the one that has been in it longest, and of nested ones
+/// the innermost. Exact for a callback that lasts; one that begins or ends at this moment may be missed. [any-thread]
+std::optional<RunningCallback> find_running_callback(const void* component);
 
 } // namespace tandem::crash

@@ -85,12 +85,12 @@ void append_address(const siginfo_t& info, const ucontext_t& context) {
 }
 
 /// "rtm_host: component Tank0 crashed in onExecute"
-void append_callback(const RunningCallback& running) {
+void append_callback(const std::optional<RunningCallback>& running) {
     report << program_name << ": ";
-    if (running.callback == nullptr)
+    if (!running)
         report << "crashed outside of the callbacks of components";
     else
-        report << "component " << running.component << " crashed in " << running.callback;
+        report << "component " << running->component << " crashed in " << running->name;
 }
 
 void append_function(const CodeLocation& location) {
@@ -123,9 +123,9 @@ void append_place(const StackTrace& trace) {
 }
 
 /// The plugin and the thread.
-void append_origin(const RunningCallback& running) {
-    if (running.code != nullptr)
-        report << "  plugin " << locate(reinterpret_cast<std::uintptr_t>(running.code)).file.data() << "\n";
+void append_origin(const std::optional<RunningCallback>& running) {
+    if (running && running->code != nullptr)
+        report << "  plugin " << locate(reinterpret_cast<std::uintptr_t>(running->code)).file.data() << "\n";
     char thread[17] = "";
     prctl(PR_GET_NAME, thread);
     (report << "  thread ").decimal(gettid()) << " " << thread << "\n";
@@ -147,7 +147,7 @@ void append_calls(const StackTrace& trace) {
 }
 
 /// The end of the first line, and the rest of the block.
-void append_rest(const RunningCallback& running, const StackTrace& trace) {
+void append_rest(const std::optional<RunningCallback>& running, const StackTrace& trace) {
     append_place(trace);
     report << "\n";
     append_origin(running);
@@ -157,7 +157,7 @@ void append_rest(const RunningCallback& running, const StackTrace& trace) {
 
 void on_fault(int number, siginfo_t* info, void* context) {
     if (begin_report(number)) {
-        const RunningCallback running = running_callback();
+        const std::optional<RunningCallback> running = running_callback();
         append_callback(running);
         (report << ": signal ").decimal(number) << " (" << sigdescr_np(number) << ")";
         auto& interrupted = *static_cast<ucontext_t*>(context);
@@ -186,7 +186,7 @@ void append_exception() {
 
 [[noreturn]] void on_terminate() {
     if (begin_report(SIGABRT)) {
-        const RunningCallback running = running_callback();
+        const std::optional<RunningCallback> running = running_callback();
         append_callback(running);
         report << ": ";
         append_exception();

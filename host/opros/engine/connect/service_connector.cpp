@@ -29,7 +29,7 @@ class DirectConnector : public Connector {
                               opros_params& result, int) override {
         std::string method = name;
         // The method runs in the caller's thread, inside of a callback of the caller.
-        const crash::CallbackScope scope(provider_.name().c_str(), name.c_str(), provider_.code());
+        const crash::CallbackScope scope(nullptr, provider_.name().c_str(), name.c_str(), provider_.code());
         const ReturnType code = provided_.callService(method, params, result);
         if (code == OPROS_SUCCESS) return code;
         throw MethodInvokeException("call of " + provider_.name() + "'s " + name + " failed with code " +

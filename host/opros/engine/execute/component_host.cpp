@@ -20,31 +20,13 @@ std::string code_text(ReturnType code) {
     return code < 1000 ? fmt::format("{}", code) : fmt::format("{:#x}", code);
 }
 
-/// Publishes the name of a callback while it runs, for the message about one that does not return and for the report
-/// of a crash. Callbacks nest (in lock-step, an event that a component sends to itself), so the end of one restores
-/// the outer name.
-class CallbackScope {
-  public:
-    CallbackScope(std::atomic<const char*>& current, const std::string& component, const char* name,
-                  const void* code)
-        : current_(current), outer_(current.exchange(name)), crash_scope_(component.c_str(), name, code) {}
-    ~CallbackScope() { current_ = outer_; }
-    CallbackScope(const CallbackScope&) = delete;
-    CallbackScope& operator=(const CallbackScope&) = delete;
-
-  private:
-    std::atomic<const char*>& current_;
-    const char* outer_;
-    const crash::CallbackScope crash_scope_;
-};
-
 } // namespace
 
 ComponentHost::ComponentHost(const Subcomponent& entry, ComponentProfile profile,
                              const ComponentHostOptions& options)
     : name_(entry.name), profile_(std::move(profile)),
       task_queue_(std::make_shared<TaskQueue>(options.task_queue_capacity, options.task_mode)) {
-    const CallbackScope scope(current_callback_, name_, "its creation", nullptr);
+    const crash::CallbackScope scope(this, name_.c_str(), "its creation", nullptr);
     auto loaded = load_component(profile_, options.plugin_dirs, options.probe);
     library_ = std::move(loaded.library);
     component_ = std::move(loaded.component);
@@ -70,7 +52,7 @@ std::string ComponentHost::enter_error(const char* callback, const std::string& 
 }
 
 std::string ComponentHost::run_guarded(const char* callback, const std::function<void()>& code) {
-    const CallbackScope scope(current_callback_, name_, callback, code_);
+    const crash::CallbackScope scope(this, name_.c_str(), callback, code_);
     try {
         code();
         return "";
@@ -154,18 +136,23 @@ void ComponentHost::stop() {
     if (is_active()) run_transition("onStop", &LifecycleInterface::stop);
 }
 
+const char* ComponentHost::current_callback() const {
+    const auto running = crash::find_running_callback(this);
+    return running ? running->name : nullptr;
+}
+
 void ComponentHost::destroy() {
     if (initialized_ && component_->getStatus() != OPROS_CS_DESTROYED)
         run_transition("onDestroy", &LifecycleInterface::destroy);
 }
 
 void ComponentHost::destroy_instance() {
-    const CallbackScope scope(current_callback_, name_, "its destructor", code_);
+    const crash::CallbackScope scope(this, name_.c_str(), "its destructor", code_);
     component_.reset();
 }
 
 void ComponentHost::unload_library() {
-    const CallbackScope scope(current_callback_, name_, "its static destructors", code_);
+    const crash::CallbackScope scope(this, name_.c_str(), "its static destructors", code_);
     library_.reset();
 }
 

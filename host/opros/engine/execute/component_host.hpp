@@ -71,8 +71,8 @@ class ComponentHost {
     std::string run_guarded(const char* callback, const std::function<void()>& code);
 
     /// [any-thread] The callback that the component is in, NULL when it is in none. Of several threads, the one
-    /// that entered last counts.
-    const char* current_callback() const { return current_callback_; }
+    /// that has been in it longest counts.
+    const char* current_callback() const;
 
     /// Events and non-blocking calls for the component.
     const std::shared_ptr<TaskQueue>& task_queue() const { return task_queue_; }
@@ -114,7 +114,6 @@ class ComponentHost {
     InputSignal input_signal_;
     std::shared_ptr<TaskQueue> task_queue_;
     std::vector<InputDataPortInterface*> input_ports_;
-    std::atomic<const char*> current_callback_{nullptr};
     std::atomic<bool> failed_{false};
     bool initialized_ = false;
     bool error_logged_ = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A component as a CORBA object: construction, initialize() to exit(), and its execution contexts.
 // OpenRTM-aist: class RTObject_impl; interface RTC::RTObject of the OMG RTC specification.
-#include "host/process/callback_scope.hpp"
+#include "host/crash/callback_scope.hpp"
 #include "host/rtm/runtime/execution/configured_contexts.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
@@ -149,7 +149,7 @@ ReturnCode_t RTObject_impl::exit() {
         }
     }
     if (stopped != RTC_OK) {
-        const auto running = tandem::process::find_running_callback(this);
+        const auto running = tandem::crash::find_running_callback(this);
         RTC_ERROR(("%s does not return; the component is not finalized",
                    running ? running->name : "a callback in its execution context"));
         return RTC_ERROR;

@@ -3,7 +3,6 @@
 // OpenRTM-aist: RTObject_impl::on_initialize() ... on_rate_changed(); the order of callback, ports and
 // configuration in each action is the same.
 #include "host/crash/callback_scope.hpp"
-#include "host/process/callback_scope.hpp"
 #include "host/rt/periodic_tick.hpp"
 #include <atomic>
 #include <rtm/RTObject.h>
@@ -31,9 +30,7 @@ template <class Callback>
 ReturnCode_t RTObject_impl::run_guarded(const char* what, UniqueId ec_id, PreComponentActionListenerType pre,
                                         PostComponentActionListenerType post, Callback callback,
                                         bool warm_up) {
-    const tandem::crash::CallbackScope scope(getInstanceName(), what, &typeid(*this));
-    const tandem::process::CallbackScope timed_scope(this,
-                                                     what); // so that one that does not return can be named
+    const tandem::crash::CallbackScope scope(this, getInstanceName(), what, &typeid(*this));
     ReturnCode_t result = RTC_ERROR;
     std::string error;
     auto attempt = [&](auto call) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts common to all execution contexts, but for the cycle (execution_cycle.cpp): options, start and
 // stop, participants, profile.
-#include "host/process/callback_scope.hpp"
+#include "host/crash/callback_scope.hpp"
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include <cmath>
@@ -182,7 +182,7 @@ namespace {
 // The callback that a component of this process is in, for tools that wait for a transition. Short ones, which every
 // cycle has, would only come and go.
 void add_running_callback(coil::Properties& properties, const RTObject_impl* component) {
-    const auto running = tandem::process::find_running_callback(component);
+    const auto running = tandem::crash::find_running_callback(component);
     if (component == nullptr || !running || running->seconds() < 0.1) return;
     properties.setProperty("callback.component", component->getInstanceName());
     properties.setProperty("callback.name", running->name);

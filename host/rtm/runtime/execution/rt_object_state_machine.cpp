@@ -110,7 +110,7 @@ void RTObjectStateMachine::execute(bool warm_up) {
     if (hasPendingTransition()) return;
     const LifeCycleState now = state();
     if (now == ERROR_STATE && !warm_up) call(on_error);
-    if (now == ACTIVE_STATE && (warm_up ? warmUpExecute() : call(on_execute)) != RTC_OK) requestErrorState();
+    if (now == ACTIVE_STATE && executeComponent(warm_up) != RTC_OK) requestErrorState();
 }
 
 void RTObjectStateMachine::updateState() {
@@ -141,8 +141,10 @@ RTC::ReturnCode_t RTObjectStateMachine::callRemote(const Action& action) {
 }
 
 // Only a component of this process has code and data here that could be brought into the caches.
-RTC::ReturnCode_t RTObjectStateMachine::warmUpExecute() {
-    return local_ ? local_->execute(id_, true) : RTC_OK;
+// Without the table of actions: its cache line would be missing in the first cycle after a warm-up.
+RTC::ReturnCode_t RTObjectStateMachine::executeComponent(bool warm_up) {
+    if (local_ == nullptr) return warm_up ? RTC_OK : callRemote(on_execute);
+    return warm_up ? local_->execute(id_, true) : local_->on_execute(id_);
 }
 
 } // namespace RTC_impl

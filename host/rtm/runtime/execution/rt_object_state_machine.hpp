@@ -56,7 +56,7 @@ class RTObjectStateMachine {
 
     RTC::ReturnCode_t call(const Action& action);
     RTC::ReturnCode_t callRemote(const Action& action);
-    RTC::ReturnCode_t warmUpExecute();
+    RTC::ReturnCode_t executeComponent(bool warm_up);
     void requestErrorState();
 
     RTC::UniqueId id_;

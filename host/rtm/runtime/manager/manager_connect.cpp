@@ -51,7 +51,7 @@ void Manager::Impl::activate(RTObject_impl& component) {
         const ReturnCode_t code = context->activateComponent(self.in());
         if (code == RTC_OK) continue;
         const LifeCycleState state = context->getComponentState(self.in());
-        const auto running = tandem::process::find_running_callback(&component);
+        const auto running = tandem::crash::find_running_callback(&component);
         if (code != RTC_ERROR) {
             RTC_ERROR(
                 ("the execution context of %s refuses to activate it: the component is %s, the context %s",

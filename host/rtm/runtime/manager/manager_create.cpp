@@ -16,7 +16,7 @@ RTObject_impl& Manager::makeOrThrow(FactoryBase& factory) {
     const std::string type = factory.profile().getProperty("implementation_id");
     const std::string failure = "component type " + type + " cannot be created";
     m_impl->begin_setup_step("the constructor of component type " + type);
-    const tandem::crash::CallbackScope scope(type.c_str(), "its constructor", nullptr);
+    const tandem::crash::CallbackScope scope(nullptr, type.c_str(), "its constructor", nullptr);
     try {
         if (RTObject_impl* component = factory.create(this)) return *component;
     } catch (const std::exception& e) {

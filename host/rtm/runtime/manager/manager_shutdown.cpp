@@ -2,8 +2,8 @@
 // The end of the manager. OpenRTM-aist: Manager::shutdown(), shutdownComponents(), shutdownORB(). There a
 // callback that does not return keeps the process alive; here every step has a time limit, and a component
 // that exceeds it is left behind.
+#include "host/crash/callback_scope.hpp"
 #include "host/process/bounded_call.hpp"
-#include "host/process/callback_scope.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <algorithm>
 #include <future>
@@ -15,7 +15,7 @@ namespace {
 // `onExecute of Camera0`; without a name of the callback when none of the component's own is running, but one of
 // another component in its execution context, for instance.
 std::string callback_text(const RTObject_impl* component, const std::string& name) {
-    const auto running = tandem::process::find_running_callback(component);
+    const auto running = tandem::crash::find_running_callback(component);
     return (running ? std::string(running->name) : "a callback") + " of " + name;
 }
 
@@ -25,7 +25,7 @@ bool leaves_in_time(Manager& manager, const RTObject_impl* component, const std:
     const auto timeout = host_options().stop_timeout;
     const auto end = std::chrono::steady_clock::now() + timeout;
     while (manager.getComponent(name.c_str()) == component) {
-        const auto running = tandem::process::find_running_callback(component);
+        const auto running = tandem::crash::find_running_callback(component);
         const auto now = std::chrono::steady_clock::now();
         if (now > end || (running && now - running->since > timeout)) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -8,7 +8,7 @@
 namespace RTC {
 namespace {
 
-using tandem::process::find_running_callback;
+using tandem::crash::find_running_callback;
 
 /// What the component's first context says about it. By its CORBA object, since another thread may be about to finalize
 /// the component and its contexts.

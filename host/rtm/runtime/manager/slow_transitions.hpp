@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "host/process/callback_scope.hpp"
+#include "host/crash/callback_scope.hpp"
 #include <map>
 #include <rtm/RTObject.h>
 
@@ -23,7 +23,7 @@ class SlowTransitions {
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::seconds first_report{2}, hang_report{16};
     struct Slow {
-        tandem::process::RunningCallback callback;
+        tandem::crash::RunningCallback callback;
         std::chrono::seconds next_report = first_report;
         Clock::time_point end{}; // zero while it runs
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "host/process/callback_scope.hpp"
+#include "host/crash/callback_scope.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-using tandem::process::CallbackScope;
-using tandem::process::find_running_callback;
+using tandem::crash::CallbackScope;
+using tandem::crash::find_running_callback;
 
 namespace {
 // Any address names a component.
@@ -22,7 +22,7 @@ TEST_CASE("the callback of a component is known in every thread while it runs") 
     const int camera = 0, arm = 0;
     std::promise<void> entered, end;
     std::thread thread([&] {
-        const CallbackScope scope(&camera, "onActivated");
+        const CallbackScope scope(&camera, "camera", "onActivated", nullptr);
         entered.set_value();
         end.get_future().wait();
     });
@@ -37,10 +37,10 @@ TEST_CASE("the callback of a component is known in every thread while it runs") 
 TEST_CASE("of nested callbacks the innermost of the component is known, also when it has called another "
           "component") {
     const int camera = 0, arm = 0;
-    const CallbackScope outer(&camera, "onExecute");
+    const CallbackScope outer(&camera, "camera", "onExecute", nullptr);
     {
-        const CallbackScope inner(&camera, "onEvent");
-        const CallbackScope called(&arm, "move");
+        const CallbackScope inner(&camera, "camera", "onEvent", nullptr);
+        const CallbackScope called(&arm, "arm", "move", nullptr);
         CHECK(running_in(camera) == "onEvent");
         CHECK(running_in(arm) == "move");
     }
@@ -51,13 +51,13 @@ TEST_CASE("of nested callbacks the innermost of the component is known, also whe
 TEST_CASE(
     "of callbacks in several threads the one that has run longest is known, however deep a thread nests") {
     const int camera = 0;
-    const CallbackScope first(&camera, "onActivated");
+    const CallbackScope first(&camera, "camera", "onActivated", nullptr);
     std::thread([&] {
-        const CallbackScope second(&camera, "onEvent");
+        const CallbackScope second(&camera, "camera", "onEvent", nullptr);
         CHECK(running_in(camera) == "onActivated");
     }).join();
     const auto nest = [&](auto& self, int depth) -> void {
-        const CallbackScope scope(&camera, "deep");
+        const CallbackScope scope(&camera, "camera", "deep", nullptr);
         if (depth > 0) self(self, depth - 1);
     };
     nest(nest, 50);
