@@ -3,6 +3,7 @@
 #include "apps/tandem/commands.hpp"
 #include "apps/tandem/opros/commands.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,9 @@
 // NOLINTNEXTLINE(bugprone-exception-escape): outside of try only a mistake in the declaration of an option throws
 int main(int argc, char** argv) {
     // This program is also the child process in which it tries out component libraries: then this call ends it.
-    tandem::plugin::serve_probe(argc, argv, tandem::command::opros_probe_tasks());
+    auto probe_tasks = tandem::command::opros_probe_tasks();
+    probe_tasks.merge(tandem::command::rtc_probe_tasks());
+    tandem::plugin::serve_probe(argc, argv, probe_tasks);
     CLI::App app{"Inspects, builds and controls what runs on Tandem hosts on this machine.", "tandem"};
     // Without one there is nothing to do: CLI11 then reports an error that names --help.
     app.require_subcommand(1);
@@ -24,6 +27,7 @@ int main(int argc, char** argv) {
     tandem::command::add_doctor_command(app, selected);
     tandem::command::add_opros_commands(app, selected);
     tandem::command::add_rtm_commands(app, selected);
+    tandem::command::add_link_commands(app, selected);
     tandem::command::add_shm_commands(app, selected);
     tandem::command::add_completion_command(app, selected);
     try {

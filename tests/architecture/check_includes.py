@@ -82,9 +82,12 @@ PUBLIC_TO_APPS = {
     "host/opros/engine/profile/setup_error.hpp",
     "host/opros/engine/profile/start_order.hpp",
     "host/opros/engine/profile/type_profile.hpp",
+    "host/rtm/runtime/configuration/component_arguments.hpp",
+    "host/rtm/runtime/configuration/default_plugin_dirs.hpp",
     "host/rtm/runtime/manager/manager_options.hpp",
     "host/rtm/runtime/naming/remote_names.hpp",
     "host/rtm/runtime/port/custom_serializer.hpp",
+    "proxy/interceptor/rtc_port.hpp",
 }
 # The two component models' API headers: a room of one model must not see the other's.
 FOREIGN = {

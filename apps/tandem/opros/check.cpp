@@ -5,6 +5,7 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/type_profile_errors.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
 #include "host/opros/engine/profile/start_order.hpp"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/partner_ports.hpp"
 
-#include "proxy/link/session/link_session.hpp"
-#include "shm/inspect/observer.hpp"
-
 namespace tandem::command {
 
 bool is_adaptor(const std::filesystem::path& library) { return library.stem() == "AdaptorComp"; }
@@ -19,28 +16,6 @@ std::string adaptor_link(const engine::Subcomponent& entry, const engine::Compon
                                                      "': property 'link' is missing: give it the name that "
                                                      "InterceptorComp's 'link' has");
     return link;
-}
-
-// InterceptorComp is the second side of each link, and publishes its table when it joins.
-std::optional<link::PortTable> read_shared_ports(const std::string& link) {
-    const auto observation = shm::observe(link);
-    if (!observation || !observation->segment.side(shm::Side::second).held) return std::nullopt;
-    for (const auto& blob : observation->blobs)
-        if (blob.owner == shm::Side::second && blob.name == link::table_name)
-            return link::decode_port_table(blob.content);
-    return std::nullopt;
-}
-
-nlohmann::json describe_mirrors(const link::PortTable& table) {
-    static constexpr const char* directions[] = {"output", "input", "provided",
-                                                 "required"}; // by link::PortKind
-    nlohmann::json ports = nlohmann::json::array();
-    for (const auto& port : table.ports)
-        ports.push_back({{"name", port.name},
-                         {"kind", link::is_data_port(port.kind) ? "data" : "service"},
-                         {"direction", directions[static_cast<std::size_t>(port.kind)]},
-                         {"type", nullptr}});
-    return ports;
 }
 
 } // namespace tandem::command

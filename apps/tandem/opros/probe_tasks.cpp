@@ -51,6 +51,80 @@ void initialize_and_report(Component& component, const std::string& name, plugin
                                  std::to_string(component.getErrorInfo()));
 }
 
+using Components = std::map<std::string, std::unique_ptr<engine::ComponentHost>>;
+
+Components create_components(engine::ApplicationProfile& profile, const json& request,
+                             plugin::ProbeReport& report) {
+    const auto excluded = request["excluded"].get<std::vector<std::string>>();
+    const auto port_tables = request["port_tables"].get<std::map<std::string, std::string>>();
+    const auto dirs = plugin_dirs(request);
+    Components components;
+    for (auto& entry : profile.subcomponents) {
+        if (std::find(excluded.begin(), excluded.end(), entry.name) != excluded.end()) continue;
+        report.begin_stage("the constructor of component " + entry.name);
+        auto search = dirs;
+        search.insert(search.begin(), profile.location.file.parent_path());
+        const auto mirrored = port_tables.find(entry.name);
+        if (mirrored != port_tables.end()) entry.properties.emplace_back("port_table", mirrored->second);
+        auto component = std::make_unique<engine::ComponentHost>(
+            entry,
+            engine::read_component_profile(
+                entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
+            engine::ComponentHostOptions{search, std::nullopt, 1, engine::TaskQueue::Mode::in_caller});
+        // An AdaptorComp creates its ports in onInitialize.
+        if (request["initialize"] || mirrored != port_tables.end())
+            initialize_and_report(component->component(), entry.name, report);
+        components.emplace(entry.name, std::move(component));
+    }
+    return components;
+}
+
+std::vector<std::string> make_connections(const engine::ApplicationProfile& profile,
+                                          const Components& components, plugin::ProbeReport& report) {
+    std::vector<std::string> errors;
+    std::vector<std::unique_ptr<engine::Connection>> connections;
+    for (const auto& connection : profile.connections) {
+        if (!connection.error.empty()) continue; // opros_check() reports it
+        const auto source = components.find(connection.source.component),
+                   target = components.find(connection.target.component);
+        if (source == components.end() || target == components.end()) continue;
+        report.begin_stage("the connection at line " + std::to_string(connection.location.line));
+        try {
+            connections.push_back(engine::make_connection(connection, *source->second, *target->second));
+        } catch (const engine::SetupError& error) {
+            errors.emplace_back(error.what());
+        }
+    }
+    return errors;
+}
+
+// The connections have no location, because they are in no file: what stands for it in a message goes.
+std::string try_connection(const engine::ConnectionProfile& connection, const Components& components) {
+    try {
+        engine::make_connection(connection, *components.at(connection.source.component),
+                                *components.at(connection.target.component));
+        return "";
+    } catch (const engine::SetupError& error) {
+        const std::string text = error.what(), location = connection.location.text() + ": ";
+        return text.rfind(location, 0) == 0 ? text.substr(location.size()) : text;
+    }
+}
+
+std::vector<std::string> try_connections(const json& trials, const Components& components,
+                                         plugin::ProbeReport& report) {
+    std::vector<std::string> errors;
+    for (const auto& trial : trials) {
+        engine::ConnectionProfile connection;
+        connection.type = trial["type"].get<PortType>();
+        connection.source = {trial["source"][0], trial["source"][1]};
+        connection.target = {trial["target"][0], trial["target"][1]};
+        report.begin_stage("the connection of " + connection.source.text() + " with " +
+                           connection.target.text());
+        errors.push_back(try_connection(connection, components));
+    }
+    return errors;
+}
+
 } // namespace
 
 json describe_in_child(const std::filesystem::path& library, const std::filesystem::path& profile,
@@ -68,6 +142,21 @@ std::vector<std::string> check_connections_in_child(const std::vector<std::strin
     json request = make_request(options);
     request["excluded"] = excluded;
     request["port_tables"] = port_tables;
+    return json::parse(
+        plugin::run_probe(make_probe(options, "application"), connect_task, options.file, {request.dump()}));
+}
+
+std::vector<std::string> try_connections_in_child(const std::vector<TrialConnection>& trials,
+                                                  const std::map<std::string, std::string>& port_tables,
+                                                  const InspectOptions& options) {
+    json request = make_request(options);
+    request["excluded"] = json::array();
+    request["port_tables"] = port_tables;
+    request["trials"] = json::array();
+    for (const auto& trial : trials)
+        request["trials"].push_back({{"type", trial.type},
+                                     {"source", {trial.source.component, trial.source.port}},
+                                     {"target", {trial.target.component, trial.target.port}}});
     return json::parse(
         plugin::run_probe(make_probe(options, "application"), connect_task, options.file, {request.dump()}));
 }
@@ -104,43 +193,12 @@ void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report) 
 // Components are only created and connected, as opros_host would, and never started.
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
     const json request = json::parse(task.arguments.at(0));
-    const auto excluded = request["excluded"].get<std::vector<std::string>>();
-    const auto port_tables = request["port_tables"].get<std::map<std::string, std::string>>();
     const auto dirs = plugin_dirs(request);
     auto profile = engine::read_application_profile(task.library);
     if (engine::has_composites(profile, dirs)) profile = engine::flatten_composites(profile, dirs);
-    std::vector<std::string> errors;
-    std::map<std::string, std::unique_ptr<engine::ComponentHost>> components;
-    for (auto& entry : profile.subcomponents) {
-        if (std::find(excluded.begin(), excluded.end(), entry.name) != excluded.end()) continue;
-        report.begin_stage("the constructor of component " + entry.name);
-        auto search = dirs;
-        search.insert(search.begin(), profile.location.file.parent_path());
-        const auto mirrored = port_tables.find(entry.name);
-        if (mirrored != port_tables.end()) entry.properties.emplace_back("port_table", mirrored->second);
-        auto component = std::make_unique<engine::ComponentHost>(
-            entry,
-            engine::read_component_profile(
-                entry.file.empty() ? engine::find_component_profile(profile, entry, dirs) : entry.file),
-            engine::ComponentHostOptions{search, std::nullopt, 1, engine::TaskQueue::Mode::in_caller});
-        // An AdaptorComp creates its ports in onInitialize.
-        if (request["initialize"] || mirrored != port_tables.end())
-            initialize_and_report(component->component(), entry.name, report);
-        components.emplace(entry.name, std::move(component));
-    }
-    std::vector<std::unique_ptr<engine::Connection>> connections;
-    for (const auto& connection : profile.connections) {
-        if (!connection.error.empty()) continue; // opros_check() reports it
-        const auto source = components.find(connection.source.component),
-                   target = components.find(connection.target.component);
-        if (source == components.end() || target == components.end()) continue;
-        report.begin_stage("the connection at line " + std::to_string(connection.location.line));
-        try {
-            connections.push_back(engine::make_connection(connection, *source->second, *target->second));
-        } catch (const engine::SetupError& error) {
-            errors.emplace_back(error.what());
-        }
-    }
+    const Components components = create_components(profile, request, report);
+    const auto errors = request.contains("trials") ? try_connections(request["trials"], components, report)
+                                                   : make_connections(profile, components, report);
     report.finish(json(errors).dump(-1, ' ', false, json::error_handler_t::replace));
 }
 

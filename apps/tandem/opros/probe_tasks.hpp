@@ -5,6 +5,7 @@
 #pragma once
 
 #include "apps/tandem/opros/commands.hpp"
+#include "host/opros/engine/profile/application_profile.hpp"
 #include "host/plugin/probe.hpp"
 
 #include <map>
@@ -17,7 +18,8 @@ namespace tandem::command {
 /// "plugin_dirs". Result: describe_component().
 constexpr char describe_task[] = "describe-opros";
 /// Task of an application, whose profile takes the place of the library. Argument: JSON with "plugin_dirs",
-/// "initialize", "excluded", the names of components to leave out, and "port_tables". Result: a list of errors.
+/// "initialize", "excluded", the names of components to leave out, "port_tables", and optionally "trials". Result: a list
+/// of errors, one for each refused connection or for each trial.
 constexpr char connect_task[] = "connect-opros";
 
 /// Describes the component in this library. Throws plugin::Error.
@@ -35,5 +37,16 @@ std::vector<std::string> check_connections_in_child(const std::vector<std::strin
 /// throw is reported to the parent by serve_probe().
 void serve_describe(const plugin::ProbeTask& task, plugin::ProbeReport& report);
 void serve_connect(const plugin::ProbeTask& task, plugin::ProbeReport& report);
+
+/// A connection to be tried, as of a profile.
+struct TrialConnection {
+    PortType type = OPROS_DATA;
+    engine::PortReference source, target;
+};
+/// As check_connections_in_child(), but makes each of these connections alone, and none of the application's own.
+/// Returns why each of them is refused, without a file's name; "" for one that is made.
+std::vector<std::string> try_connections_in_child(const std::vector<TrialConnection>& trials,
+                                                  const std::map<std::string, std::string>& port_tables,
+                                                  const InspectOptions& options);
 
 } // namespace tandem::command

@@ -9,6 +9,7 @@
 #include "host/process/exit_process.hpp"
 #include "host/process/step_timer.hpp"
 #include "host/rt/step_server.hpp"
+#include "host/rtm/runtime/configuration/default_plugin_dirs.hpp"
 #include "host/rtm/runtime/manager/manager_options.hpp"
 #include "host/rtm/runtime/manager/probe_module.hpp"
 #include "shm/segment/dead_segments.hpp"
@@ -18,7 +19,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -65,19 +65,11 @@ void declare_options(CLI::App& app, Arguments& a) {
     tandem::options::add_real_time_options(app, a.real_time);
 }
 
-// Folders in which component libraries are searched after manager.modules.load_path: --plugin-path,
-// $TANDEM_PLUGIN_PATH, then those of the build or the installation that this program belongs to.
+// --plugin-path comes first.
 std::vector<fs::path> plugin_path(const Arguments& a) {
     std::vector<fs::path> dirs = a.plugin_path;
-    if (const char* path = std::getenv("TANDEM_PLUGIN_PATH"))
-        for (const auto& dir : coil::split(path, ":", true)) dirs.emplace_back(dir);
-    std::error_code ignored;
-    const fs::path root = fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path();
-    dirs.push_back(root / "plugins/rtm");
-    for (const char* lib : {"lib", "lib64"}) dirs.push_back(root / lib / "tandem/plugins/rtm");
-    for (const auto& entry : fs::directory_iterator(root / "lib", ignored)) // lib/x86_64-linux-gnu
-        if (entry.is_directory() && fs::exists(entry.path() / "tandem/plugins/rtm"))
-            dirs.push_back(entry.path() / "tandem/plugins/rtm");
+    const auto more = RTC::default_plugin_dirs();
+    dirs.insert(dirs.end(), more.begin(), more.end());
     return dirs;
 }
 

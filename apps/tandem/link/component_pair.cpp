@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/link/component_pair.hpp"
+
+#include "apps/tandem/opros/component_profiles.hpp"
+#include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
+#include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/plugin/error.hpp"
+#include "host/plugin/library_contents.hpp"
+
+#include <optional>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_module(const fs::path& file) {
+    if (file.extension() != ".so") return false;
+    try {
+        return plugin::read_contents(file).kind == plugin::LibraryKind::rtc_module;
+    } catch (const plugin::Error&) {
+        return false; // a library that cannot be read is none that could be joined
+    }
+}
+
+// In the folder, and where CMake projects of RTCs put their module.
+std::vector<fs::path> find_modules(const fs::path& place) {
+    if (fs::is_regular_file(place)) return is_module(place) ? std::vector{place} : std::vector<fs::path>();
+    for (const char* below : {"", "lib", "build/src", "build/lib", "build"}) {
+        std::vector<fs::path> found;
+        std::error_code ignored; // a folder that is not there has none
+        for (const auto& entry : fs::directory_iterator(place / below, ignored))
+            if (is_module(entry.path())) found.push_back(entry.path());
+        if (!found.empty()) return found;
+    }
+    return {};
+}
+
+// The profile of an OPRoS component; nothing if `error` says why there is none.
+std::optional<engine::ComponentProfile> find_profile(const fs::path& place, const std::string& profile,
+                                                     std::string& error) {
+    try {
+        if (place.extension() == ".xml") return engine::read_component_profile(fs::absolute(place));
+        return select_component_profile(fs::absolute(place), profile);
+    } catch (const std::runtime_error& cause) {
+        error = cause.what();
+        return std::nullopt;
+    }
+}
+
+template <class Names>
+std::string join(const Names& names) {
+    std::string text;
+    for (const auto& each : names) text += (text.empty() ? "" : ", ") + each;
+    return text;
+}
+
+fs::path select_module(const std::vector<fs::path>& modules, const fs::path& place) {
+    if (modules.size() == 1) return fs::absolute(modules.front()).lexically_normal();
+    std::vector<std::string> names;
+    for (const auto& each : modules) names.push_back(each.string());
+    throw std::runtime_error(place.string() + " has several RTC modules: " + join(names) +
+                             "; name one of them in its place");
+}
+
+RtcType select_type(const fs::path& module, const LinkProfileOptions& options) {
+    RtcConfOptions probe;
+    probe.timeout_s = options.timeout_s;
+    const auto types = probe_rtc_types(module, probe);
+    std::vector<std::string> names;
+    for (const auto& type : types) {
+        if (type.name == options.type || (types.size() == 1 && options.type.empty())) return type;
+        names.push_back(type.name);
+    }
+    throw std::runtime_error(
+        module.string() + " registers " +
+        (names.empty() ? "no component type" : "the component types " + join(names)) +
+        (options.type.empty() ? "; choose one with --type NAME" : ", but not " + options.type));
+}
+
+} // namespace
+
+ComponentPair find_component_pair(const LinkProfileOptions& options) {
+    std::optional<engine::ComponentProfile> opros;
+    fs::path module;
+    for (const fs::path& place : {options.first, options.second}) {
+        if (!fs::exists(place))
+            throw std::runtime_error(place.string() + " does not exist, expected the folder of a component");
+        std::string error;
+        const auto modules = find_modules(place);
+        auto profile = modules.empty() ? find_profile(place, options.profile, error) : std::nullopt;
+        if (profile ? opros.has_value() : !module.empty() && !modules.empty())
+            throw std::runtime_error(options.first.string() + " and " + options.second.string() +
+                                     " are both " + (profile ? "OPRoS components" : "RTCs") +
+                                     ", expected one of each model");
+        if (profile)
+            opros = std::move(profile);
+        else if (!modules.empty())
+            module = select_module(modules, place);
+        else
+            throw std::runtime_error(
+                place.string() + " has no built RTC (tandem rtm build) and is no OPRoS component: " + error);
+    }
+    const auto library = engine::find_component_library(*opros, engine::default_plugin_dirs());
+    engine::require_opros_component(library);
+    const RtcType type = select_type(module, options);
+    return {std::move(*opros), library, module, type.name, type.category};
+}
+
+} // namespace tandem::command

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/link/join_folder.hpp"
+
+#include "host/opros/engine/load/plugin_dirs.hpp"
+
+#include <coil/Properties.h>
+#include <pugixml.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& file, const std::string& text) {
+    std::ofstream stream(file);
+    stream << text << std::flush;
+    if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
+}
+
+// A copy, so that its properties can be set for this link.
+void copy_adaptor_profile(const fs::path& folder) {
+    std::string searched;
+    for (const auto& dir : engine::default_plugin_dirs()) {
+        std::error_code error;
+        if (fs::copy_file(dir / "AdaptorComp.xml", folder / "AdaptorComp.xml",
+                          fs::copy_options::overwrite_existing, error))
+            return;
+        searched += (searched.empty() ? "" : ", ") + dir.string();
+    }
+    throw std::runtime_error("AdaptorComp.xml is in none of " + searched +
+                             "; install Tandem again (cmake --install)");
+}
+
+void add_subcomponent(pugi::xml_node list, const std::string& name, const std::string& reference,
+                      const std::string& link) {
+    auto entry = list.append_child("subcomponent");
+    entry.append_child("name").text().set(name.c_str());
+    entry.append_child("reference").text().set(reference.c_str());
+    if (link.empty()) return;
+    auto property = entry.append_child("properties").append_child("property");
+    property.append_attribute("name") = "link";
+    property.text().set(link.c_str());
+}
+
+void add_connection(pugi::xml_node list, const std::string& component, const PortPair& pair) {
+    auto entry = list.append_child("port_connection");
+    entry.append_attribute("port_type") = pair.opros["kind"].get<std::string>().c_str();
+    const auto add_end = [&](const char* end, const std::string& of, const nlohmann::json& port) {
+        auto node = entry.append_child(end);
+        node.append_attribute("component_name") = of.c_str();
+        node.append_attribute("port_name") = port["name"].get<std::string>().c_str();
+    };
+    if (pair.from_opros()) {
+        add_end("source", component, pair.opros);
+        add_end("target", adaptor_name, pair.rtc);
+    } else {
+        add_end("source", adaptor_name, pair.rtc);
+        add_end("target", component, pair.opros);
+    }
+}
+
+// What the author's rtc.conf says about execution and the RTC's own configuration; the rest is about his modules, names
+// and logs. A relative file of his lies in his folder.
+std::string settings_taken_over(const fs::path& conf, std::vector<std::string>& left_out) {
+    std::ifstream stream(conf);
+    if (!stream) return "";
+    coil::Properties settings;
+    settings.load(stream);
+    std::string text;
+    for (auto& key : settings.propertyNames()) {
+        const std::string value = settings.getProperty(key);
+        if (value.empty()) continue;
+        if (key.ends_with(".config_file"))
+            text += key + ": " + (conf.parent_path() / value).string() + "\n";
+        else if (key.starts_with("exec_cxt.") || key.find(".conf.") != std::string::npos)
+            text += key + ": " + value + "\n";
+        else
+            left_out.push_back(conf.string() + ": '" + key + "' is not taken over");
+    }
+    return text;
+}
+
+} // namespace
+
+JoinFolder::JoinFolder(fs::path path, std::string link)
+    : path_(fs::absolute(std::move(path)).lexically_normal()), link_(std::move(link)) {
+    if (path_.filename().empty()) path_ = path_.parent_path(); // it was written as DIR/
+    std::error_code error;
+    if (fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_, error)))
+        throw std::runtime_error(
+            path_.string() + " exists and is not empty; remove it, or name another folder with --out DIR");
+    for (const char* part : {"opros", "rtm"})
+        if (!fs::create_directories(path_ / part, error) && error)
+            throw std::runtime_error("folder " + (path_ / part).string() +
+                                     " cannot be made: " + error.message());
+}
+
+JoinFolder::~JoinFolder() {
+    std::error_code ignored; // that the folder cannot be removed must not hide why it is not wanted
+    if (!keep_) fs::remove_all(path_, ignored);
+}
+
+fs::path JoinFolder::application() const { return path_ / "opros" / (path_.filename().string() + ".xml"); }
+
+std::vector<std::string> JoinFolder::write_rtc_conf(const ComponentPair& pair) const {
+    const auto folder = pair.module.parent_path();
+    std::vector<std::string> left_out;
+    std::string text =
+        "# Written by tandem link profile. rtm_host is to be started in this folder (tandem run does).\n"
+        "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\n"
+        "manager.modules.load_path: " +
+        folder.string() +
+        "\n"
+        "manager.modules.preload: " +
+        pair.module.filename().string() +
+        ", InterceptorComp.so\n"
+        "manager.components.precreate: " +
+        pair.type + ", InterceptorComp?link=" + link_ + "&rtc=" + pair.type + "0\n";
+    const std::string own = settings_taken_over(folder / "rtc.conf", left_out);
+    const auto conf = folder / (pair.type + ".conf"); // as rtc-template writes it
+    if (own.find(".config_file") == std::string::npos && fs::exists(conf))
+        text += pair.category + "." + pair.type + ".config_file: " + conf.string() + "\n";
+    write_file(rtc_conf(), text + own);
+    return left_out;
+}
+
+void JoinFolder::write_application(const ComponentPair& pair,
+                                   const std::vector<PortPair>& connections) const {
+    copy_adaptor_profile(path_ / "opros");
+    pugi::xml_document document;
+    auto declaration = document.append_child(pugi::node_declaration);
+    declaration.append_attribute("version") = "1.0";
+    declaration.append_attribute("encoding") = "UTF-8";
+    auto package = document.append_child("package_profile");
+    package.append_child("name").text().set(path_.filename().c_str());
+    auto subcomponents = package.append_child("subcomponents");
+    add_subcomponent(subcomponents, pair.opros.name, pair.opros.location.file.string(), "");
+    add_subcomponent(subcomponents, adaptor_name, "AdaptorComp.xml", link_);
+    auto list = package.append_child("port_connections");
+    for (const auto& each : connections) add_connection(list, pair.opros.name, each);
+    if (!document.save_file(application().c_str(), "  "))
+        throw std::runtime_error(application().string() + " cannot be written: " + std::strerror(errno));
+}
+
+} // namespace tandem::command

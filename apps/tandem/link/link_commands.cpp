@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `tandem link`.
+#include "apps/tandem/build/component_commands.hpp"
+#include "apps/tandem/commands.hpp"
+#include "apps/tandem/link/commands.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+namespace {
+
+void add_profile(CLI::App& link, Action& selected) {
+    auto options = std::make_shared<LinkProfileOptions>();
+    CLI::App* command = add_command(
+        link, "profile", "Writes what joins an OPRoS component and an RTC, for tandem run",
+        "A and B are the folders of two built components, one of each model, or the OPRoS component's\n"
+        "profile and the RTC's module. Ports are connected that have the same name, or else the only\n"
+        "type that fits; each other port is told with the reason. Writes DIR/opros and DIR/rtm.\n"
+        "Exit code 1 if no port can be connected.");
+    command->add_option("A", options->first, "folder of a component")->required();
+    command->add_option("B", options->second, "folder of a component of the other model")->required();
+    command->add_option("--out", options->out, "folder to write (./OPROS-RTC, named after the components)")
+        ->type_name("DIR");
+    command->add_option("--profile", options->profile, "component profile, when the OPRoS folder has several")
+        ->type_name("FILE");
+    command->add_option("--type", options->type, "component type, when the RTC's module has several")
+        ->type_name("NAME");
+    command->add_option("--link", options->link, "name of the link (as the folder)")->type_name("NAME");
+    command->add_flag(
+        "--initialize", options->initialize,
+        "run onInitialize() of the OPRoS component in a child process, for ports created there");
+    command->add_option("--timeout", options->timeout_s, "time limit for the components' code (10)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.1, 3600.));
+    command->add_flag("--json", options->json, "print JSON instead of text");
+    command->callback([=, &selected] { selected = [options] { return link_profile(*options); }; });
+}
+
+} // namespace
+
+void add_link_commands(CLI::App& tandem, Action& selected) {
+    CLI::App* link = tandem.add_subcommand("link", "Joins OPRoS components and RTCs");
+    link->require_subcommand(1);
+    add_profile(*link, selected);
+}
+
+} // namespace tandem::command

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/link/port_pairs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace tandem::command {
+namespace {
+
+using nlohmann::json;
+
+std::string text_of(const json& port, const char* key) { return port[key].get<std::string>(); }
+
+/// The direction of a port's partner.
+const char* opposite(const std::string& direction) {
+    if (direction == "input") return "output";
+    if (direction == "output") return "input";
+    return direction == "provided" ? "required" : "provided";
+}
+
+std::string comparable(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    name.erase(std::remove_if(name.begin(), name.end(), [](char c) { return c == '_' || c == '-'; }),
+               name.end());
+    return name;
+}
+
+bool same_name(const PortPair& pair) {
+    return comparable(pair.opros["name"]) == comparable(pair.rtc["name"]);
+}
+
+std::string join(const std::vector<std::string>& names) {
+    std::string text;
+    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+/// What is chosen so far.
+class Matcher {
+  public:
+    explicit Matcher(const std::vector<PortPair>& possible) : possible_(possible) {}
+
+    void match_names() {
+        for (const auto& pair : possible_)
+            if (pair.error.empty() && same_name(pair) && is_free(pair)) take(pair, "name");
+    }
+    void match_types() {
+        std::vector<const PortPair*> unique;
+        for (const auto& pair : possible_)
+            if (fits(pair) && count(pair, "opros") == 1 && count(pair, "rtc") == 1) unique.push_back(&pair);
+        for (const auto* pair : unique) take(*pair, "type");
+    }
+
+    /// `side`: "opros" or "rtc"; `partner`: the other component. The line is empty for a port with a partner.
+    std::string why_left_out(const char* side, const std::string& component, const json& port,
+                             const std::string& partner) const {
+        if (taken(side).count(port["name"]) != 0) return "";
+        const std::string what = component + "." + text_of(port, "name") + " (" + text_of(port, "kind") +
+                                 " " + text_of(port, "direction") + "): ";
+        const std::string other = std::string(side) == "opros" ? "rtc" : "opros";
+        std::vector<std::string> fitting;
+        for (const auto& pair : possible_) {
+            if (side_of(pair, side)["name"] != port["name"]) continue;
+            // The reason is told once, for the OPRoS port of the two.
+            if (same_name(pair) && !pair.error.empty())
+                return what + (other == "rtc" ? pair.error
+                                              : partner + "." + text_of(pair.opros, "name") +
+                                                    " does not fit, although it has the name");
+            if (fits(pair)) fitting.push_back(side_of(pair, other)["name"]);
+        }
+        if (fitting.size() > 1)
+            return what + "several ports of " + partner + " fit: " + join(fitting) +
+                   "; connect the one that is meant";
+        if (fitting.size() == 1)
+            return what + partner + "." + fitting.front() +
+                   " fits several ports; connect the one that is meant";
+        return what + "no " + opposite(port["direction"]) + " " + text_of(port, "kind") + " port of " +
+               partner + " is left that fits";
+    }
+
+    std::vector<PortPair> chosen;
+
+  private:
+    static const json& side_of(const PortPair& pair, const std::string& side) {
+        return side == "opros" ? pair.opros : pair.rtc;
+    }
+    const std::set<std::string>& taken(const std::string& side) const {
+        return side == "opros" ? opros_ : rtc_;
+    }
+    bool is_free(const PortPair& pair) const {
+        return opros_.count(pair.opros["name"]) == 0 && rtc_.count(pair.rtc["name"]) == 0;
+    }
+    // linkState is of AdaptorComp itself: only a port made for it is meant.
+    bool fits(const PortPair& pair) const {
+        return pair.error.empty() && is_free(pair) && pair.rtc["name"] != "linkState";
+    }
+    std::ptrdiff_t count(const PortPair& of, const char* side) const {
+        return std::count_if(possible_.begin(), possible_.end(), [&](const PortPair& pair) {
+            return fits(pair) && side_of(pair, side)["name"] == side_of(of, side)["name"];
+        });
+    }
+    void take(PortPair pair, const char* how) {
+        opros_.insert(text_of(pair.opros, "name"));
+        rtc_.insert(text_of(pair.rtc, "name"));
+        pair.matched = how;
+        chosen.push_back(std::move(pair));
+    }
+
+    const std::vector<PortPair>& possible_;
+    std::set<std::string> opros_, rtc_; ///< names of the ports that have a partner
+};
+
+} // namespace
+
+std::vector<PortPair> possible_pairs(const json& opros_ports, const json& rtc_ports) {
+    std::vector<PortPair> pairs;
+    for (const auto& opros : opros_ports)
+        for (const auto& rtc : rtc_ports)
+            if (opros["kind"] == rtc["kind"] && rtc["direction"] == opposite(opros["direction"]))
+                pairs.push_back({opros, rtc, "", ""});
+    return pairs;
+}
+
+PortMatch match_ports(const std::string& opros, const json& opros_ports, const std::string& rtc,
+                      const json& rtc_ports, const std::vector<PortPair>& possible) {
+    Matcher matcher(possible);
+    matcher.match_names();
+    matcher.match_types();
+    PortMatch match{matcher.chosen, {}};
+    const auto add = [&](const std::string& line) {
+        if (!line.empty()) match.left_out.push_back(line);
+    };
+    for (const auto& port : opros_ports) add(matcher.why_left_out("opros", opros, port, rtc));
+    for (const auto& port : rtc_ports)
+        if (port["name"] != "linkState") add(matcher.why_left_out("rtc", rtc, port, opros));
+    return match;
+}
+
+} // namespace tandem::command

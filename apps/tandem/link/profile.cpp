@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/link/commands.hpp"
+#include "apps/tandem/link/component_pair.hpp"
+#include "apps/tandem/link/join_folder.hpp"
+#include "apps/tandem/link/port_pairs.hpp"
+#include "apps/tandem/opros/probe_tasks.hpp"
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/print.hpp"
+#include "apps/tandem/output/table.hpp"
+#include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
+#include "apps/tandem/shared_ports/running_host.hpp"
+#include "host/opros/engine/load/plugin_dirs.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Names of links are file names of shared memory.
+std::string as_link_name(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return !(std::isalnum(c) || c == '-' || c == '_'); },
+        '_');
+    return text.substr(0, 60);
+}
+
+PortType port_type(const json& port) {
+    if (port["kind"] == "data") return OPROS_DATA;
+    return port["kind"] == "event" ? OPROS_EVENT : OPROS_SERVICE;
+}
+
+/// The ports of AdaptorComp: the mirrors, and its own.
+json adaptor_ports(const link::PortTable& table) {
+    json ports = describe_mirrors(table);
+    ports.push_back({{"name", "linkState"}, {"kind", "data"}, {"direction", "output"}, {"type", nullptr}});
+    return ports;
+}
+
+// Each pair is connected in a child process: the host's own check says what fits.
+void find_errors(std::vector<PortPair>& pairs, const ComponentPair& components, const link::PortTable& table,
+                 const InspectOptions& options) {
+    std::vector<TrialConnection> trials;
+    for (const auto& pair : pairs) {
+        engine::PortReference opros{components.opros.name, pair.opros["name"]},
+            rtc{adaptor_name, pair.rtc["name"]};
+        if (!pair.from_opros()) std::swap(opros, rtc);
+        trials.push_back({port_type(pair.opros), opros, rtc});
+    }
+    const auto errors =
+        try_connections_in_child(trials, {{adaptor_name, link::encode_as_text(table)}}, options);
+    for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].error = errors.at(i);
+}
+
+json report(const ComponentPair& components, const JoinFolder& folder, const PortMatch& match,
+            const std::vector<std::string>& notes) {
+    json connections = json::array();
+    for (const auto& pair : match.pairs) {
+        const std::string opros = components.opros.name + "." + pair.opros["name"].get<std::string>(),
+                          rtc = components.type + "0." + pair.rtc["name"].get<std::string>();
+        connections.push_back({{"kind", pair.opros["kind"]},
+                               {"from", pair.from_opros() ? opros : rtc},
+                               {"to", pair.from_opros() ? rtc : opros},
+                               {"matched_by", pair.matched}});
+    }
+    return {{"link", folder.link()},
+            {"application", folder.application().string()},
+            {"rtc_conf", folder.rtc_conf().string()},
+            {"connections", connections},
+            {"not_connected", match.left_out},
+            {"notes", notes}};
+}
+
+void print_report(const json& report, const std::string& folder) {
+    std::string text = "link       " + report["link"].get<std::string>() + "\nwritten    " +
+                       report["application"].get<std::string>() + "\n           " +
+                       report["rtc_conf"].get<std::string>() + "\n\n";
+    Table table({"kind", "from", "to", "matched by"});
+    for (const auto& each : report["connections"])
+        table.add_row({each["kind"], each["from"], each["to"], each["matched_by"]});
+    text += table.empty() ? "no port can be connected\n" : table.text();
+    if (!report["not_connected"].empty()) text += "\n";
+    for (const auto& line : report["not_connected"])
+        text += "not connected: " + replace_control_characters(line.get<std::string>()) + "\n";
+    for (const auto& line : report["notes"])
+        text += "note: " + replace_control_characters(line.get<std::string>()) + "\n";
+    print_text(text + "\nnext: tandem run " + folder + "\n");
+}
+
+} // namespace
+
+int link_profile(const LinkProfileOptions& options) {
+    const ComponentPair components = find_component_pair(options);
+    const fs::path out =
+        options.out.empty() ? fs::path(components.opros.name + "-" + components.type) : options.out;
+    JoinFolder folder(out, as_link_name(options.link.empty() ? components.opros.name + "-" + components.type
+                                                             : options.link));
+    auto notes = folder.write_rtc_conf(components);
+    folder.write_application(components, {});
+
+    RtcConfOptions conf_options;
+    conf_options.timeout_s = options.timeout_s;
+    const auto table = probe_rtc_conf(folder.rtc_conf(), conf_options).at(folder.link());
+    InspectOptions inspect;
+    inspect.file = folder.application();
+    inspect.plugin_dirs = engine::default_plugin_dirs();
+    inspect.initialize = options.initialize;
+    inspect.timeout_s = options.timeout_s;
+    const json opros_ports =
+        describe_in_child(components.library, components.opros.location.file, inspect)["ports"];
+    const json rtc_ports = adaptor_ports(table);
+    auto pairs = possible_pairs(opros_ports, rtc_ports);
+    find_errors(pairs, components, table, inspect);
+    const auto match =
+        match_ports(components.opros.name, opros_ports, components.type + "0", rtc_ports, pairs);
+    if (opros_ports.empty() && !options.initialize)
+        notes.push_back(components.opros.name +
+                        " has no ports before its onInitialize; --initialize runs it, in a child process");
+    folder.write_application(components, match.pairs);
+    folder.keep();
+
+    const json result = report(components, folder, match, notes);
+    options.json ? print_json(result) : print_report(result, out.string());
+    return match.pairs.empty() ? 1 : 0;
+}
+
+} // namespace tandem::command

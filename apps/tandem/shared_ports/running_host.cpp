@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/shared_ports/running_host.hpp"
+
+#include "proxy/link/session/link_session.hpp"
+#include "shm/inspect/observer.hpp"
+
+namespace tandem::command {
+
+// InterceptorComp is the second side of each link, and publishes its table when it joins.
+std::optional<link::PortTable> read_shared_ports(const std::string& link) {
+    const auto observation = shm::observe(link);
+    if (!observation || !observation->segment.side(shm::Side::second).held) return std::nullopt;
+    for (const auto& blob : observation->blobs)
+        if (blob.owner == shm::Side::second && blob.name == link::table_name)
+            return link::decode_port_table(blob.content);
+    return std::nullopt;
+}
+
+nlohmann::json describe_mirrors(const link::PortTable& table) {
+    static constexpr const char* directions[] = {"output", "input", "provided",
+                                                 "required"}; // by link::PortKind
+    nlohmann::json ports = nlohmann::json::array();
+    for (const auto& port : table.ports)
+        ports.push_back({{"name", port.name},
+                         {"kind", link::is_data_port(port.kind) ? "data" : "service"},
+                         {"direction", directions[static_cast<std::size_t>(port.kind)]},
+                         {"type", nullptr}});
+    return ports;
+}
+
+} // namespace tandem::command

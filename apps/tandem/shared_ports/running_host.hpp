@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/protocol/port_table.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+namespace tandem::command {
+
+/// The ports that the RTM host shares on this link at the moment, read from shared memory without taking part; nothing if
+/// no running host does. Throws std::runtime_error: the name is not that of a link, or what is there is damaged.
+std::optional<link::PortTable> read_shared_ports(const std::string& link);
+
+/// The mirrors of these ports as describe_component() describes ports, without types: those are compared when the ports
+/// are connected.
+nlohmann::json describe_mirrors(const link::PortTable& table);
+
+} // namespace tandem::command

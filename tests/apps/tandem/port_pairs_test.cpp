@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which ports `tandem link profile` connects. Which types fit is given here.
+#include "apps/tandem/link/port_pairs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+#include <vector>
+
+namespace tandem::command {
+namespace {
+
+using Catch::Matchers::Contains;
+using nlohmann::json;
+
+json port(const char* name, const char* direction, const char* kind = "data") {
+    return {{"name", name}, {"kind", kind}, {"direction", direction}, {"type", nullptr}};
+}
+
+using Ports = std::vector<json>;
+
+/// Matches the ports, where only the named pairs (OPRoS port, RTC port) fit.
+PortMatch match(const Ports& opros, const Ports& rtc,
+                const std::set<std::pair<std::string, std::string>>& fitting) {
+    auto pairs = possible_pairs(opros, rtc);
+    for (auto& pair : pairs)
+        if (fitting.count({pair.opros["name"], pair.rtc["name"]}) == 0) pair.error = "type mismatch: a, b";
+    return match_ports("A", opros, "B", rtc, pairs);
+}
+
+std::vector<PortPair> possible(const Ports& opros, const Ports& rtc) { return possible_pairs(opros, rtc); }
+
+std::string text(const PortPair& pair) {
+    return pair.opros["name"].get<std::string>() + " " + pair.rtc["name"].get<std::string>() + " " +
+           pair.matched;
+}
+
+} // namespace
+
+TEST_CASE("ports of one name are paired before ports of one type") {
+    const auto found = match({port("pos", "output"), port("speed", "output")},
+                             {port("speed", "input"), port("pos", "input")},
+                             {{"pos", "pos"}, {"pos", "speed"}, {"speed", "pos"}, {"speed", "speed"}});
+    REQUIRE(found.pairs.size() == 2);
+    CHECK(text(found.pairs[0]) == "pos pos name");
+    CHECK(text(found.pairs[1]) == "speed speed name");
+    CHECK(found.left_out.empty());
+}
+
+TEST_CASE("case and underscores do not count in the names of ports") {
+    const auto found = match({port("wheel_speed", "input")}, {port("wheelSpeed", "output")},
+                             {{"wheel_speed", "wheelSpeed"}});
+    REQUIRE(found.pairs.size() == 1);
+    CHECK_FALSE(found.pairs[0].from_opros());
+}
+
+TEST_CASE("ports of other names are paired when nothing else fits either of them") {
+    const auto found = match({port("cmd", "output"), port("log", "output")},
+                             {port("in", "input"), port("text", "input")}, {{"cmd", "in"}, {"log", "text"}});
+    REQUIRE(found.pairs.size() == 2);
+    CHECK(text(found.pairs[0]) == "cmd in type");
+    CHECK(text(found.pairs[1]) == "log text type");
+}
+
+TEST_CASE("a port that several fit is left out, and they are named") {
+    const auto found = match({port("cmd", "output")}, {port("left", "input"), port("right", "input")},
+                             {{"cmd", "left"}, {"cmd", "right"}});
+    CHECK(found.pairs.empty());
+    REQUIRE(found.left_out.size() == 3);
+    CHECK(found.left_out[0] ==
+          "A.cmd (data output): several ports of B fit: left, right; connect the one that is meant");
+    CHECK_THAT(found.left_out[1], Contains("B.left (data input)"));
+}
+
+TEST_CASE("ports of one name and two types are left out with the reason") {
+    const auto found = match({port("pos", "output")}, {port("pos", "input")}, {});
+    CHECK(found.pairs.empty());
+    REQUIRE(found.left_out.size() == 2);
+    CHECK(found.left_out[0] == "A.pos (data output): type mismatch: a, b");
+    CHECK(found.left_out[1] == "B.pos (data input): A.pos does not fit, although it has the name");
+}
+
+TEST_CASE("ports of one direction, or of two kinds, are no pair") {
+    CHECK(possible({port("x", "output")}, {port("x", "output")}).empty());
+    CHECK(possible({port("x", "required", "service")}, {port("x", "input")}).empty());
+    CHECK(possible({port("x", "required", "service")}, {port("x", "provided", "service")}).size() == 1);
+}
+
+TEST_CASE("AdaptorComp's linkState is paired by name only") {
+    const Ports rtc{port("linkState", "output")};
+    CHECK(match({port("values", "input")}, rtc, {{"values", "linkState"}}).pairs.empty());
+    CHECK(match({port("linkState", "input")}, rtc, {{"linkState", "linkState"}}).pairs.size() == 1);
+}
+
+} // namespace tandem::command

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// `tandem link profile`: what two component folders become.
+#include "tests/integration/scratch_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <fstream>
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+} // namespace
+
+TEST_CASE("tandem link profile connects what fits and tells why the rest does not") {
+    ScratchFolder folder;
+    folder.add_component("TalkerComp");
+    folder.add_component("EchoRtc");
+    // In either order.
+    const auto result = folder.tandem({"link", "profile", "EchoRtc", "TalkerComp", "--out", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 0);
+    CHECK_THAT(result.output, Contains("data     TalkerComp.word        EchoRtc0.word        name\n"));
+    CHECK_THAT(result.output, Contains("data     EchoRtc0.reply         TalkerComp.reply     name\n"));
+    CHECK_THAT(result.output, Contains("service  TalkerComp.dictionary  EchoRtc0.dictionary  name\n"));
+    CHECK_THAT(result.output,
+               Contains("not connected: TalkerComp.numbers (data output): type mismatch") &&
+                   Contains("has signature 'ai', the peer's type IDL:RTC/TimedDoubleSeq:1.0 has '(uu)ad'"));
+    CHECK_THAT(result.output,
+               Contains("not connected: EchoRtc0.picture (data input): no output data port of TalkerComp is "
+                        "left that fits\n"));
+    CHECK_THAT(result.output, Contains("next: tandem run joined\n"));
+    CHECK_THAT(
+        content(folder.path() / "joined/rtm/rtc.conf"),
+        Contains(
+            "manager.components.precreate: EchoRtc, InterceptorComp?link=TalkerComp-EchoRtc&rtc=EchoRtc0\n"));
+    CHECK_THAT(content(folder.path() / "joined/opros/joined.xml"),
+               Contains("<property name=\"link\">TalkerComp-EchoRtc<"));
+    CHECK(std::filesystem::exists(folder.path() / "joined/opros/AdaptorComp.xml"));
+}
+
+TEST_CASE("tandem link profile takes over how the RTC's own rtc.conf executes it") {
+    ScratchFolder folder;
+    folder.add_component("TalkerComp");
+    folder.add_component("EchoRtc");
+    std::ofstream(folder.path() / "EchoRtc/rtc.conf")
+        << "exec_cxt.periodic.rate: 50\ntest.EchoRtc.config_file: echo.conf\n"
+           "corba.nameservers: robot:2809\n";
+    std::ofstream(folder.path() / "EchoRtc/echo.conf") << "slow_ms: 1\n";
+    const auto result = folder.tandem({"link", "profile", "TalkerComp", "EchoRtc"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 0);
+    const std::string conf = content(folder.path() / "TalkerComp-EchoRtc/rtm/rtc.conf");
+    CHECK_THAT(conf, Contains("exec_cxt.periodic.rate: 50\n"));
+    CHECK_THAT(conf, Contains("test.EchoRtc.config_file: " + (folder.path() / "EchoRtc/echo.conf").string()));
+    CHECK_THAT(conf, !Contains("nameservers"));
+    CHECK_THAT(result.output, Contains("'corba.nameservers' is not taken over"));
+}
+
+TEST_CASE("tandem link profile refuses what is not one component of each model, and leaves nothing behind") {
+    ScratchFolder folder;
+    folder.add_component("TalkerComp");
+    folder.add_component("CameraComp");
+    folder.add_component("EchoRtc");
+    std::filesystem::create_directory(folder.path() / "empty");
+    const auto refusal = [&](const char* first, const char* second) {
+        const auto result = folder.tandem({"link", "profile", first, second, "--out", "joined"});
+        CHECK(result.exit_code() == 1);
+        CHECK_FALSE(std::filesystem::exists(folder.path() / "joined"));
+        return result.output;
+    };
+    CHECK_THAT(
+        refusal("TalkerComp", "CameraComp"),
+        Contains(
+            "tandem: TalkerComp and CameraComp are both OPRoS components, expected one of each model\n"));
+    CHECK_THAT(refusal("EchoRtc", "EchoRtc"), Contains("are both RTCs"));
+    CHECK_THAT(refusal("EchoRtc", "empty"),
+               Contains("empty has no built RTC (tandem rtm build) and is no OPRoS component"));
+    CHECK_THAT(refusal("EchoRtc", "nowhere"), Contains("nowhere does not exist"));
+    const auto occupied = folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--out", "TalkerComp"});
+    CHECK(occupied.exit_code() == 1);
+    CHECK_THAT(
+        occupied.output,
+        Contains("TalkerComp exists and is not empty; remove it, or name another folder with --out DIR"));
+    CHECK(std::filesystem::exists(folder.path() / "TalkerComp/TalkerComp.so"));
+}
