@@ -27,7 +27,7 @@ std::string format_segment(const shm::ObservedSegment& segment) {
 }
 
 // "-" for the times of a side that has not joined: its fields are those of the last generation or zero.
-std::string format_sides(const shm::ObservedSegment& segment) {
+std::string format_side_table(const shm::ObservedSegment& segment) {
     Table table({"side", "state", ">joined", ">heartbeat", ">arena", "objects"});
     for (const Side which : {Side::first, Side::second}) {
         const shm::ObservedSide& side = segment.side(which);
@@ -122,7 +122,7 @@ int shm_info(const std::string& link, std::uint64_t generation, bool json) {
     } else {
         std::string text = format_segment(observation.segment);
         if (observation.segment.readability == shm::Readability::readable)
-            text += "\n" + format_sides(observation.segment) + "\n" + format_objects(observation);
+            text += "\n" + format_side_table(observation.segment) + "\n" + format_objects(observation);
         print_text(text);
     }
     return report_if_unreadable(observation.segment);

@@ -3,6 +3,7 @@
 #pragma once
 #include "host_process.hpp"
 #include <cstring>
+#include <rtm/PortBase.h>
 #include <rtm/idl/ManagerSkel.h>
 
 namespace testing {
@@ -53,5 +54,12 @@ struct RemoteHost {
     std::string port;
     HostProcess host;
 };
+
+inline const std::string short_check_interval = "manager.peer_check_interval:0.05"; // in s
+
+inline std::size_t connection_count(RTC::PortBase& port) {
+    RTC::ConnectorProfileList_var list = port.get_connector_profiles();
+    return list->length();
+}
 
 } // namespace testing

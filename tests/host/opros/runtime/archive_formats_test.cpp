@@ -10,7 +10,7 @@ using namespace opros::archive;
 
 namespace {
 
-enum Color { red, green };
+enum Shade { light, dark };
 
 Pose some_pose() {
     Pose pose;
@@ -56,7 +56,7 @@ void check_all_kinds(Mode... mode) {
     CHECK(same(0.1f));
     CHECK(same(0.1));
     CHECK(same(0.1L));
-    CHECK(same(green));
+    CHECK(same(dark));
     CHECK(same(std::string("a;]\0b", 5)));
     CHECK(same(std::wstring(L"w\x20ac")));
     CHECK(same(std::vector<double>{1.5, -2}));

@@ -10,13 +10,6 @@ using namespace testing;
 
 namespace {
 
-const std::string short_check_interval = "manager.peer_check_interval:0.05";
-
-std::size_t connections(RTC::PortBase& port) {
-    RTC::ConnectorProfileList_var list = port.get_connector_profiles();
-    return list->length();
-}
-
 RTC::ReturnCode_t connect(RTC::PortBase& ours, RTC::RTObject_ptr theirs, const char* port,
                           const std::vector<std::pair<std::string, std::string>>& properties = {}) {
     coil::Properties all;
@@ -44,16 +37,16 @@ TEST_CASE("A preconnect entry is connected when its process starts later, and ag
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     CORBA_RTCUtil::activate(RTC::RTObject_var(accumulator.getObjRef()).in());
     CHECK_NOTHROW(fixture.connect("rtcloc://127.0.0.1:" + port + "/Counter0.out?port=Accumulator0.in"));
-    CHECK(connections(accumulator.in_) == 0);
+    CHECK(connection_count(accumulator.in_) == 0);
     for (int life = 0; life < 2; ++life) {
         RemoteHost other("Counter", port, {"manager.components.preactivation:Counter0"});
         REQUIRE(other.host.wait_for_output("ready\n"));
         const long before = accumulator.received_;
-        CHECK(eventually([&] { return connections(accumulator.in_) == 1; }));
+        CHECK(eventually([&] { return connection_count(accumulator.in_) == 1; }));
         CHECK(eventually([&] { return accumulator.received_ > before + 10; }));
         other.host.send_signal(SIGKILL);
         other.host.wait_for_exit();
-        CHECK(eventually([&] { return connections(accumulator.in_) == 0; }));
+        CHECK(eventually([&] { return connection_count(accumulator.in_) == 0; }));
     }
 }
 
@@ -63,11 +56,11 @@ TEST_CASE("A kept connection that is disconnected on purpose stays disconnected"
     ManagerFixture fixture(false, {short_check_interval});
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out");
-    CHECK(connections(accumulator.in_) == 1);
+    CHECK(connection_count(accumulator.in_) == 1);
     std::this_thread::sleep_for(std::chrono::milliseconds(300)); // some rounds of checks
     CHECK(accumulator.in_.disconnect_all() == RTC::RTC_OK);
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    CHECK(connections(accumulator.in_) == 0);
+    CHECK(connection_count(accumulator.in_) == 0);
 }
 
 TEST_CASE("A lost connection is logged once and the line names the port once") {
@@ -90,12 +83,12 @@ TEST_CASE("A lost connection is logged once and the line names the port once") {
     fixture.manager().getLogStreamBuf().addStream(&lines);
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     fixture.connect("Accumulator0.in?port=rtcloc://127.0.0.1:" + other.port + "/Counter0.out");
-    REQUIRE(connections(accumulator.in_) == 1);
+    REQUIRE(connection_count(accumulator.in_) == 1);
     RTC::ConnectorProfileList_var profiles = accumulator.in_.get_connector_profiles();
     const std::string id(profiles[0].connector_id);
     other.host.send_signal(SIGKILL);
     other.host.wait_for_exit();
-    CHECK(eventually([&] { return connections(accumulator.in_) == 0; }));
+    CHECK(eventually([&] { return connection_count(accumulator.in_) == 0; }));
     CHECK(lines.get() == "Accumulator0.in: the other side of connection " + id + " is gone\n");
     fixture.manager().getLogStreamBuf().removeStream(&lines);
 }
@@ -140,9 +133,9 @@ TEST_CASE("A peer that dies or hangs in its notify_connect leaves nothing behind
     RTC::RTObject_var bad = other.component(fixture.manager().theORB(), "BadPeer0");
     CHECK(connect(counter.out_, bad.in(), "hangs") != RTC::RTC_OK);
     CHECK_THAT(counter.out_.connectError(), Catch::Contains("no answer in time"));
-    CHECK(connections(counter.out_) == 0);
+    CHECK(connection_count(counter.out_) == 0);
     CHECK(connect(counter.out_, bad.in(), "dies") != RTC::RTC_OK);
-    CHECK(connections(counter.out_) == 0);
+    CHECK(connection_count(counter.out_) == 0);
     CHECK(counter.out_.getConnectorIds().empty());
     CHECK(other.host.wait_for_exit() == 3);
     fixture.connect("Counter0.out?port=Accumulator0.in");
@@ -166,11 +159,11 @@ TEST_CASE("A peer that dies or hangs in its notify_disconnect leaves nothing beh
     REQUIRE(connect(counter.out_, reporter.in(), "in") == RTC::RTC_OK);
     REQUIRE(connect(counter.out_, bad.in(), "hangs_late") == RTC::RTC_OK);
     REQUIRE(connect(counter.out_, bad.in(), "dies_late") == RTC::RTC_OK);
-    CHECK(connections(counter.out_) == 3);
+    CHECK(connection_count(counter.out_) == 3);
     for (const int left : {2, 1}) {
         RTC::ConnectorProfileList_var all = counter.out_.get_connector_profiles();
         CHECK(counter.out_.disconnect(all[1].connector_id) == RTC::RTC_OK);
-        CHECK(connections(counter.out_) == static_cast<std::size_t>(left));
+        CHECK(connection_count(counter.out_) == static_cast<std::size_t>(left));
         CHECK(counter.out_.getConnectorIds().size() == static_cast<std::size_t>(left));
     }
     CHECK(other.host.wait_for_exit() == 3);
@@ -287,7 +280,7 @@ TEST_CASE(
     for (int i = 0; i < 20; ++i) REQUIRE(reads(-1));
     first.host.send_signal(SIGKILL);
     for (int i = 0; i < 20; ++i) REQUIRE(reads(-1));
-    CHECK(connections(puller.in_) == 2);
+    CHECK(connection_count(puller.in_) == 2);
 }
 
 TEST_CASE("A receiver that hangs delays no other receiver and is served again when it continues") {

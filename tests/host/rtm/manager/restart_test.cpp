@@ -12,15 +12,9 @@ using namespace testing;
 namespace {
 
 constexpr int lives = 4;
-const std::string short_check_interval = "manager.peer_check_interval:0.05";
 const std::vector<std::string> ways = {"", "&dataflow_type=pull", "&interface_type=data_service"};
 
 std::string at(const std::string& port) { return "rtcloc://127.0.0.1:" + port + "/"; }
-
-std::size_t connections(RTC::PortBase& port) {
-    RTC::ConnectorProfileList_var list = port.get_connector_profiles();
-    return list->length();
-}
 
 std::size_t open_files() {
     namespace fs = std::filesystem;
@@ -63,12 +57,12 @@ TEST_CASE("A sender that is killed and restarted is read again by push and by pu
         [&](RemoteHost&) {
             return std::all_of(accumulators.begin(), accumulators.end(), [](Accumulator* accumulator) {
                 return eventually(
-                    [&] { return connections(accumulator->in_) == 1 && accumulator->in_.read(); });
+                    [&] { return connection_count(accumulator->in_) == 1 && accumulator->in_.read(); });
             });
         },
         [&] {
-            return connections(accumulators[0]->in_) + connections(accumulators[1]->in_) +
-                   connections(accumulators[2]->in_);
+            return connection_count(accumulators[0]->in_) + connection_count(accumulators[1]->in_) +
+                   connection_count(accumulators[2]->in_);
         });
 }
 
@@ -78,7 +72,7 @@ TEST_CASE("A receiver that is killed and restarted gets data again whichever sid
         false, {short_check_interval, "exec_cxt.periodic.rate:200", "corba.endpoints:127.0.0.1:" + here});
     auto& counter = fixture.create<Counter>("Counter");
     CORBA_RTCUtil::activate(RTC::RTObject_var(counter.getObjRef()).in());
-    const auto left = [&] { return connections(counter.out_); };
+    const auto left = [&] { return connection_count(counter.out_); };
     const std::string activation = "manager.components.preactivation:Reporter0";
     for (const auto& way : ways) {
         INFO("its own host connects it " << way);
@@ -115,13 +109,13 @@ TEST_CASE("A service can be called again when its process was killed and restart
         numbers[1] = 2;
         return eventually([&] {
             try {
-                return connections(consumer.port_) == 1 && consumer.calculator_->sum(numbers) == 3.5;
+                return connection_count(consumer.port_) == 1 && consumer.calculator_->sum(numbers) == 3.5;
             } catch (const CORBA::SystemException&) {
                 return false; // the reference of the life before, or not active yet
             }
         });
     };
-    const auto left = [&] { return connections(consumer.port_); };
+    const auto left = [&] { return connection_count(consumer.port_); };
     const std::string activation = "manager.components.preactivation:CalculatorProvider0";
     restart("CalculatorProvider", port,
             {activation, "manager.components.preconnect:CalculatorProvider0.calculator?port=" + at(here) +

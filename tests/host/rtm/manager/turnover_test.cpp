@@ -10,7 +10,7 @@ using namespace testing;
 
 namespace {
 
-int lives() {
+int life_count() {
     const char* factor = std::getenv("TANDEM_STRESS");
     return 100 * (factor != nullptr ? std::max(1, std::atoi(factor)) : 1);
 }
@@ -66,7 +66,7 @@ TEST_CASE("Components that are created, connected and deleted leak nothing") {
     for (int i = 0; i < 30; ++i) life(i); // what is allocated once
     const std::size_t open = open_descriptors();
     const long memory = kilobytes("self");
-    const int n = lives();
+    const int n = life_count();
     for (int i = 0; i < n; ++i) life(i);
     INFO("kB before " << memory << ", after " << kilobytes("self"));
     CHECK(eventually(
@@ -102,7 +102,7 @@ TEST_CASE("Components that a tool creates and deletes leak nothing") {
     for (int i = 0; i < 30; ++i) life(i);
     const std::size_t open = other.host.descriptor_count();
     const long memory = kilobytes(pid.c_str());
-    const int n = lives();
+    const int n = life_count();
     for (int i = 0; i < n; ++i) life(i);
     RTC::RTCList_var left = manager->get_components();
     CHECK(left->length() == 1);

@@ -14,7 +14,7 @@ namespace {
 // The wire of this transport: who listens under an address.
 std::map<std::string, RTC::InPortConnector*> listening;
 std::map<std::string, std::function<RTC::BufferStatus(RTC::ByteData&)>> waiting;
-std::function<void(RTC::ByteData&)> received;
+std::function<void(RTC::ByteData&)> on_received;
 int live_endpoints = 0;
 std::string colour_setting;
 
@@ -29,7 +29,7 @@ struct TestInPortProvider : RTC::InPortProvider, LiveCount {
     void init(coil::Properties& prop) override { colour_setting = prop.getProperty("post.colour"); }
     void setBuffer(RTC::BufferBase<RTC::ByteData>*) override {}
     void setListener(RTC::ConnectorInfo& info, RTC::ConnectorListenersBase* listeners) override {
-        received = [connector = info, listeners](RTC::ByteData& data) mutable {
+        on_received = [connector = info, listeners](RTC::ByteData& data) mutable {
             listeners->notifyIn(RTC::ConnectorDataListenerType::ON_RECEIVED, connector, data);
         };
     }
@@ -44,7 +44,7 @@ struct TestInPortConsumer : RTC::InPortConsumer, LiveCount {
     RTC::DataPortStatus put(RTC::ByteData& data) override {
         const auto found = listening.find(address);
         if (found == listening.end()) return RTC::DataPortStatus::CONNECTION_LOST;
-        received(data);
+        on_received(data);
         return found->second->write(data) == RTC::BufferStatus::OK ? RTC::DataPortStatus::PORT_OK
                                                                    : RTC::DataPortStatus::BUFFER_ERROR;
     }
@@ -90,9 +90,9 @@ struct TestOutPortConsumer : RTC::OutPortConsumer, LiveCount {
     void unsubscribeInterface(const SDOPackage::NVList&) override {}
 };
 
-struct ValueListener : RTC::ConnectorDataListenerT<RTC::TimedLong> {
+struct ReceivedValues : RTC::ConnectorDataListenerT<RTC::TimedLong> {
     USE_CONNLISTENER_STATUS;
-    explicit ValueListener(std::vector<int>& received_values) : values(received_values) {}
+    explicit ReceivedValues(std::vector<int>& received_values) : values(received_values) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong& value) override {
         values.push_back(static_cast<int>(value.data));
         return NO_CHANGE;
@@ -125,7 +125,7 @@ TEST_CASE("a registered push transport carries the data of connections that ask 
 
     fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post&post.colour=red");
     std::vector<int> received_values;
-    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new ValueListener(received_values));
+    accumulator.in_.addConnectorDataListener(RTC::ON_RECEIVED, new ReceivedValues(received_values));
     CHECK(colour_setting == "red");
     CHECK(live_endpoints == 2);
     fixture.activate(counter);
@@ -154,7 +154,7 @@ TEST_CASE("a registered pull transport fetches what waits at the OutPort") {
     auto& accumulator = fixture.create<Accumulator>("Accumulator");
     fixture.connect("Counter0.out?port=Accumulator0.in&interface_type=post&dataflow_type=pull");
     std::vector<int> sent;
-    counter.out_.addConnectorDataListener(RTC::ON_SEND, new ValueListener(sent));
+    counter.out_.addConnectorDataListener(RTC::ON_SEND, new ReceivedValues(sent));
     fixture.activate(counter);
     for (int i = 0; i < 3; ++i) fixture.step(counter);
     for (int i = 0; i < 3; ++i) {
