@@ -5,6 +5,7 @@
 #include "apps/bench/report/compare.hpp"
 #include "apps/bench/report/html.hpp"
 #include "apps/bench/report/table.hpp"
+#include "shm/segment/dead_segments.hpp"
 
 #include <fmt/format.h>
 
@@ -82,6 +83,7 @@ int run(const Options& options) {
     const auto limits = limits_for(registry);
     const Plan plan = plan_of(options, registry, limits);
     const Report before = options.compare.empty() ? Report{} : read_report(options.compare);
+    tandem::shm::remove_dead_segments();
     // Before the first fork: children inherit the calibrated clock.
     catch_interrupts();
     Clock::calibrate();

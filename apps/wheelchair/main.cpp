@@ -11,6 +11,7 @@
 #include "apps/wheelchair/report/figure.hpp"
 #include "apps/wheelchair/report/report.hpp"
 #include "apps/wheelchair/run/supervisor.hpp"
+#include "shm/segment/dead_segments.hpp"
 
 namespace {
 
@@ -85,6 +86,7 @@ int main(int argc, char** argv) {
         SIGPIPE,
         SIG_IGN); // if the reader of this program's output ends early, the hosts are still stopped in order
     const Options options = parse_options(argc, argv);
+    tandem::shm::remove_dead_segments();
     try {
         return drive(options);
     } catch (const Interrupted&) {

@@ -18,6 +18,15 @@ std::optional<DataPortStatus> status_of(const CORBA::SystemException& e) {
     return DataPortStatus::PORT_ERROR;
 }
 
+bool is_responding(CORBA::Object_ptr object) {
+    try {
+        object->_non_existent();
+    } catch (const CORBA::SystemException& e) {
+        return status_of(e).has_value();
+    }
+    return true;
+}
+
 void set_call_timeout(CORBA::Object_ptr object, std::chrono::milliseconds timeout) {
     omniORB::setClientCallTimeout(object, static_cast<CORBA::ULong>(timeout.count()));
 }
@@ -69,15 +78,7 @@ class CorbaSender : public RemoteSender {
             return status_of(e);
         }
     }
-    // _non_existent() is CORBA's ping: any answer, an error too, is a sign of life.
-    bool isResponding() override {
-        try {
-            object_->_non_existent();
-        } catch (const CORBA::SystemException& e) {
-            return status_of(e).has_value();
-        }
-        return true;
-    }
+    bool isResponding() override { return is_responding(object_.in()); }
     void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:

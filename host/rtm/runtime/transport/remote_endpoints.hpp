@@ -58,6 +58,8 @@ std::string address_key(const std::string& interface_type, const char* side);
 /// What an exception of a call means: no answer in time (empty), CONNECTION_LOST when there is no such object,
 /// or PORT_ERROR for an answer that is an error.
 std::optional<DataPortStatus> status_of(const CORBA::SystemException& e);
+/// Whether the object's process answers CORBA's ping; an error is an answer, too. [any-thread; waits for the process]
+bool is_responding(CORBA::Object_ptr object);
 
 void set_call_timeout(CORBA::Object_ptr object, std::chrono::milliseconds timeout);
 

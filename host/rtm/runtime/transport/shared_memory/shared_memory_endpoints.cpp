@@ -168,14 +168,7 @@ class SharedMemorySender : public RemoteSender {
             return status_of(e);
         }
     }
-    bool isResponding() override {
-        try {
-            object_->_non_existent();
-        } catch (const CORBA::SystemException& e) {
-            return status_of(e).has_value();
-        }
-        return true;
-    }
+    bool isResponding() override { return is_responding(object_.in()); }
     void setTimeout(std::chrono::milliseconds timeout) override { set_call_timeout(object_.in(), timeout); }
 
   private:
