@@ -32,4 +32,19 @@ std::string first_error(const std::string& output) {
     return last;
 }
 
+std::string missing_header(const std::string& line) {
+    const std::string before = "fatal error: ", after = ": No such file or directory";
+    const auto begin = line.find(before), end = line.find(after);
+    if (begin == std::string::npos || end == std::string::npos || end < begin) return "";
+    return line.substr(begin + before.size(), end - begin - before.size());
+}
+
+std::vector<std::string> missing_headers(const std::string& output) {
+    std::istringstream lines(output);
+    std::vector<std::string> headers;
+    for (std::string line; std::getline(lines, line);)
+        if (const auto header = missing_header(line); !header.empty()) headers.push_back(header);
+    return headers;
+}
+
 } // namespace tandem::command

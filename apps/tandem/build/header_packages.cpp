@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/header_packages.hpp"
-#include "apps/tandem/build/source_text.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 
 #include <iterator>
 #include <set>

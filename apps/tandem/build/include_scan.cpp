@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/include_scan.hpp"
+#include "apps/tandem/build/folder/checkout.hpp"
+#include "apps/tandem/build/folder/project_files.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "apps/tandem/build/header_packages.hpp"
-#include "apps/tandem/build/project_files.hpp"
-#include "apps/tandem/build/source_text.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -35,15 +36,12 @@ std::vector<std::string> included_names(const fs::path& file) {
     return names;
 }
 
-// A header of OPRoS's or OpenRTM-aist's own beside a component must not hide Tandem's.
-bool has_upstream_api(const fs::path& dir) {
-    return is_file(dir / "Component.h") || is_file(dir / "rtm/Manager.h") || is_file(dir / "OPRoSTypes.h");
-}
-
 class Scanner {
   public:
-    Scanner(const fs::path& folder, const Paths& sources, const Paths& include_dirs)
-        : folder_(fs::canonical(folder)), dirs_(include_dirs), found_(list_files_below(folder_)) {
+    Scanner(const fs::path& folder, const Paths& sources, const Paths& include_dirs,
+            const NeighbourHeaders& neighbours)
+        : folder_(fs::canonical(folder)), dirs_(include_dirs), found_(list_files_below(folder_)),
+          neighbours_(neighbours) {
         for (const char* place : {".", "include", "src"})
             dirs_.push_back((folder_ / place).lexically_normal());
         std::error_code ignored;
@@ -78,11 +76,12 @@ class Scanner {
         for (const auto& dir : dirs_)
             if (is_file(dir / name)) return read((dir / name).lexically_normal());
         if (result.forwards.count(name) != 0) return;
-        if (const auto file = find_below(name); !file.empty()) {
-            result.forwards[name] = file.string();
-            return read(file);
-        }
-        find_idl(name);
+        auto file = find_below(name);
+        if (const auto neighbour = neighbours_.find(name); file.empty() && neighbour != neighbours_.end())
+            file = neighbour->second;
+        if (file.empty()) return find_idl(name);
+        result.forwards[name] = file.string();
+        read(file);
     }
 
     // The file whose path ends so: in the same case if there is one, otherwise in any.
@@ -133,38 +132,31 @@ class Scanner {
 
     fs::path folder_;
     Paths dirs_, found_;
+    const NeighbourHeaders& neighbours_;
     std::set<fs::path> places_, visited_;
 };
 
 } // namespace
 
-IncludeScan scan_includes(const fs::path& folder, const Paths& sources, const Paths& include_dirs) {
-    Scanner scanner(folder, sources, include_dirs);
+IncludeScan scan_includes(const fs::path& folder, const Paths& sources, const Paths& include_dirs,
+                          const NeighbourHeaders& neighbours) {
+    Scanner scanner(folder, sources, include_dirs, neighbours);
     for (const auto& source : sources) scanner.read(source);
     return scanner.result;
 }
 
-void write_forwards(const std::map<std::string, std::string>& forwards, const fs::path& folder) {
-    fs::create_directories(folder);
+fs::path write_forwards(const std::map<std::string, std::string>& forwards, const fs::path& folder) {
+    const auto search_path = folder / "searched" / "from" / "here";
+    fs::create_directories(search_path);
     for (const auto& [name, meant] : forwards) {
-        // A name with ".." would leave the folder; one with '\' is a file's name here.
-        if (name.find("../") != std::string::npos || name.empty() || name[0] == '/') continue;
-        const auto file = folder / name;
+        const auto file = (search_path / name).lexically_normal(); // one with '\\' is a file's name here
+        if (name.empty() || name[0] == '/' || *file.lexically_relative(folder).begin() == "..") continue;
         fs::create_directories(file.parent_path());
         // In brackets one that is made from an IDL file: quotes would find this file, which may have the same name.
         std::ofstream(file) << (meant[0] == '/' ? "#include \"" + meant + "\"\n"
                                                 : "#include <" + meant + ">\n");
     }
-}
-
-std::string find_neighbour_with(const fs::path& folder, const std::string& header) {
-    std::error_code error;
-    const auto parent = fs::canonical(folder, error).parent_path();
-    if (error || parent == parent.root_path()) return "";
-    for (const auto& entry : fs::directory_iterator(parent, error))
-        for (const auto& dir : {entry.path(), entry.path() / "include", entry.path() / "src"})
-            if (is_file(dir / header)) return dir.string();
-    return "";
+    return search_path;
 }
 
 } // namespace tandem::command

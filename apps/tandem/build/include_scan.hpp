@@ -20,16 +20,19 @@ struct IncludeScan {
     bool old_opencv = false;          ///< whether a header of OpenCV 1 or 2 for C is included
 };
 
-/// Reads the sources and those of the component's headers that they include. `include_dirs`: folders that are searched
-/// besides the component's own and the system's.
+/// Headers of the component's neighbours, by the names under which they are included.
+using NeighbourHeaders = std::map<std::string, std::filesystem::path>;
+
+/// Reads the sources and those headers of the component and of `neighbours` that they include. `include_dirs`: folders
+/// that are searched besides the component's own and the system's.
 IncludeScan scan_includes(const std::filesystem::path& folder,
                           const std::vector<std::filesystem::path>& sources,
-                          const std::vector<std::filesystem::path>& include_dirs);
+                          const std::vector<std::filesystem::path>& include_dirs,
+                          const NeighbourHeaders& neighbours = {});
 
-/// Writes a header for each forward that includes what is meant.
-void write_forwards(const std::map<std::string, std::string>& forwards, const std::filesystem::path& folder);
-
-/// A folder beside the component's that has the header, "" without one.
-std::string find_neighbour_with(const std::filesystem::path& folder, const std::string& header);
+/// Writes a header for each forward that includes what is meant, below `folder`. Returns the folder for the compiler's
+/// search path, which lies deeper, because names may begin with "../".
+std::filesystem::path write_forwards(const std::map<std::string, std::string>& forwards,
+                                     const std::filesystem::path& folder);
 
 } // namespace tandem::command

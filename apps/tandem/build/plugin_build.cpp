@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/plugin_build.hpp"
+#include "apps/tandem/build/cmake_project.hpp"
 #include "apps/tandem/build/first_error.hpp"
+#include "apps/tandem/build/folder/checkout.hpp"
+#include "apps/tandem/build/folder/cmake_lists.hpp"
+#include "apps/tandem/build/header_packages.hpp"
 #include "apps/tandem/build/include_scan.hpp"
 #include "apps/tandem/build/package_folder.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "host/process/run_command.hpp"
 
+#include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -47,54 +53,6 @@ class BuildFolder {
     fs::path path_;
 };
 
-std::string cmake_quote(const std::string& text) {
-    // CMake expands nothing inside of a bracket argument.
-    return "[==[" + text + "]==]";
-}
-
-// A keyword of the CMake function with its values; "" without values.
-std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
-    if (values.empty()) return "";
-    std::string text = std::string("\n  ") + keyword;
-    for (const auto& value : values) text += " " + cmake_quote(value);
-    return text;
-}
-
-std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
-    std::vector<std::string> names;
-    names.reserve(files.size());
-    for (const auto& file : files) names.push_back(fs::absolute(file).string());
-    return names;
-}
-
-// What is built: a model's component in the build folder.
-struct Plugin {
-    std::string model, name;
-    SelectedSources sources;
-    IncludeScan includes;
-};
-
-// The CMakeLists.txt. Paths are absolute, because it lies in the build folder.
-std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
-    const std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
-    const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
-                                                 plugin.includes.pkg_config.end());
-    const bool rtm = plugin.model == "rtm"; // whose CMake function passes programs over
-    return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
-           "find_package(Tandem REQUIRED COMPONENTS " +
-           plugin.model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote((build / "made").string()) +
-           ")\ntandem_add_" + plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
-           cmake_quote(fs::absolute(options.folder).string()) +
-           cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
-           (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
-           cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs)) +
-           cmake_argument("DEFINITIONS", options.definitions) +
-           cmake_argument("LIBRARIES", options.libraries) + cmake_argument("PKG_CONFIG", options.pkg_config) +
-           cmake_argument("PKG_CONFIG_IF_FOUND", found_modules) +
-           cmake_argument("FORWARDS", {(build / "forwards").string()}) +
-           fmt::format("\n  CXX_STANDARD {})\n", options.standard);
-}
-
 // What the exception of a failed step adds to the first error.
 std::string advice(const std::string& error, const Plugin& plugin, const fs::path& folder) {
     std::string text = find_remedy(error, folder);
@@ -109,12 +67,9 @@ std::string advice(const std::string& error, const Plugin& plugin, const fs::pat
     return text.empty() ? "" : "; " + text;
 }
 
-// Runs one step of CMake. On failure all of its output is printed, and its first error is repeated in the
-// exception, where it is the last line on the terminal, with what to do about it.
-void run_cmake(const std::vector<std::string>& command, const PluginBuildOptions& build_options,
-               const Plugin& plugin, const std::string& what) {
-    const double timeout_s = build_options.timeout_s;
-    const std::string& name = plugin.name;
+// Runs one step of CMake. Returns its output if it failed.
+std::optional<std::string> run_cmake(const std::vector<std::string>& command, double timeout_s,
+                                     const std::string& name) {
     process::CommandOptions options;
     options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(timeout_s * 1000));
     options.merge_errors = true;
@@ -131,12 +86,55 @@ void run_cmake(const std::vector<std::string>& command, const PluginBuildOptions
         throw std::runtime_error(fmt::format("the build of component {} was not done within {} s and has "
                                              "been ended; --timeout gives it more time",
                                              name, timeout_s));
-    if (result.succeeded()) return;
-    print_text(result.output);
-    const std::string error = first_error(result.output);
-    throw std::runtime_error("component " + name + " " + what + ": " + error +
-                             advice(error, plugin, build_options.folder) +
-                             " (the compiler's output is above)");
+    if (result.succeeded()) return std::nullopt;
+    return result.output;
+}
+
+// Prints the output of a failed step and repeats its first error in the exception, where it is the last line on the
+// terminal, with what to do about it.
+[[noreturn]] void fail(const std::string& output, const Plugin& plugin, const fs::path& folder,
+                       const std::string& what) {
+    print_text(output);
+    const std::string error = first_error(output);
+    throw std::runtime_error("component " + plugin.name + " " + what + ": " + error +
+                             advice(error, plugin, folder) + " (the compiler's output is above)");
+}
+
+// Takes each header that the compiler has missed from the one place in the checkout that has it, and says so. Returns
+// whether there was any.
+bool add_neighbours(const std::string& output, const fs::path& folder, NeighbourHeaders& neighbours) {
+    bool added = false;
+    for (const auto& header : missing_headers(output)) {
+        const auto found = find_in_checkout(find_checkout(folder), header);
+        if (found.size() != 1 || is_windows_header(header) || !neighbours.emplace(header, found[0]).second)
+            continue;
+        fmt::print(stderr, "tandem: {} is not in {}; taken from elsewhere in this repository: {}\n", header,
+                   folder.string(), found[0].lexically_proximate(fs::current_path()).string());
+        added = true;
+    }
+    return added;
+}
+
+// Configures and compiles in the folder `build`, anew each time that headers were found which were missing.
+void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
+    const std::string bin = (build / "bin").string();
+    for (;;) {
+        plugin.includes =
+            scan_includes(options.folder, plugin.sources.sources,
+                          {options.include_dirs.begin(), options.include_dirs.end()}, plugin.neighbours);
+        const auto forwards = write_forwards(plugin.includes.forwards, build / "forwards");
+        std::ofstream(build / "CMakeLists.txt") << cmake_project(plugin, options, build, forwards);
+        // Two steps, each with its own time limit and its own message.
+        auto output =
+            run_cmake({"cmake", "-S", build.string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                       "-DTandem_DIR=" + cmake_package_folder().string()},
+                      options.timeout_s, plugin.name);
+        if (output) fail(*output, plugin, options.folder, "cannot be set up");
+        output = run_cmake({"cmake", "--build", bin, "--parallel"}, options.timeout_s, plugin.name);
+        if (!output) return;
+        if (!add_neighbours(*output, options.folder, plugin.neighbours))
+            fail(*output, plugin, options.folder, "does not compile");
+    }
 }
 
 // CMake separates the elements of a list by ';', and knows no way to quote it that survives every function.
@@ -205,19 +203,15 @@ fs::path build_plugin(const std::string& model, const std::string& name, const s
         fs::absolute(options.output.empty() ? default_folder : options.output).lexically_normal();
     for (const auto& dir : options.include_dirs) require_no_semicolon(dir);
     for (const auto& dir : {options.folder, output, options.build}) require_no_semicolon(dir);
-    Plugin plugin{model, name, select_sources(options.folder, entry_point, options.sources), {}};
-    plugin.includes = scan_includes(options.folder, plugin.sources.sources,
-                                    {options.include_dirs.begin(), options.include_dirs.end()});
+    Plugin plugin{model,
+                  name,
+                  select_sources(options.folder, entry_point, options.sources),
+                  read_definitions(options.folder),
+                  {},
+                  {}};
     const BuildFolder build(options.build);
     const fs::path cmake_output = build.path() / "made";
-    write_forwards(plugin.includes.forwards, build.path() / "forwards");
-    std::ofstream(build.path() / "CMakeLists.txt") << cmake_project(plugin, options, build.path());
-    const std::string bin = (build.path() / "bin").string();
-    run_cmake({"cmake", "-S", build.path().string(), "-B", bin, "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-               "-DTandem_DIR=" + cmake_package_folder().string()},
-              options, plugin, "cannot be set up");
-    // Two steps, each with its own time limit and its own message.
-    run_cmake({"cmake", "--build", bin, "--parallel"}, options, plugin, "does not compile");
+    compile(plugin, options, build.path());
     fs::create_directories(output);
     fs::path library = output / (name + ".so");
     replace_library(cmake_output / library.filename(), library);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/remedy.hpp"
+#include "apps/tandem/build/first_error.hpp"
+#include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/header_packages.hpp"
-#include "apps/tandem/build/include_scan.hpp"
 
 #include <utility>
 
@@ -19,8 +20,10 @@ std::string between(const std::string& text, const std::string& before, const st
 std::string install(const LibraryPackage& package) { return std::string("apt install ") + package.package; }
 
 std::string for_header(const std::string& header, const std::filesystem::path& folder) {
-    if (const auto neighbour = find_neighbour_with(folder, header); !neighbour.empty())
-        return "-I " + neighbour;
+    std::string options;
+    for (const auto& dir : folders_with(folder, header))
+        options += (options.empty() ? "-I " : ", or -I ") + dir.string();
+    if (!options.empty()) return options;
     if (is_windows_header(header))
         return header + " is a header of Windows: this source cannot be built here";
     if (const auto* package = find_package_of_header(header)) return install(*package);
@@ -38,14 +41,15 @@ std::string for_symbol(const std::string& symbol) {
 } // namespace
 
 std::string find_remedy(const std::string& error, const std::filesystem::path& folder) {
-    if (const auto header = between(error, "fatal error: ", ": No such file or directory"); !header.empty())
-        return for_header(header, folder);
+    if (const auto header = missing_header(error); !header.empty()) return for_header(header, folder);
     if (const auto symbol = between(error, "undefined reference to `", "'"); !symbol.empty())
         return for_symbol(symbol);
     if (const auto library = between(error + ":", "cannot find -l", ":"); !library.empty()) {
         if (const auto* package = find_package_of_library(library)) return install(*package);
         return "the folder of lib" + library + ".so can be named with -l /FOLDER/lib" + library + ".so";
     }
+    if (error.find("error: #error") != std::string::npos)
+        return "-D NAME or -D NAME=VALUE defines what it asks for";
     if (error.find("required packages were not found") != std::string::npos)
         return "install the Debian package that has the module's .pc file, or leave --pkg-config out";
     return "";

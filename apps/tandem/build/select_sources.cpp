@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/select_sources.hpp"
-#include "apps/tandem/build/project_files.hpp"
-#include "apps/tandem/build/source_text.hpp"
+#include "apps/tandem/build/folder/project_files.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 
 #include <algorithm>
 #include <cctype>

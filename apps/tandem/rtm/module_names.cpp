@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/module_names.hpp"
-#include "apps/tandem/build/source_text.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 
 #include <cctype>
 #include <vector>

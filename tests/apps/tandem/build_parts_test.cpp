@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `tandem opros build` and `tandem rtm build` decide before they compile, and what they say when that fails.
+#include "apps/tandem/build/folder/checkout.hpp"
+#include "apps/tandem/build/folder/cmake_lists.hpp"
+#include "apps/tandem/build/folder/project_files.hpp"
 #include "apps/tandem/build/include_scan.hpp"
-#include "apps/tandem/build/project_files.hpp"
 #include "apps/tandem/build/remedy.hpp"
 #include "apps/tandem/build/select_sources.hpp"
 #include "tests/host/opros/engine/folder.hpp"
@@ -133,8 +135,8 @@ TEST_CASE(
     CHECK(meant("math\\Vector.h") == "Old/lib/math/vector.h");
     CHECK(meant("Deep.h") == "Old/lib/Deep.h");
     CHECK(meant("HERE.h") == "Old/Here.h");
-    write_forwards(scan.forwards, folder.path() / "forwards");
-    CHECK_THAT(text_of(folder.path() / "forwards/math\\Vector.h"),
+    const auto forwards = write_forwards(scan.forwards, folder.path() / "forwards");
+    CHECK_THAT(text_of(forwards / "math\\Vector.h"),
                Catch::StartsWith("#include \"/") && Catch::Contains("Old/lib/math/vector.h\"\n"));
 }
 
@@ -149,8 +151,53 @@ TEST_CASE(
     CHECK(names_of(scan.idl_files) == Names{"Greeter.idl", "Words.idl"});
     REQUIRE(scan.forwards.count("project/idl/GreeterSkel.h") == 1);
     CHECK(scan.forwards.at("project/idl/GreeterSkel.h") == "GreeterSkel.h");
-    write_forwards(scan.forwards, folder.path() / "forwards");
-    CHECK(text_of(folder.path() / "forwards/project/idl/GreeterSkel.h") == "#include <GreeterSkel.h>\n");
+    const auto forwards = write_forwards(scan.forwards, folder.path() / "forwards");
+    CHECK(text_of(forwards / "project/idl/GreeterSkel.h") == "#include <GreeterSkel.h>\n");
+}
+
+TEST_CASE("a header is looked for in the whole checkout by as much of its path as a file there has") {
+    const Folder folder;
+    CHECK(find_checkout(folder.path() / "Old").empty());
+    fs::create_directories(folder.path() / ".git");
+    folder.write("Old/Old.cpp", "");
+    folder.write("lib/util/Gain.h", "a");
+    folder.write("lib/other/Gain.h", "b");
+    folder.write("One_V1.0/Device.h", "same");
+    folder.write("Two_V1.0/Device.h", "same");
+    folder.write("upstream/Component.h", "");
+    folder.write("upstream/Archive.h", "");
+    const auto checkout = find_checkout(folder.path() / "Old");
+    REQUIRE(checkout == fs::canonical(folder.path()));
+    const auto found = [&](const std::string& name) {
+        Names names;
+        for (const auto& file : find_in_checkout(checkout, name))
+            names.push_back(file.lexically_relative(checkout).string());
+        return names;
+    };
+    CHECK(found("robot/util/Gain.h") == Names{"lib/util/Gain.h"});
+    CHECK(found("Gain.h") == Names{"lib/other/Gain.h", "lib/util/Gain.h"});
+    CHECK(found("../One/Device.h") == Names{"One_V1.0/Device.h"});
+    CHECK(found("gain.h").empty());
+    CHECK(found("Archive.h").empty());
+    // The compiler looks for a name with "../" beside the folder that it searches.
+    const auto forwards = write_forwards(
+        {{"../One/Device.h", "/there/Device.h"}, {"../../../../../x.h", "/x"}}, folder.path() / "forwards");
+    CHECK(text_of(forwards / "../One/Device.h") == "#include \"/there/Device.h\"\n");
+    CHECK_FALSE(fs::exists(folder.path() / "x.h"));
+}
+
+TEST_CASE("what the project's CMakeLists.txt define outside of conditions is defined") {
+    const Folder folder;
+    fs::create_directories(folder.path() / ".git");
+    folder.write("CMakeLists.txt", "set(MAJOR 3)\nset(IOB_VERSION 4 CACHE STRING \"of the interface\")\n"
+                                   "add_definitions(-DROBOT_VERSION=\\\"\\\\\"${MAJOR}.1\\\\\"\\\")\n"
+                                   "add_definitions(-DIOB=${IOB_VERSION} -DUNKNOWN=${NOT_KNOWN} -Wall)\n"
+                                   "if(WIN32)\n add_definitions(-DWIN32_LEAN)\nendif()\n");
+    folder.write("rtc/CMakeLists.txt", "ADD_DEFINITIONS(-DNAME=\"${MAJOR}\" -DPLAIN)\n");
+    const auto rtc = folder.path() / "rtc";
+    CHECK(read_definitions(rtc) == Names{"ROBOT_VERSION=\"3.1\"", "IOB=4", "NAME=\"3\"", "PLAIN"});
+    fs::remove(folder.path() / ".git"); // the folders above are not the component's
+    CHECK(read_definitions(rtc) == Names{"PLAIN"});
 }
 
 TEST_CASE("an error about a header or a library is followed by what to do about it") {
@@ -164,6 +211,8 @@ TEST_CASE("an error about a header or a library is followed by what to do about 
     CHECK(no_header("ode/ode.h") == "apt install libode-dev");
     CHECK(no_header("opencv/cv.h") == "apt install libopencv-dev");
     CHECK(no_header("Gain.h") == "-I " + (fs::canonical(folder.path()) / "Neighbour/include").string());
+    folder.write("Other/Gain.h", "");
+    CHECK_THAT(no_header("Gain.h"), Catch::Contains("Neighbour/include") && Catch::Contains(", or -I "));
     CHECK_THAT(no_header("afxwin.h"), Catch::Contains("a header of Windows"));
     CHECK_THAT(no_header("Vendor.h"), Catch::Contains("-I DIR"));
     CHECK(remedy("Old.cpp:9: undefined reference to `cvReleaseImage'") == "--pkg-config opencv4");
@@ -171,6 +220,8 @@ TEST_CASE("an error about a header or a library is followed by what to do about 
     CHECK(remedy("Old.cpp:9: undefined reference to `boost::thread::join()'") == "-l boost_thread");
     CHECK_THAT(remedy("Old.cpp:9: undefined reference to `nowhere()'"), Catch::Contains("--source FILE"));
     CHECK(remedy("/usr/bin/ld: cannot find -lode: No such file or directory") == "apt install libode-dev");
+    CHECK(remedy("Old.h:1:2: error: #error define FIXED or FLOATING") ==
+          "-D NAME or -D NAME=VALUE defines what it asks for");
     CHECK(remedy("Old.cpp:9:3: error: expected ';' before '}' token").empty());
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018cvHaarDetectObjects\u2019 was not declared") ==
           "cvHaarDetectObjects");

@@ -191,6 +191,30 @@ TEST_CASE(
     CHECK(fs::exists(folder.path() / "Old/profile/Old.so"));
 }
 
+TEST_CASE(
+    "a header that the checkout has once is taken from there, and of two that differ the options are named") {
+    const Folder folder;
+    old_component(folder, "");
+    fs::create_directories(folder.path() / ".git");
+    fs::rename(folder.path() / "Old/src/Helper.cpp", folder.path() / "Old/Helper.cpp");
+    folder.write("neighbour/Gain.h",
+                 "#include \"../Device/Device.h\"\ninline double gain() { return device(); }\n");
+    folder.write("Device_V1.0/Device.h", "inline double device() { return 3; }\n");
+    const auto built = build({folder.path() / "Old"});
+    INFO(built.output << built.errors);
+    REQUIRE(built.exit_code == 0);
+    CHECK_THAT(built.errors, Catch::Contains("tandem: Gain.h is not in ") &&
+                                 Catch::Contains("; taken from elsewhere in this repository: ") &&
+                                 Catch::Contains("neighbour/Gain.h\n") &&
+                                 Catch::Contains("Device_V1.0/Device.h\n"));
+    CHECK(std::count(built.errors.begin(), built.errors.end(), '\n') == 2);
+    folder.write("other/Gain.h", "inline double gain() { return 4; }\n");
+    const auto top = fs::canonical(folder.path()).string();
+    CHECK_THAT(build({folder.path() / "Old"}).errors,
+               Catch::Contains("Gain.h: No such file or directory; -I " + top + "/neighbour, or -I " + top +
+                               "/other ("));
+}
+
 TEST_CASE("what cannot be built is said in one line with the profile's line, the package or the cause") {
     const Folder folder;
     const auto last_line = [&](std::vector<std::string> arguments) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/build/source_text.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/cmake_project.hpp"
+
+#include <fmt/format.h>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cmake_quote(const std::string& text) {
+    // CMake expands nothing inside of a bracket argument.
+    return "[==[" + text + "]==]";
+}
+
+// A keyword of the CMake function with its values; "" without values.
+std::string cmake_argument(const char* keyword, const std::vector<std::string>& values) {
+    if (values.empty()) return "";
+    std::string text = std::string("\n  ") + keyword;
+    for (const auto& value : values) text += " " + cmake_quote(value);
+    return text;
+}
+
+std::vector<std::string> absolute_names(const std::vector<fs::path>& files) {
+    std::vector<std::string> names;
+    names.reserve(files.size());
+    for (const auto& file : files) names.push_back(fs::absolute(file).string());
+    return names;
+}
+
+} // namespace
+
+// Paths are absolute, because it lies in the build folder.
+std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& options, const fs::path& build,
+                          const fs::path& forwards) {
+    const std::vector<fs::path> include_dirs(options.include_dirs.begin(), options.include_dirs.end());
+    const std::vector<std::string> found_modules(plugin.includes.pkg_config.begin(),
+                                                 plugin.includes.pkg_config.end());
+    // Those of the command line last: of two for one name the compiler takes the last.
+    std::vector<std::string> definitions = plugin.definitions;
+    definitions.insert(definitions.end(), options.definitions.begin(), options.definitions.end());
+    const bool rtm = plugin.model == "rtm"; // whose CMake function passes programs over
+    return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
+           "find_package(Tandem REQUIRED COMPONENTS " +
+           plugin.model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote((build / "made").string()) +
+           ")\ntandem_add_" + plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
+           cmake_quote(fs::absolute(options.folder).string()) +
+           cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
+           (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +
+           cmake_argument("INCLUDE_DIRS", absolute_names(include_dirs)) +
+           cmake_argument("DEFINITIONS", definitions) + cmake_argument("LIBRARIES", options.libraries) +
+           cmake_argument("PKG_CONFIG", options.pkg_config) +
+           cmake_argument("PKG_CONFIG_IF_FOUND", found_modules) +
+           cmake_argument("FORWARDS", {forwards.string()}) +
+           fmt::format("\n  CXX_STANDARD {})\n", options.standard);
+}
+
+} // namespace tandem::command

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/build/folder/checkout.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+bool ends_with_path(const fs::path& file, const fs::path& end) {
+    const auto length = std::distance(end.begin(), end.end()),
+               whole = std::distance(file.begin(), file.end());
+    return whole >= length && std::equal(end.begin(), end.end(), std::next(file.begin(), whole - length));
+}
+
+// One file of each content: repositories have copies of the same header beside each of their components.
+Paths distinct(const Paths& files) {
+    Paths found;
+    for (const auto& file : files) {
+        const auto text = read_text(file);
+        if (std::none_of(found.begin(), found.end(),
+                         [&](const auto& other) { return read_text(other) == text; }))
+            found.push_back(file);
+    }
+    return found;
+}
+
+} // namespace
+
+fs::path find_checkout(const fs::path& folder) {
+    std::error_code ignored;
+    const auto whole = fs::weakly_canonical(folder, ignored);
+    for (auto at = whole; at != at.root_path(); at = at.parent_path())
+        for (const char* mark : {".git", ".hg", ".svn"})
+            if (fs::exists(at / mark, ignored)) return at;
+    return {};
+}
+
+Paths folders_down_to(const fs::path& folder) {
+    std::error_code ignored;
+    Paths folders{fs::weakly_canonical(folder, ignored)};
+    const auto checkout = find_checkout(folder);
+    while (!checkout.empty() && folders.front() != checkout)
+        folders.insert(folders.begin(), folders.front().parent_path());
+    return folders;
+}
+
+bool has_upstream_api(const fs::path& folder) {
+    const auto has = [&](const char* file) {
+        std::error_code ignored;
+        return fs::is_regular_file(folder / file, ignored);
+    };
+    return has("Component.h") || has("OPRoSTypes.h") || has("rtm/Manager.h") ||
+           has("DataFlowComponentBase.h");
+}
+
+Paths find_in_checkout(const fs::path& checkout, const std::string& name) {
+    if (checkout.empty()) return {};
+    fs::path end = fs::path(to_posix_path(name)).lexically_normal();
+    while (!end.empty() && (*end.begin() == ".." || end.is_absolute()))
+        end = end.lexically_relative(*end.begin());
+    const auto all = list_files_below(checkout);
+    for (; !end.empty() && end != "."; end = end.lexically_relative(*end.begin())) {
+        Paths found;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(found), [&](const auto& file) {
+            return is_source_or_header(file) && ends_with_path(file, end) &&
+                   !has_upstream_api(file.parent_path());
+        });
+        if (!found.empty()) return distinct(found);
+    }
+    return {};
+}
+
+Paths folders_with(const fs::path& component_folder, const std::string& header) {
+    std::error_code ignored;
+    Paths possible;
+    const auto checkout = find_checkout(component_folder);
+    for (auto file : find_in_checkout(checkout, header)) {
+        for (const auto& part : fs::path(header)) file = part == ".." ? file : file.parent_path();
+        possible.push_back(file);
+    }
+    const auto parent = fs::weakly_canonical(component_folder, ignored).parent_path();
+    if (checkout.empty() && parent != parent.root_path())
+        for (const auto& entry : fs::directory_iterator(parent, ignored))
+            for (const auto& dir : {entry.path(), entry.path() / "include", entry.path() / "src"})
+                possible.push_back(dir);
+    Paths found;
+    for (const auto& dir : possible)
+        if (fs::is_regular_file(dir / header, ignored)) found.push_back(dir);
+    return found;
+}
+
+} // namespace tandem::command
