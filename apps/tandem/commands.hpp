@@ -15,6 +15,7 @@ using Action = std::function<int()>; ///< Returns the program's exit code.
 void add_opros_commands(CLI::App& tandem, Action& selected);
 void add_rtm_commands(CLI::App& tandem, Action& selected);
 void add_link_commands(CLI::App& tandem, Action& selected);
+void add_run_command(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);
 void add_doctor_command(CLI::App& tandem, Action& selected);
 void add_completion_command(CLI::App& tandem, Action& selected);

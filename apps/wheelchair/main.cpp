@@ -7,10 +7,10 @@
 #include <exception>
 #include <filesystem>
 
+#include "apps/hosts/supervisor.hpp"
 #include "apps/wheelchair/options.hpp"
 #include "apps/wheelchair/report/figure.hpp"
 #include "apps/wheelchair/report/report.hpp"
-#include "apps/wheelchair/run/supervisor.hpp"
 #include "shm/segment/dead_segments.hpp"
 
 namespace {
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     tandem::shm::remove_dead_segments();
     try {
         return drive(options);
-    } catch (const Interrupted&) {
+    } catch (const tandem::hosts::Interrupted&) {
         fmt::print(stderr, "wheelchair: interrupted, hosts stopped\n");
         return 130;
     } catch (const std::exception& e) {

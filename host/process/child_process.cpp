@@ -143,8 +143,10 @@ const std::optional<ExitStatus>& ChildProcess::wait(std::chrono::milliseconds ti
     return ended_;
 }
 
+void ChildProcess::terminate() { signal(SIGTERM); }
+
 const std::optional<ExitStatus>& ChildProcess::stop(std::chrono::milliseconds grace) {
-    signal(SIGTERM);
+    terminate();
     if (wait(grace)) return ended_;
     return kill();
 }

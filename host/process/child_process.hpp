@@ -55,6 +55,8 @@ class ChildProcess {
     const std::optional<ExitStatus>& poll();
     /// Waits for its end, at most `timeout`; then as poll().
     const std::optional<ExitStatus>& wait(std::chrono::milliseconds timeout);
+    /// SIGTERM to the child, without waiting for its end.
+    void terminate();
     /// SIGTERM to the child, and after `grace` SIGKILL to its whole group.
     const std::optional<ExitStatus>& stop(std::chrono::milliseconds grace);
     /// SIGKILL to the whole group.

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "apps/hosts/supervisor.hpp"
 #include "apps/wheelchair/run/lockstep_driver.hpp"
 #include "apps/wheelchair/run/progress.hpp"
 #include "apps/wheelchair/run/run_directory.hpp"
-#include "apps/wheelchair/run/supervisor.hpp"
 #include "apps/wheelchair/run/topology.hpp"
 #include "apps/wheelchair/run/trace_follower.hpp"
 #include "plugins/wheelchair/core/body/clock.hpp"
@@ -21,6 +21,9 @@ namespace tandem::wheelchair {
 namespace {
 
 using namespace std::chrono_literals;
+using hosts::Host;
+using hosts::Interrupted;
+using hosts::Supervisor;
 
 // --duration replaces the scenario's own length.
 Scenario scenario_of(const Options& options) {
@@ -57,7 +60,7 @@ class HostedRun {
     void start_hosts() {
         std::string pids;
         for (const auto& host : directory_.hosts()) {
-            const Host& started = supervisor_.start(host.name, host.command, host.log);
+            const Host& started = supervisor_.start(host);
             pids += fmt::format("{}{} pid {}", pids.empty() ? "" : ", ", host.name, started.process.pid());
         }
         fmt::print("{}: {}\n", name_of(configuration_), pids);

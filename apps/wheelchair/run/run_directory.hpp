@@ -6,16 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/hosts/supervisor.hpp"
 #include "apps/wheelchair/options.hpp"
 
 namespace tandem::wheelchair {
 
-/// How one host of a run is started.
-struct HostCommand {
-    std::string name; // opros_host or rtm_host
-    std::vector<std::string> command;
-    std::string log; // file for its standard error
-};
+using hosts::HostCommand;
 
 /// Owns a folder and removes it at the end, unless `keep` is true.
 class Folder {

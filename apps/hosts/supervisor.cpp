@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/wheelchair/run/supervisor.hpp"
+#include "apps/hosts/supervisor.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,15 +8,14 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
-#include "plugins/wheelchair/core/body/clock.hpp"
-#include "plugins/wheelchair/core/record/scenario.hpp"
-
-namespace tandem::wheelchair {
+namespace tandem::hosts {
 
 namespace {
 
@@ -42,11 +41,23 @@ std::streamoff size_of(const std::string& path) {
     return file ? static_cast<std::streamoff>(file.tellg()) : 0;
 }
 
-Started start_process(const std::vector<std::string>& command, const std::string& log) {
-    const process::FileDescriptor errors(open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
-    if (!errors) throw InputError(log + ": cannot be written: " + std::strerror(errno));
+double monotonic_seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Started start_process(const HostCommand& host) {
     process::OutputPipe output;
-    process::ChildProcess child(command, {-1, output.writer(), errors.get()});
+    process::FileDescriptor log;
+    if (!host.log.empty()) {
+        log =
+            process::FileDescriptor(open(host.log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600));
+        if (!log) throw std::runtime_error(host.log + ": cannot be written: " + std::strerror(errno));
+    }
+    process::ChildOptions options;
+    options.output = output.writer();
+    options.errors = log ? log.get() : output.writer();
+    options.folder = host.folder;
+    process::ChildProcess child(host.command, options);
     output.close_writer();
     return {std::move(child), std::move(output)};
 }
@@ -76,6 +87,7 @@ std::string Host::command_line() const {
 }
 
 std::string Host::first_error() const {
+    if (log.empty()) return last_line;
     std::ifstream file(log);
     file.seekg(log_start);
     std::string last;
@@ -99,20 +111,20 @@ Supervisor::~Supervisor() {
     sigprocmask(SIG_UNBLOCK, &set, nullptr);
 }
 
-Host& Supervisor::start(const std::string& name, const std::vector<std::string>& command,
-                        const std::string& log) {
-    const auto log_start = size_of(log);
-    auto started = start_process(command, log);
-    hosts_.push_back({name, command, log, log_start, std::move(started.process), std::move(started.output)});
+Host& Supervisor::start(const HostCommand& command) {
+    const auto log_start = size_of(command.log);
+    auto started = start_process(command);
+    hosts_.push_back(Host{command, log_start, std::move(started.process), std::move(started.output)});
     return hosts_.back();
 }
 
 void Supervisor::restart(Host& host) {
     host.log_start = size_of(host.log);
-    auto started = start_process(host.command, host.log);
+    auto started = start_process(host);
     host.process = std::move(started.process);
     host.output = std::move(started.output);
     host.unread.clear();
+    host.last_line.clear();
     host.ready_at = 0.0;
     host.ended = false;
 }
@@ -121,22 +133,28 @@ void Supervisor::read_output(Host& host, Events& found) {
     constexpr std::size_t max_line = 4096;
     host.output.read_available(host.unread);
     for (std::size_t end; (end = host.unread.find('\n')) != host.unread.npos;) {
-        if (host.unread.substr(0, end) == "ready" && !host.ready()) {
+        host.last_line = host.unread.substr(0, end);
+        host.unread.erase(0, end + 1);
+        // `ready, but ...` is that of a host without components.
+        if (host.last_line.rfind("ready", 0) == 0 && !host.ready()) {
             host.ready_at = monotonic_seconds();
             found.became_ready.push_back(&host);
         }
-        host.unread.erase(0, end + 1);
+        if (host.log.empty()) found.lines.emplace_back(&host, host.last_line);
     }
-    if (host.unread.size() > max_line) host.unread.clear(); // "ready" cannot be the end of such a line
+    if (host.unread.size() <= max_line) return;
+    // What is not a line within its bound is passed on in parts; "ready" cannot be the end of such a line.
+    if (host.log.empty()) found.lines.emplace_back(&host, host.unread);
+    host.unread.clear();
 }
 
 Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
-    // A host's output is read only until it is ready: hosts write nothing to it afterwards.
+    // With a log, a host's output is read only until it is ready: hosts write nothing to it afterwards.
     std::vector<pollfd> events{{signals_.get(), POLLIN, 0}};
     for (Host& host : hosts_) {
         if (!host.running()) continue;
         events.push_back({host.process.pidfd(), POLLIN, 0});
-        if (!host.ready()) events.push_back({host.output.reader(), POLLIN, 0});
+        if (!host.ready() || host.log.empty()) events.push_back({host.output.reader(), POLLIN, 0});
     }
     poll(events.data(), events.size(), static_cast<int>(timeout.count()));
     Events found;
@@ -144,8 +162,14 @@ Supervisor::Events Supervisor::watch(std::chrono::milliseconds timeout) {
     while (read(signals_.get(), &info, sizeof info) == sizeof info) found.interrupted = true;
     for (Host& host : hosts_) {
         if (!host.running()) continue;
+        const bool ended =
+            host.process.poll().has_value(); // asked first, so that nothing is written after the last read
         read_output(host, found);
-        if (!host.process.poll()) continue;
+        if (!ended) continue;
+        if (!host.unread.empty()) { // a last line without its end
+            host.last_line = std::exchange(host.unread, "");
+            if (host.log.empty()) found.lines.emplace_back(&host, host.last_line);
+        }
         host.ended = true;
         found.ended.push_back(&host);
     }
@@ -160,16 +184,16 @@ void Supervisor::wait_until_ready(double seconds) {
             if (!host.ready()) missing = &host;
         if (!missing) return;
         if (monotonic_seconds() > end)
-            throw InputError(
+            throw std::runtime_error(
                 fmt::format("{} (pid {}) was not ready within {:g} s{}{}; allow more with --host-wait",
                             missing->name, missing->process.pid(), seconds,
                             missing->first_error().empty() ? "" : "; its log: ", missing->first_error()));
         const auto found = watch(50ms);
         if (found.interrupted) throw Interrupted();
         for (Host* host : found.ended)
-            throw InputError(fmt::format("{} (pid {}) {} before it was ready: {}", host->name,
-                                         host->process.pid(), host->process.poll()->text(),
-                                         host->first_error()));
+            throw std::runtime_error(fmt::format("{} (pid {}) {} before it was ready: {}", host->name,
+                                                 host->process.pid(), host->process.poll()->text(),
+                                                 host->first_error()));
     }
 }
 
@@ -180,4 +204,23 @@ bool Supervisor::stop(Host& host) {
     return ended && !ended->signalled && ended->code == 0;
 }
 
-} // namespace tandem::wheelchair
+bool Supervisor::stop_all(std::chrono::milliseconds grace, const std::function<void(const Events&)>& handle) {
+    const double end = monotonic_seconds() + std::chrono::duration<double>(grace).count();
+    bool killed = false;
+    for (Host& host : hosts_)
+        if (host.running()) host.process.terminate();
+    const auto is_running = [](const Host& host) { return host.running(); };
+    while (std::any_of(hosts_.begin(), hosts_.end(), is_running)) {
+        const auto events = watch(50ms);
+        handle(events);
+        if (!killed && (events.interrupted || monotonic_seconds() > end)) {
+            killed = true;
+            for (Host& host : hosts_)
+                if (host.running()) host.process.kill();
+        }
+    }
+    return std::all_of(hosts_.begin(), hosts_.end(),
+                       [](Host& host) { return host.process.poll()->success(); });
+}
+
+} // namespace tandem::hosts

@@ -5,11 +5,10 @@
 #include <csignal>
 #include <fstream>
 
-#include "apps/wheelchair/run/supervisor.hpp"
-#include "plugins/wheelchair/core/record/scenario.hpp"
-#include "scratch_dir.hpp"
+#include "apps/hosts/supervisor.hpp"
+#include "tests/apps/wheelchair/scratch_dir.hpp"
 
-using namespace tandem::wheelchair;
+using namespace tandem::hosts;
 using namespace std::chrono_literals;
 
 namespace {
@@ -32,8 +31,8 @@ TEST_CASE("a host is ready when it has written `ready`, and is stopped by a sign
     const ScratchDir dir;
     Supervisor s;
     Host& host =
-        s.start("host", shell("trap 'exit 0' TERM; echo starting; echo ready; while :; do sleep 0.05; done"),
-                dir / "log");
+        s.start({"host", shell("trap 'exit 0' TERM; echo starting; echo ready; while :; do sleep 0.05; done"),
+                 dir / "log"});
     s.wait_until_ready(10);
     CHECK(host.ready());
     const pid_t pid = host.process.pid();
@@ -44,7 +43,7 @@ TEST_CASE("a host is ready when it has written `ready`, and is stopped by a sign
 TEST_CASE("a host that ends before it is ready is reported with its log") {
     const ScratchDir dir;
     Supervisor s;
-    s.start("host", shell("echo first >&2; echo 'no such profile' >&2; exit 3"), dir / "log");
+    s.start({"host", shell("echo first >&2; echo 'no such profile' >&2; exit 3"), dir / "log"});
     CHECK_THROWS_WITH(s.wait_until_ready(10),
                       Catch::Contains("exited with 3 before it was ready: no such profile"));
 }
@@ -52,7 +51,7 @@ TEST_CASE("a host that ends before it is ready is reported with its log") {
 TEST_CASE("the wait for a host that never becomes ready ends with its timeout") {
     const ScratchDir dir;
     Supervisor s;
-    s.start("host", shell("exec sleep 100"), dir / "log");
+    s.start({"host", shell("exec sleep 100"), dir / "log"});
     CHECK_THROWS_WITH(s.wait_until_ready(0.2),
                       Catch::Contains("was not ready within 0.2 s") && Catch::Contains("--host-wait"));
 }
@@ -60,7 +59,7 @@ TEST_CASE("the wait for a host that never becomes ready ends with its timeout") 
 TEST_CASE("a killed host is reported with its signal, and can be started again") {
     const ScratchDir dir;
     Supervisor s;
-    Host& host = s.start("host", shell("echo ready; exec sleep 100"), dir / "log");
+    Host& host = s.start({"host", shell("echo ready; exec sleep 100"), dir / "log"});
     s.wait_until_ready(10);
     kill(host.process.pid(), SIGKILL);
     REQUIRE(end_is_reported(s, host));
@@ -77,7 +76,7 @@ TEST_CASE("hosts do not outlive their supervisor") {
     pid_t pid = 0;
     {
         Supervisor s;
-        pid = s.start("host", shell("echo ready; exec sleep 100"), dir / "log").process.pid();
+        pid = s.start({"host", shell("echo ready; exec sleep 100"), dir / "log"}).process.pid();
         s.wait_until_ready(10);
     }
     CHECK_FALSE(alive(pid));
@@ -86,7 +85,7 @@ TEST_CASE("hosts do not outlive their supervisor") {
 TEST_CASE("an interrupt of this program is reported and ends the wait for a host") {
     const ScratchDir dir;
     Supervisor s;
-    s.start("host", shell("exec sleep 100"), dir / "log");
+    s.start({"host", shell("exec sleep 100"), dir / "log"});
     raise(SIGINT);
     CHECK_THROWS_AS(s.wait_until_ready(10), Interrupted);
 }
@@ -94,15 +93,47 @@ TEST_CASE("an interrupt of this program is reported and ends the wait for a host
 TEST_CASE("a program that does not exist is named") {
     const ScratchDir dir;
     Supervisor s;
-    CHECK_THROWS_WITH(s.start("host", {"/nonexistent/host"}, dir / "log"),
+    CHECK_THROWS_WITH(s.start({"host", {"/nonexistent/host"}, dir / "log"}),
                       Catch::Contains("/nonexistent/host cannot be started: No such file"));
 }
 
 TEST_CASE("the printed command line can be typed into a shell") {
     const ScratchDir dir;
     Supervisor s;
-    Host& host = s.start("host", shell("echo ready; exec sleep 100"), dir / "log");
+    Host& host = s.start({"host", shell("echo ready; exec sleep 100"), dir / "log"});
     CHECK(host.command_line() == "/bin/sh -c 'echo ready; exec sleep 100'");
     host.command = {"host", "--parent-death", "it's"};
     CHECK(host.command_line() == "host 'it'\\''s'");
+}
+
+TEST_CASE("what a host without a log writes comes line by line, with its errors, also the last of it") {
+    Supervisor s;
+    Host& host =
+        s.start({"host", shell("echo one; echo two >&2; echo ready; pwd; printf end; exit 2"), "", "/usr"});
+    std::vector<std::string> lines;
+    while (host.running())
+        for (const auto& [of, line] : s.watch(100ms).lines) lines.push_back(line);
+    CHECK(lines == std::vector<std::string>{"one", "two", "ready", "/usr", "end"});
+    CHECK(host.first_error() == "end");
+}
+
+TEST_CASE("hosts that are stopped together are read meanwhile, and killed when they do not end in time") {
+    Supervisor s;
+    // More than a pipe holds.
+    s.start(
+        {"writer",
+         shell(
+             "trap 'head -c 300000 /dev/zero | tr \\\\0 x; echo; exit 0' TERM; echo ready; while :; do sleep "
+             "0.05; done"),
+         ""});
+    s.start({"deaf", shell("trap '' TERM; echo ready; while :; do sleep 0.05; done"), ""});
+    for (int ready = 0; ready < 2;) ready += static_cast<int>(s.watch(100ms).became_ready.size());
+    std::size_t bytes = 0;
+    const bool in_order = s.stop_all(2s, [&](const Supervisor::Events& events) {
+        for (const auto& [host, line] : events.lines) bytes += line.size();
+    });
+    CHECK_FALSE(in_order);
+    CHECK(bytes == 300000);
+    CHECK(s.hosts()[0].process.poll()->text() == "exited with 0");
+    CHECK(s.hosts()[1].process.poll()->text() == "was killed by signal 9 (Killed)");
 }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tandem::command {
+
+/// Of run.
+struct RunOptions {
+    std::filesystem::path folder;
+    std::vector<std::filesystem::path> plugin_dirs;
+    int restart = 0;     ///< how often a host that dies is started again, each
+    double wait_s = 60;  ///< time limit for the hosts to become ready
+    double grace_s = 20; ///< time limit for their end; then they are killed
+    bool strict = false; ///< the OPRoS host does not run without a component or a connection
+    std::vector<std::string> host_arguments; ///< for both hosts
+};
+/// Starts the hosts on the folder's configuration and supervises them until a signal asks for their end, or until one
+/// ends. Prints their output, each line after the host's name. 0 if all hosts ended in order.
+int run_hosts(const RunOptions& options);
+
+} // namespace tandem::command

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/output/format.hpp"
+#include "apps/tandem/run/commands.hpp"
+#include "apps/tandem/run/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <map>
+
+namespace tandem::command {
+namespace {
+
+using namespace std::chrono_literals;
+using hosts::Host;
+using hosts::Supervisor;
+
+/// One run, from the start of the hosts to their end.
+class HostRun {
+  public:
+    HostRun(const std::vector<hosts::HostCommand>& commands, const RunOptions& options) : options_(options) {
+        for (const auto& command : commands) note_start("started", supervisor_.start(command));
+        deadline_ = Clock::now() + seconds(options.wait_s);
+    }
+
+    /// The exit code.
+    int run() {
+        while (!ending_) {
+            handle(supervisor_.watch(200ms));
+            if (!ending_) check_start();
+        }
+        const bool in_order = supervisor_.stop_all(
+            seconds(options_.grace_s), [this](const Supervisor::Events& events) { handle_end(events); });
+        if (in_order && !failed_) print_note("all hosts have ended");
+        return in_order && !failed_ ? 0 : 1;
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    static std::chrono::milliseconds seconds(double count) {
+        return std::chrono::milliseconds(static_cast<long>(1000 * count));
+    }
+    // Not fmt::print(), which throws when nobody reads.
+    static void print_note(const std::string& line) {
+        std::fputs(("tandem run: " + line + "\n").c_str(), stderr);
+    }
+    static void note_start(const char* what, const Host& host) {
+        print_note(fmt::format("{} {}, pid {}", host.name, what, host.process.pid()));
+    }
+
+    void print_lines(const Supervisor::Events& events) {
+        for (const auto& [host, line] : events.lines)
+            std::fputs(fmt::format("{:<10} | {}\n", host->name, replace_control_characters(line)).c_str(),
+                       stdout);
+        // A reader that has gone, as in `tandem run DIR | head`, has seen enough.
+        if (std::fflush(stdout) != 0) ending_ = true;
+    }
+
+    void handle(const Supervisor::Events& events) {
+        print_lines(events);
+        if (events.interrupted) {
+            print_note("ending the hosts");
+            ending_ = true;
+        }
+        for (Host* host : events.ended) handle_end_of(*host);
+        if (events.became_ready.empty()) return;
+        for (const Host& host : supervisor_.hosts())
+            if (!host.ready()) return;
+        print_note("all hosts are ready; Ctrl-C ends them");
+    }
+
+    // A host that is asked to end is told only if it does not end in order.
+    void handle_end(const Supervisor::Events& events) {
+        print_lines(events);
+        for (Host* host : events.ended)
+            if (!host->process.poll()->success()) print_end(*host);
+    }
+
+    void handle_end_of(Host& host) {
+        print_end(host);
+        // In mid-run a host ends in order only if its components or a tool have asked for it.
+        if (host.process.poll()->success() || ending_) {
+            ending_ = true;
+        } else if (host.ready() && restarts_[host.name] < options_.restart) {
+            supervisor_.restart(host);
+            deadline_ = Clock::now() + seconds(options_.wait_s);
+            note_start(
+                fmt::format("started again ({} of {})", ++restarts_[host.name], options_.restart).c_str(),
+                host);
+        } else {
+            failed_ = ending_ = true;
+        }
+    }
+
+    static void print_end(Host& host) {
+        print_note(fmt::format("{} (pid {}) {}{}", host.name, host.process.pid(), host.process.poll()->text(),
+                               host.ready() ? "" : " before it was ready"));
+    }
+
+    void check_start() {
+        if (Clock::now() < deadline_) return;
+        for (const Host& host : supervisor_.hosts()) {
+            if (host.ready()) continue;
+            print_note(fmt::format("{} (pid {}) was not ready within {:g} s; allow more with --wait",
+                                   host.name, host.process.pid(), options_.wait_s));
+            failed_ = ending_ = true;
+        }
+    }
+
+    const RunOptions options_;
+    Supervisor supervisor_;
+    Clock::time_point deadline_; ///< for the hosts that are not ready yet
+    std::map<std::string, int> restarts_;
+    bool ending_ = false, failed_ = false;
+};
+
+} // namespace
+
+int run_hosts(const RunOptions& options) {
+    std::signal(SIGPIPE,
+                SIG_IGN); // a closed pipe is an error of a write, so that the hosts are ended in order
+    const RunFolder folder = find_run_folder(options.folder);
+    return HostRun(host_commands(folder, options), options).run();
+}
+
+} // namespace tandem::command

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of `tandem run`.
+#include "apps/tandem/build/component_commands.hpp"
+#include "apps/tandem/commands.hpp"
+#include "apps/tandem/run/commands.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+
+void add_run_command(CLI::App& tandem, Action& selected) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = add_command(
+        tandem, "run", "Runs the two hosts of an application, until Ctrl-C",
+        "Starts opros_host on the application profile in DIR/opros and rtm_host on DIR/rtm/rtc.conf, each "
+        "in\n"
+        "that folder, and prints what they write, each line after the host's name. When a host ends, the\n"
+        "other one is ended too. Exit code 0 if all ended in order, 1 if one failed, was killed or had to "
+        "be.");
+    command->add_option("DIR", options->folder, "folder with opros/ and rtm/; one of them may be missing")
+        ->required();
+    command->add_option("--restart", options->restart, "start each host that dies again, up to N times (0)")
+        ->type_name("N")
+        ->check(CLI::Range(0, 1000000));
+    command->add_option("--plugin-path", options->plugin_dirs, "folder with component libraries (repeatable)")
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    command->add_option("--wait", options->wait_s, "time limit for the hosts to become ready (60)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.1, 3600.));
+    command
+        ->add_option("--grace", options->grace_s, "time limit for the hosts' end; then they are killed (20)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.1, 3600.));
+    command->add_flag("--strict", options->strict, "end when an OPRoS component or a connection fails");
+    command
+        ->add_option("--host-option", options->host_arguments,
+                     "an option for both hosts, as in --host-option=--fifo (repeatable)")
+        ->type_name("OPTION")
+        ->allow_extra_args(false);
+    command->callback([=, &selected] { selected = [options] { return run_hosts(*options); }; });
+}
+
+} // namespace tandem::command

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// `tandem run`: both hosts of a folder that `tandem link profile` has written.
+#include "host/process/child_process.hpp"
+#include "host/process/output_pipe.hpp"
+#include "tests/integration/scratch_folder.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A folder `joined` of TalkerComp and EchoRtc, and `tandem run` on it.
+class Run {
+  public:
+    Run() {
+        folder_.add_component("TalkerComp");
+        folder_.add_component("EchoRtc");
+        link_ = folder_.path().filename().string();
+        const auto written =
+            folder_.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--out", "joined", "--link", link_});
+        INFO(written.output);
+        REQUIRE(written.exit_code() == 0);
+    }
+    const ScratchFolder& folder() const { return folder_; }
+
+    void start(const std::vector<std::string>& arguments = {}) {
+        std::vector<std::string> command{TANDEM_PROGRAM, "run", "joined"};
+        command.insert(command.end(), arguments.begin(), arguments.end());
+        tandem::process::ChildOptions options;
+        options.output = options.errors = pipe_.writer();
+        options.folder = folder_.path().string();
+        process_.emplace(command, options);
+        pipe_.close_writer();
+    }
+    /// Waits until the output from `from` on has the text.
+    bool says(const std::string& text, std::size_t from = 0) {
+        for (int i = 0; i < 1500; ++i) {
+            pipe_.read_available(output_);
+            if (output_.find(text, from) != std::string::npos) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        return false;
+    }
+    /// The process id that the run prints after this text.
+    pid_t pid_after(const std::string& text) {
+        REQUIRE(says(text));
+        return std::stoi(output_.substr(output_.find(text) + text.size()));
+    }
+    void signal(int number) { ::kill(process_->pid(), number); }
+    /// -1 if it does not end within a bound that is out of proportion, or was killed.
+    int exit_code() {
+        for (int i = 0; i < 3000 && !process_->poll(); ++i) {
+            pipe_.read_available(output_);
+            process_->wait(std::chrono::milliseconds(20));
+        }
+        pipe_.read_available(output_);
+        const auto& ended = process_->poll();
+        return ended && !ended->signalled ? ended->code : -1;
+    }
+    const std::string& output() const { return output_; }
+    bool left_in_shared_memory() const {
+        for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
+            if (entry.path().filename().string().find(link_) != std::string::npos) return true;
+        return false;
+    }
+
+  private:
+    ScratchFolder folder_;
+    std::string link_, output_;
+    tandem::process::OutputPipe pipe_;
+    std::optional<tandem::process::ChildProcess> process_;
+};
+
+bool is_alive(pid_t pid) { return ::kill(pid, 0) == 0; }
+
+} // namespace
+
+TEST_CASE("tandem run joins two components, and a Ctrl-C ends both hosts in order") {
+    Run run;
+    run.start();
+    const pid_t rtm = run.pid_after("rtm_host started, pid "),
+                opros = run.pid_after("opros_host started, pid ");
+    CHECK(run.says("\nopros_host | reply: hello 5 at a time\n"));
+    CHECK(run.says("\ntandem run: all hosts are ready; Ctrl-C ends them\n"));
+    run.signal(SIGINT);
+    CHECK(run.exit_code() == 0);
+    INFO(run.output());
+    CHECK_THAT(run.output(), Contains("tandem run: all hosts have ended\n"));
+    CHECK_FALSE(is_alive(rtm));
+    CHECK_FALSE(is_alive(opros));
+    CHECK_FALSE(run.left_in_shared_memory());
+}
+
+TEST_CASE("tandem run tells the signal of a host that is killed, and ends the other one") {
+    Run run;
+    run.start();
+    REQUIRE(run.says("reply: hello 1 "));
+    REQUIRE(run.says("all hosts are ready"));
+    const pid_t opros = run.pid_after("opros_host started, pid ");
+    ::kill(run.pid_after("rtm_host started, pid "), SIGKILL);
+    CHECK(run.exit_code() == 1);
+    INFO(run.output());
+    CHECK_THAT(run.output(), Contains(") was killed by signal 9 (Killed)\n"));
+    CHECK_FALSE(is_alive(opros));
+    CHECK_FALSE(run.left_in_shared_memory());
+}
+
+TEST_CASE("tandem run starts a killed host again as often as it is told") {
+    Run run;
+    run.start({"--restart", "1"});
+    REQUIRE(run.says("all hosts are ready"));
+    ::kill(run.pid_after("rtm_host started, pid "), SIGKILL);
+    REQUIRE(run.says("tandem run: rtm_host started again (1 of 1), pid "));
+    const std::size_t restarted = run.output().size();
+    CHECK(run.says("is up again", restarted));
+    CHECK(run.says("reply: hello ", restarted));
+    ::kill(run.pid_after("rtm_host started again (1 of 1), pid "), SIGKILL);
+    CHECK(run.exit_code() == 1);
+    CHECK_FALSE(run.left_in_shared_memory());
+}
+
+TEST_CASE("tandem run ends when a host cannot start, with the host's own line") {
+    Run run;
+    std::ofstream(run.folder().path() / "joined/rtm/rtc.conf", std::ios::app)
+        << "manager.components.precreate: NoSuchRtc\n";
+    run.start({"--wait", "30"});
+    CHECK(run.exit_code() == 1);
+    INFO(run.output());
+    CHECK_THAT(run.output(),
+               Contains("rtm_host   | rtm_host: ") && Contains("there is no component type NoSuchRtc"));
+    CHECK_THAT(run.output(), Contains(") exited with 1 before it was ready\n"));
+}
+
+TEST_CASE("tandem run says what a folder lacks") {
+    ScratchFolder folder;
+    std::filesystem::create_directories(folder.path() / "empty/opros");
+    CHECK_THAT(folder.tandem({"run", "nowhere"}).output, Contains("tandem: nowhere is no folder\n"));
+    const auto empty = folder.tandem({"run", "empty"});
+    CHECK(empty.exit_code() == 1);
+    CHECK_THAT(empty.output,
+               Contains("empty has neither an application profile in opros/ nor rtm/rtc.conf; tandem link "
+                        "profile A B --out DIR writes both for two components\n"));
+}
