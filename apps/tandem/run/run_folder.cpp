@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/run/run_folder.hpp"
 
-#include "apps/tandem/build/source_text.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
 #include "host/opros/engine/profile/profile_kind.hpp"
 #include "host/opros/engine/profile/setup_error.hpp"
 
