@@ -51,6 +51,9 @@ if(TANDEM_COVERAGE)
   add_link_options(--coverage)
 endif()
 
+# Functions are found when a program starts: a robot does not wait for the dynamic linker at the first call of each.
+add_link_options(-Wl,-z,now)
+
 # tandem_sources(OUT FOLDER...)
 # The .cpp files of the named folders, below the current one. A new file needs no line in a CMakeLists.txt.
 function(tandem_sources out)
