@@ -69,12 +69,25 @@ void Application::sort_components(const ApplicationProfile& profile) {
     }
 }
 
+// A component that shows others comes last: they may add their ports in onInitialize().
 void Application::initialize_all() {
+    std::vector<ComponentHost*> directory_users;
     for (ComponentHost* component : start_order_) {
-        announce_setup_callback(*component, "onInitialize");
-        component->initialize();
-        require_success_if_strict(*component, "initialize");
+        auto* user = dynamic_cast<ComponentDirectoryUser*>(&component->component());
+        if (!user) {
+            initialize(*component);
+            continue;
+        }
+        user->setComponentDirectory(&directory_);
+        directory_users.push_back(component);
     }
+    for (ComponentHost* component : directory_users) initialize(*component);
+}
+
+void Application::initialize(ComponentHost& component) {
+    announce_setup_callback(component, "onInitialize");
+    component.initialize();
+    require_success_if_strict(component, "initialize");
 }
 
 void Application::connect_all(const ApplicationProfile& profile) {
@@ -128,6 +141,7 @@ void Application::start() {
     if (std::all_of(start_order_.begin(), start_order_.end(),
                     [](const ComponentHost* each) { return each->has_failed(); }))
         throw SetupError("no component has started, the lines above say why");
+    directory_.open();
     if (!options_.lockstep_socket.empty()) {
         step_server_ = std::make_shared<rt::StepServer>(options_.lockstep_socket,
                                                         [this](const std::string& name) { step(name); });
@@ -143,6 +157,7 @@ void Application::start() {
 void Application::stop() {
     if (!started_) return;
     started_ = false;
+    directory_.close(options_.grace); // nobody starts a component again after it has been stopped
     for (const auto& executor : executors_) executor_stats_.push_back(executor->stats());
     // The server's destructor waits for the step under way. The lambda owns the server, so that a destructor
     // that does not return keeps it.

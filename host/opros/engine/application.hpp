@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/opros/engine/application_directory.hpp"
 #include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/execute/executor.hpp"
@@ -78,6 +79,7 @@ class Application {
     void load(const ApplicationProfile& profile);
     void sort_components(const ApplicationProfile& profile);
     void initialize_all();
+    void initialize(ComponentHost& component);
     void connect_all(const ApplicationProfile& profile);
     void connect_ports(const ConnectionProfile& connection);
     void announce_setup_callback(const ComponentHost& component, const char* callback) const;
@@ -95,6 +97,7 @@ class Application {
     // after all components.
     std::vector<std::shared_ptr<plugin::Library>> libraries_;
     std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
+    ApplicationDirectory directory_{components_};
     std::vector<ComponentHost*> start_order_;
     std::vector<std::unique_ptr<Connection>> connections_;
     std::vector<std::unique_ptr<Executor>> executors_;

@@ -8,6 +8,7 @@
 #ifndef LIFECYCLEINTERFACE_H_
 #define LIFECYCLEINTERFACE_H_
 
+#include <LifecycleListener.h>
 #include <OPRoSTypes.h>
 #include <ReturnType.h>
 
@@ -41,6 +42,9 @@ class LifecycleInterface {
     virtual LifecycleState getStatus();
     /// The return code of the last callback that has failed; OPROS_SUCCESS when none has.
     virtual ReturnType getErrorInfo();
+    /// [any-thread] The listener must be removed before it is deleted; on return of the removal it is not in use (ours).
+    void addLifecycleListener(LifecycleListener* listener);
+    void removeLifecycleListener(LifecycleListener* listener);
 
   protected:
     virtual ReturnType onInitialize() = 0;
@@ -58,6 +62,8 @@ class LifecycleInterface {
     LifecycleInterface& operator=(const LifecycleInterface&);
     bool succeeded(ReturnType result);
     ReturnType enter(LifecycleState from, LifecycleState to);
+    void changeState(LifecycleState to);
+    void notifyListeners();
 
     // Not members: <mutex> and <atomic> would bring names of std that components define themselves.
     opros::detail::lifecycle_state* const m_lifecycle;

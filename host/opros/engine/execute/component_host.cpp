@@ -10,10 +10,14 @@
 #include <dlfcn.h>
 #include <spdlog/fmt/fmt.h>
 #include <spdlog/spdlog.h>
+#include <thread>
 #include <typeinfo>
 
 namespace tandem::engine {
 namespace {
+
+// How long a requested transition waits for the cycle under way.
+constexpr std::chrono::seconds max_cycle_wait{5};
 
 /// As ReturnType.h writes it: the common codes are decimal, those of device components hexadecimal.
 std::string code_text(ReturnType code) {
@@ -70,7 +74,8 @@ std::string ComponentHost::run_guarded(const char* callback, const std::function
     }
 }
 
-bool ComponentHost::run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)()) {
+std::string ComponentHost::run_transition(const char* callback,
+                                          ReturnType (LifecycleInterface::*transition)()) {
     ReturnType result = OPROS_CALLEE_ERROR; // stays if the callback throws
     // Device components call dlerror() after dlsym() without clearing it first, and would take an error that
     // somebody else has left in this thread for their own.
@@ -85,13 +90,15 @@ bool ComponentHost::run_transition(const char* callback, ReturnType (LifecycleIn
             why = std::string("it made a call that failed: ") + error.what();
         }
     });
-    if (thrown.empty() && result == OPROS_SUCCESS) return true;
-    if (thrown.empty()) spdlog::error("component {}: {} failed, {}", name_, callback, why);
-    return false;
+    if (!thrown.empty()) return thrown; // run_guarded() has logged it
+    if (result == OPROS_SUCCESS) return "";
+    std::string line = fmt::format("component {}: {} failed, {}", name_, callback, why);
+    spdlog::error("{}", line);
+    return line;
 }
 
 void ComponentHost::initialize() {
-    initialized_ = run_transition("onInitialize", &LifecycleInterface::initialize);
+    initialized_ = run_transition("onInitialize", &LifecycleInterface::initialize).empty();
     if (initialized_)
         configure_input_ports();
     else
@@ -99,7 +106,8 @@ void ComponentHost::initialize() {
 }
 
 void ComponentHost::start() {
-    if (!failed_ && !run_transition("onStart", &LifecycleInterface::start)) mark_failed();
+    apply_properties();
+    if (!failed_ && !run_transition("onStart", &LifecycleInterface::start).empty()) mark_failed();
 }
 
 void ComponentHost::mark_failed() {
@@ -172,6 +180,66 @@ void ComponentHost::log_if_component_stopped_itself() {
     error_logged_ = in_error;
 }
 
+std::string ComponentHost::request(ComponentTransition transition) {
+    if (failed_)
+        return fmt::format("component {} has failed when the application was set up; start the host again",
+                           name_);
+    // No wait without a bound for onExecute(), which is the component's.
+    const auto deadline = std::chrono::steady_clock::now() + max_cycle_wait;
+    std::unique_lock lock(cycle_mutex_, std::try_to_lock);
+    while (!lock && std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        lock.try_lock();
+    }
+    if (lock) return make_transition(transition);
+    const char* callback = current_callback_;
+    return fmt::format("component {} has not returned from {} for {} s", name_,
+                       callback ? callback : "a callback", max_cycle_wait.count());
+}
+
+/// A start or stop that fails leads to ERROR, since what has been switched on or off by then is not known.
+std::string ComponentHost::make_transition(ComponentTransition transition) {
+    const LifecycleState state = component_->getStatus();
+    const auto run_or_fail = [this](const char* callback, ReturnType (LifecycleInterface::*function)()) {
+        std::string error = run_transition(callback, function);
+        error_logged_ = !error.empty();
+        if (!error.empty()) run_transition("onError", &LifecycleInterface::fail);
+        return error;
+    };
+    if (state == OPROS_CS_DESTROYED)
+        return transition == TRANSITION_DESTROY ? "" : fmt::format("component {} is DESTROYED", name_);
+    if (transition == TRANSITION_DESTROY) {
+        if (state == OPROS_CS_ACTIVE) run_or_fail("onStop", &LifecycleInterface::stop);
+        return run_transition("onDestroy", &LifecycleInterface::destroy);
+    }
+    if (transition == TRANSITION_RECOVER) {
+        if (state == OPROS_CS_ERROR) return run_transition("onRecover", &LifecycleInterface::recover);
+        return state == OPROS_CS_ACTIVE ? fmt::format("component {} is ACTIVE, not in ERROR", name_) : "";
+    }
+    if (state == OPROS_CS_ERROR) return fmt::format("component {} is in ERROR; reset it first", name_);
+    if (transition == TRANSITION_STOP)
+        return state == OPROS_CS_ACTIVE ? run_or_fail("onStop", &LifecycleInterface::stop) : "";
+    apply_properties();
+    std::string error = run_or_fail("onStart", &LifecycleInterface::start);
+    input_signal_.arrived(); // an aperiodic component has a cycle after its start
+    return error;
+}
+
+void ComponentHost::set_property(const std::string& name, const std::string& value) {
+    const std::lock_guard lock(properties_mutex_);
+    new_properties_.emplace_back(name, value);
+    has_new_properties_ = true;
+}
+
+// In the component's own thread, since its properties are not thread-safe.
+void ComponentHost::apply_properties() {
+    if (!has_new_properties_) return;
+    const std::lock_guard lock(properties_mutex_);
+    for (const auto& [name, value] : new_properties_) component_->setProperty(name, value);
+    new_properties_.clear();
+    has_new_properties_ = false;
+}
+
 std::string ComponentHost::execute() { return execute(Pass::real); }
 void ComponentHost::warm_up() { execute(Pass::warm_up); }
 
@@ -181,6 +249,9 @@ std::string ComponentHost::execute(Pass pass) {
         if (pass == Pass::real) log_if_component_stopped_itself();
         return "";
     }
+    const std::lock_guard lock(cycle_mutex_);
+    if (!is_active()) return ""; // stopped by request while this thread waited
+    apply_properties();
     return run_guarded("onExecute", [this, pass] {
         if (pass == Pass::warm_up) return rt::prefetch(*component_);
         log_return_code("onExecute", component_->onExecute(), last_execute_);
@@ -188,6 +259,7 @@ std::string ComponentHost::execute(Pass pass) {
 }
 
 std::string ComponentHost::update() {
+    const std::lock_guard lock(cycle_mutex_);
     if (!is_active()) return "";
     return run_guarded("onUpdated",
                        [this] { log_return_code("onUpdated", component_->onUpdated(), last_update_); });

@@ -9,14 +9,17 @@
 #include "host/process/log_throttle.hpp"
 
 #include <Component.h>
+#include <ComponentDirectory.h>
 #include <InputDataPortInterface.h>
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tandem::engine {
@@ -53,6 +56,10 @@ class ComponentHost {
     void start();
     void stop();
     void destroy();
+    /// [any-thread] What ComponentDirectory promises, between two cycles of the component. Waits at most 5 s for the
+    /// cycle under way.
+    std::string request(ComponentTransition transition);
+    void set_property(const std::string& name, const std::string& value);
     /// Deletes the instance: nothing of the component may be called any more, but its library stays.
     void destroy_instance();
     /// Ends this object's use of the library, which is unloaded with the last user.
@@ -94,7 +101,10 @@ class ComponentHost {
     bool consume_dependency_cycles();
 
   private:
-    bool run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
+    /// Returns why the transition has failed, one line, which it has logged; empty when it has succeeded.
+    std::string run_transition(const char* callback, ReturnType (LifecycleInterface::*transition)());
+    std::string make_transition(ComponentTransition transition);
+    void apply_properties();
     /// Logs what the callback threw and puts the component in ERROR. Returns the text that execute() returns.
     std::string enter_error(const char* callback, const std::string& why);
     void mark_failed();
@@ -116,7 +126,11 @@ class ComponentHost {
     std::vector<InputDataPortInterface*> input_ports_;
     std::atomic<bool> failed_{false};
     bool initialized_ = false;
-    bool error_logged_ = false;
+    std::atomic<bool> error_logged_{false};
+    std::mutex cycle_mutex_; // held during a pass of a cycle and during a requested transition
+    std::mutex properties_mutex_;
+    std::vector<std::pair<std::string, std::string>> new_properties_; // not yet set
+    std::atomic<bool> has_new_properties_{false};
     process::LogThrottle failed_calls_;
     ReturnType last_execute_ = OPROS_SUCCESS, last_update_ = OPROS_SUCCESS;
     // One bit for each component that this one depends on: those needed, and those that have had a cycle.

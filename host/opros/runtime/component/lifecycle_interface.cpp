@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <LifecycleInterface.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <vector>
 
 struct opros::detail::lifecycle_state {
     std::atomic<LifecycleState> state{OPROS_CS_CREATED};
@@ -10,6 +12,8 @@ struct opros::detail::lifecycle_state {
     // One transition at a time; recursive because callbacks may ask for transitions. stopOnError() goes without it,
     // since onStop() may wait for the thread that reports the error.
     std::recursive_mutex transition;
+    std::mutex listeners_mutex; // listeners; held while they are called
+    std::vector<LifecycleListener*> listeners;
 };
 
 namespace {
@@ -30,10 +34,34 @@ bool LifecycleInterface::succeeded(ReturnType result) {
     return false;
 }
 
+void LifecycleInterface::addLifecycleListener(LifecycleListener* listener) {
+    const std::lock_guard<std::mutex> lock(m_lifecycle->listeners_mutex);
+    m_lifecycle->listeners.push_back(listener);
+}
+
+void LifecycleInterface::removeLifecycleListener(LifecycleListener* listener) {
+    const std::lock_guard<std::mutex> lock(m_lifecycle->listeners_mutex);
+    auto& all = m_lifecycle->listeners;
+    all.erase(std::remove(all.begin(), all.end(), listener), all.end());
+}
+
+void LifecycleInterface::notifyListeners() {
+    const std::lock_guard<std::mutex> lock(m_lifecycle->listeners_mutex);
+    for (LifecycleListener* listener : m_lifecycle->listeners)
+        listener->stateChanged(m_lifecycle->state.load());
+}
+
+void LifecycleInterface::changeState(LifecycleState to) {
+    m_lifecycle->state = to;
+    notifyListeners();
+}
+
 /// Completes a transition, unless the state has changed while its callback ran: another thread may have put the
 /// component in ERROR with stopOnError(), and a late success must not hide that.
 ReturnType LifecycleInterface::enter(LifecycleState from, LifecycleState to) {
-    return m_lifecycle->state.compare_exchange_strong(from, to) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
+    if (!m_lifecycle->state.compare_exchange_strong(from, to)) return OPROS_PRECONDITION_NOT_MET;
+    notifyListeners();
+    return OPROS_SUCCESS;
 }
 
 ReturnType LifecycleInterface::initialize() {
@@ -68,7 +96,7 @@ ReturnType LifecycleInterface::destroy() {
     const LifecycleState before = m_lifecycle->state;
     if (before == OPROS_CS_DESTROYED) return OPROS_SUCCESS;
     if (before == OPROS_CS_CREATED || !succeeded(onDestroy())) return OPROS_PRECONDITION_NOT_MET;
-    m_lifecycle->state = OPROS_CS_DESTROYED;
+    changeState(OPROS_CS_DESTROYED);
     return OPROS_SUCCESS;
 }
 
@@ -77,7 +105,7 @@ ReturnType LifecycleInterface::reset() {
     const Transition lock(m_lifecycle->transition);
     if (!succeeded(onReset()) || !succeeded(onInitialize()) || !succeeded(onStart()))
         return OPROS_PRECONDITION_NOT_MET;
-    m_lifecycle->state = OPROS_CS_ACTIVE;
+    changeState(OPROS_CS_ACTIVE);
     return OPROS_SUCCESS;
 }
 
@@ -92,6 +120,7 @@ ReturnType LifecycleInterface::stopOnError() {
 ReturnType LifecycleInterface::fail() {
     // A component in CREATED has nothing that onError() could switch off, and may not be prepared for it.
     const LifecycleState before = m_lifecycle->state.exchange(OPROS_CS_ERROR);
+    if (before != OPROS_CS_ERROR) notifyListeners();
     if (before == OPROS_CS_ERROR || before == OPROS_CS_CREATED) return OPROS_SUCCESS;
     return succeeded(onError()) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }

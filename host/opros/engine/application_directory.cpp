@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/opros/engine/application_directory.hpp"
+
+#include <thread>
+
+namespace tandem::engine {
+
+std::vector<std::string> ApplicationDirectory::names() const {
+    std::vector<std::string> names;
+    for (const auto& component : components_) names.push_back(component->name());
+    return names;
+}
+
+ComponentHost* ApplicationDirectory::find_host(const std::string& name) const {
+    for (const auto& component : components_)
+        if (component->name() == name) return component.get();
+    return nullptr;
+}
+
+Component* ApplicationDirectory::find(const std::string& name) {
+    ComponentHost* host = find_host(name);
+    return host ? &host->component() : nullptr;
+}
+
+std::string ApplicationDirectory::type(const std::string& name) const {
+    const ComponentHost* host = find_host(name);
+    return host ? host->profile().name : "";
+}
+
+std::string ApplicationDirectory::transition(const std::string& name, ComponentTransition transition) {
+    ComponentHost* host = find_host(name);
+    if (!host) return "there is no component " + name;
+    // Counted before the look at refusal_: close() sees the count, or this function sees that it is closed.
+    ++transitions_;
+    const char* refusal = refusal_;
+    std::string error = refusal ? refusal : host->request(transition);
+    --transitions_;
+    return error;
+}
+
+bool ApplicationDirectory::setProperty(const std::string& component, const std::string& name,
+                                       const std::string& value) {
+    ComponentHost* host = find_host(component);
+    if (host) host->set_property(name, value);
+    return host != nullptr;
+}
+
+bool ApplicationDirectory::close(std::chrono::nanoseconds timeout) {
+    refusal_ = "the application ends";
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
+    while (transitions_ > 0 && std::chrono::steady_clock::now() < deadline)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return transitions_ == 0;
+}
+
+} // namespace tandem::engine

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/host/opros/engine/running.hpp"
+#include "tests/host/opros/fixtures/Watcher.h"
+
+using Catch::Contains;
+using tandem::engine::Application;
+
+namespace {
+
+/// The profile of M, a maker, and W, which has the directory. W is listed last and would be initialized first.
+std::filesystem::path watched(const Folder& folder, const std::string& trouble,
+                              const std::string& type = "<type>passive</type>") {
+    folder.component("M", "maker.dll", type, "<property name=\"trouble\">" + trouble + "</property>");
+    folder.component("W", "watcher", "<type>passive</type>");
+    return folder.application(Folder::sub("M", "M.xml") + Folder::sub("W", "W.xml"));
+}
+
+ComponentDirectory& directory_of(Application& application) {
+    return *dynamic_cast<Watcher&>(application.find_component("W")->component()).directory;
+}
+
+/// Keeps the states it is told of.
+struct States final : LifecycleListener {
+    void stateChanged(LifecycleState state) override { seen.push_back(state); }
+    std::vector<LifecycleState> seen;
+};
+
+} // namespace
+
+TEST_CASE("a component that gets the directory is initialized after all others") {
+    const Folder folder;
+    Application application(watched(folder, "none"), test_options(folder));
+    CHECK(recorder(application, "W").calls == std::vector<std::string>{"M is ready"});
+    CHECK(directory_of(application).names() == std::vector<std::string>{"M", "W"});
+    CHECK(directory_of(application).type("M") == "M");
+    CHECK(directory_of(application).find("N") == nullptr);
+    CHECK(directory_of(application).transition("N", TRANSITION_START) == "there is no component N");
+}
+
+TEST_CASE("a directory makes transitions while its application runs, and listeners are told of each") {
+    const Folder folder;
+    Application application(watched(folder, "none"), test_options(folder));
+    auto& directory = directory_of(application);
+    States states;
+    directory.find("M")->addLifecycleListener(&states);
+    CHECK(directory.transition("M", TRANSITION_START) == "the application has not started yet");
+    application.start();
+    CHECK(directory.transition("M", TRANSITION_START) == ""); // it is ACTIVE already
+    CHECK(directory.transition("M", TRANSITION_STOP) == "");
+    CHECK(directory.transition("M", TRANSITION_STOP) == "");
+    CHECK(directory.transition("M", TRANSITION_START) == "");
+    CHECK(directory.transition("M", TRANSITION_RECOVER) == "component M is ACTIVE, not in ERROR");
+    directory.find("M")->stopOnError();
+    CHECK(directory.transition("M", TRANSITION_START) == "component M is in ERROR; reset it first");
+    CHECK(directory.transition("M", TRANSITION_RECOVER) == "");
+    CHECK(states.seen == std::vector<LifecycleState>{OPROS_CS_ACTIVE, OPROS_CS_INACTIVE, OPROS_CS_ACTIVE,
+                                                     OPROS_CS_ERROR, OPROS_CS_READY});
+    CHECK(directory.transition("M", TRANSITION_DESTROY) == "");
+    CHECK(directory.transition("M", TRANSITION_START) == "component M is DESTROYED");
+    directory.find("M")->removeLifecycleListener(&states);
+    application.stop();
+    CHECK(directory.transition("M", TRANSITION_START) == "the application ends");
+    CHECK(states.seen.size() == 6);
+}
+
+TEST_CASE("a component whose start by a directory fails goes to ERROR and can be recovered") {
+    const Folder folder;
+    Application application(watched(folder, "none"), test_options(folder));
+    application.start();
+    auto& directory = directory_of(application);
+    CHECK(directory.transition("M", TRANSITION_STOP) == "");
+    CHECK(directory.setProperty("M", "trouble", "start fails"));
+    CHECK_THAT(directory.transition("M", TRANSITION_START),
+               Contains("component M: onStart failed, it returned code"));
+    CHECK(state(application, "M") == OPROS_CS_ERROR);
+    CHECK(directory.transition("M", TRANSITION_RECOVER) == "");
+    CHECK(directory.setProperty("M", "trouble", "none"));
+    CHECK(directory.transition("M", TRANSITION_START) == "");
+    CHECK(state(application, "M") == OPROS_CS_ACTIVE);
+}
+
+TEST_CASE("a directory does not stop a component within its cycle, and sets properties between two") {
+    const Folder folder;
+    auto options = test_options(folder, false);
+    options.grace = std::chrono::seconds(1);
+    Application application(
+        watched(folder, "execute waits for stop", "<type>periodic</type><period>5</period>"), options);
+    application.start();
+    auto& directory = directory_of(application);
+    auto& maker = recorder(application, "M");
+    REQUIRE(eventually([&] { return maker.executions == 1; }));
+    CHECK_THAT(directory.transition("M", TRANSITION_STOP),
+               Contains("component M has not returned from onExecute for 5 s"));
+    CHECK(state(application, "M") == OPROS_CS_ACTIVE);
+    CHECK(directory.setProperty("M", "a", "new"));
+    CHECK(directory.find("M")->getProperty("a").empty()); // onExecute is still running
+    application.stop();
+    CHECK(application.stuck_components().empty());
+}
+
+TEST_CASE("a property that a directory sets reaches a running component before its next cycle") {
+    const Folder folder;
+    Application application(watched(folder, "none", "<type>periodic</type><period>5</period>"),
+                            test_options(folder, false));
+    application.start();
+    CHECK(directory_of(application).setProperty("M", "trouble", "stops itself"));
+    CHECK(eventually([&] { return state(application, "M") == OPROS_CS_ERROR; }));
+    CHECK_FALSE(directory_of(application).setProperty("N", "a", "b"));
+}
