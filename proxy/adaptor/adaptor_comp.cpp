@@ -30,8 +30,9 @@ bool peer_has_gone(CallStatus status) {
 }
 
 /// Returns an error if two ports of the peer would get mirrors of the same name.
-std::string check_names(const link::PortTable& peer, const std::string& link) {
+std::string check_names(const link::PortTable& peer, const link::PortTable& own, const std::string& link) {
     std::set<std::string> names{"linkState"};
+    for (const auto& port : own.ports) names.insert(port.name);
     for (const auto& port : peer.ports)
         if (!names.insert(port.name).second)
             return fmt::format("link '{}': the peer shares a port '{}', which is there already; rename it",
@@ -43,8 +44,12 @@ std::string check_names(const link::PortTable& peer, const std::string& link) {
 
 AdaptorComp::AdaptorComp() : Component("AdaptorComp") { addPort("linkState", &link_state_); }
 
-AdaptorComp::~AdaptorComp() {
-    if (link_) link_->close(); // before any member goes: the link's threads use them
+AdaptorComp::~AdaptorComp() { close_link(); }
+
+/// Before any member goes, since the link's threads use them; before the shared components, whose ports it uses.
+void AdaptorComp::close_link() {
+    if (link_) link_->close();
+    if (shared_) shared_->disconnect();
 }
 
 // ---- life cycle, in the host's threads
@@ -53,20 +58,16 @@ ReturnType AdaptorComp::onInitialize() {
     if (link_) return OPROS_SUCCESS; // reset() comes here again; the link and the mirrors stay as they are
     try {
         settings_ = read_settings(getPropertyMap());
-        link::LinkOptions options;
-        options.name = settings_.link;
-        options.rings.large_bytes = settings_.large_bytes;
-        options.segment_bytes = settings_.segment_bytes;
-        options.group = settings_.group;
-        options.wait = link::wait_options_from_environment();
-        link_ = std::make_unique<link::Link>(shm::Side::first, options, link::PortTable{},
-                                             static_cast<LinkHandler&>(*this));
+        create_link();
         if (!settings_.port_table.empty()) {
             const std::string error = check_peer_ports(link::decode_port_table_text(settings_.port_table));
             if (!error.empty()) throw link::LinkError(error);
             create_mirror_ports();
             return OPROS_SUCCESS;
         }
+        shared_->connect(*link_, [this](const std::string& port, DataPortListener* listener) {
+            listen_to(port, listener);
+        });
         link_->open();
         // The host connects ports as soon as this function returns, so the peer's table must be here by then.
         link_->wait_until_up(settings_.wait, peer_name);
@@ -74,9 +75,24 @@ ReturnType AdaptorComp::onInitialize() {
         return OPROS_SUCCESS;
     } catch (const std::runtime_error& error) {
         spdlog::error("{}: {}", getId(), error.what());
+        close_link();
+        shared_.reset();
         link_.reset();
         return OPROS_INITIALIZE_API_ERROR;
     }
+}
+
+void AdaptorComp::create_link() {
+    shared_ = std::make_unique<SharedComponents>(getId(), settings_.call_timeout);
+    own_ports_ = shared_->find(settings_.share, directory_);
+    link::LinkOptions options;
+    options.name = settings_.link;
+    options.rings.large_bytes = settings_.large_bytes;
+    options.segment_bytes = settings_.segment_bytes;
+    options.group = settings_.group;
+    options.wait = link::wait_options_from_environment();
+    link_ =
+        std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
 }
 
 ReturnType AdaptorComp::onStart() {
@@ -109,7 +125,7 @@ ReturnType AdaptorComp::onError() {
 }
 
 ReturnType AdaptorComp::onDestroy() {
-    if (link_) link_->close();
+    close_link();
     return OPROS_SUCCESS;
 }
 
@@ -121,7 +137,7 @@ void AdaptorComp::create_mirror_ports() {
     mirrors_created_ = true;
     if (link_->is_up())
         spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
-                     peer_ports_.ports.size(), peer_ports_.component);
+                     peer_ports_.ports.size(), peer_ports_.component_names());
 }
 
 void AdaptorComp::create_mirror_port(const link::Port& port) {
@@ -154,7 +170,7 @@ std::string AdaptorComp::check_peer_ports(const link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
     if (!mirrors_created_) {
         peer_ports_ = peer;
-        return check_names(peer, settings_.link);
+        return check_names(peer, own_ports_, settings_.link);
     }
     for (const auto& port : peer_ports_.ports) {
         const auto* found = peer.find(port.name);
@@ -171,6 +187,7 @@ void AdaptorComp::link_state_changed(bool) { publish_link_state(); }
 
 void AdaptorComp::peer_connected() {
     publish_listened_ports();
+    shared_->peer_connected();
     if (!started_) return;
     spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
     for (int attempt = 0; attempt < activation_attempts && started_ && link_->is_up(); ++attempt)
@@ -179,15 +196,18 @@ void AdaptorComp::peer_connected() {
     if (link_->is_up() && started_.exchange(false)) stopOnError();
 }
 
+void AdaptorComp::peer_disconnected() { shared_->peer_lost(); }
+
+Reply AdaptorComp::execute_command(const link::Request& request) {
+    if (request.operation != control::failed) return shared_->serve(request);
+    spdlog::error("{}: {}", getId(), control::decode_string(request.arguments));
+    rtc_failed_ = true;
+    if (started_.exchange(false)) stopOnError();
+    return {};
+}
+
 Reply AdaptorComp::serve(const link::Request& request) {
-    if (request.port.empty()) {
-        if (request.operation != control::failed)
-            return Reply::failure(CallStatus::no_such_operation, "unknown command");
-        spdlog::error("{}: {}", getId(), control::decode_string(request.arguments));
-        rtc_failed_ = true;
-        if (started_.exchange(false)) stopOnError();
-        return {};
-    }
+    if (request.port.empty()) return execute_command(request);
     if (auto* port = find_required_port(request.port)) return port->serve(request);
     return Reply::failure(CallStatus::no_such_operation, "no such service port");
 }
@@ -238,8 +258,8 @@ ReturnType AdaptorComp::drive_rtc(std::string_view command) {
         if (command == control::deactivate && peer_has_gone(reply.status)) return OPROS_SUCCESS;
         error = describe_failure(reply, timeout_of(command));
     }
-    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command, peer_ports_.component,
-                  error);
+    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
+                  peer_ports_.component_names(), error);
     return OPROS_CALL_API_ERROR;
 }
 

@@ -6,9 +6,11 @@
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 #include "proxy/adaptor/settings.hpp"
+#include "proxy/adaptor/share/shared_components.hpp"
 #include "proxy/link/link.hpp"
 
 #include <Component.h>
+#include <ComponentDirectory.h>
 #include <OutputDataPort.h>
 
 #include <memory>
@@ -21,12 +23,13 @@ namespace tandem::adaptor {
 
 /// The OPRoS side of the proxy: an ordinary OPRoS component that creates mirrors of the ports of the RTC
 /// behind InterceptorComp. Starting and stopping it activates and deactivates that RTC; an RTC in ERROR puts
-/// it in ERROR. Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down}
+/// it in ERROR. The OPRoS components that its property `share` names are shown as RTCs there. Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down}
 /// when the link comes up or goes down, and when the component is started.
-class AdaptorComp final : public Component, private link::LinkHandler {
+class AdaptorComp final : public Component, public ComponentDirectoryUser, private link::LinkHandler {
   public:
     AdaptorComp();
     ~AdaptorComp() override;
+    void setComponentDirectory(ComponentDirectory* directory) override { directory_ = directory; }
 
   protected:
     // Life cycle, in the host's threads.
@@ -48,9 +51,12 @@ class AdaptorComp final : public Component, private link::LinkHandler {
     std::string check_peer_ports(const link::PortTable&) override;
     void link_state_changed(bool up) override;
     void peer_connected() override;
-    void peer_disconnected() override {}
+    void peer_disconnected() override;
     link::Reply serve(const link::Request&) override;
+    link::Reply execute_command(const link::Request&);
 
+    void create_link();
+    void close_link();
     void create_mirror_ports();
     void create_mirror_port(const link::Port&);
     MirrorRequiredPort* find_required_port(std::string_view name);
@@ -65,7 +71,10 @@ class AdaptorComp final : public Component, private link::LinkHandler {
     void publish_link_state();
 
     Settings settings_;
+    ComponentDirectory* directory_ = nullptr;
     std::unique_ptr<link::Link> link_;
+    std::unique_ptr<SharedComponents> shared_; ///< uses the link
+    link::PortTable own_ports_;
     std::mutex mutex_; ///< peer_ports_, mirrors_created_, and required_ until the mirrors are created
     link::PortTable peer_ports_;
     bool mirrors_created_ = false;

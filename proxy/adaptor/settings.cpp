@@ -17,6 +17,18 @@ double number(const std::map<std::string, std::string>& properties, const std::s
                                   : link::parse_positive_number("property", name, at->second, default_value);
 }
 
+/// `A, B` as its names, without blanks.
+std::vector<std::string> split_names(const std::string& text) {
+    std::vector<std::string> names(1);
+    for (const char c : text)
+        if (c == ',')
+            names.emplace_back();
+        else if (c != ' ' && c != '\t' && c != '\n')
+            names.back() += c;
+    std::erase(names, "");
+    return names;
+}
+
 } // namespace
 
 Settings read_settings(const std::map<std::string, std::string>& properties) {
@@ -37,6 +49,8 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
         std::size_t{1024} * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
     if (const auto group = properties.find("group"); group != properties.end())
         settings.group = group->second;
+    if (const auto share = properties.find("share"); share != properties.end())
+        settings.share = split_names(share->second);
     if (const auto table = properties.find("port_table"); table != properties.end())
         settings.port_table = table->second;
     return settings;

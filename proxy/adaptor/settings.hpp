@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace tandem::adaptor {
 
@@ -18,7 +19,8 @@ struct Settings {
         std::size_t{4} * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
     /// `port_table`, for tools: the ports to mirror (link::encode_as_text()). No link is opened then.
     std::string port_table;
-    std::string group; ///< `group`: may join the link beside the owner; empty: the owner only
+    std::vector<std::string> share; ///< `share`: names of the OPRoS components that are shown as RTCs
+    std::string group;              ///< `group`: may join the link beside the owner; empty: the owner only
 };
 
 /// Throws std::runtime_error, one line, when `link` is missing or another property is not a number above 0.

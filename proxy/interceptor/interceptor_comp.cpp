@@ -56,14 +56,16 @@ RTC::ReturnCode_t InterceptorComp::onFinalize() {
 /// Creates the link, a mirror of each port of the RTC, and their connections, and opens the link last: the
 /// peer may call and send as soon as it is up. Throws std::runtime_error, one line, or CORBA::Exception.
 void InterceptorComp::share_rtc_ports() {
-    auto* rtc = RTC::Manager::instance().getComponent(settings_.rtc.c_str());
-    if (!rtc)
+    auto& manager = RTC::Manager::instance();
+    RTC::RTObject_impl* rtc = settings_.rtc.empty() ? nullptr : manager.getComponent(settings_.rtc.c_str());
+    if (!rtc && !settings_.rtc.empty())
         throw std::runtime_error(
             fmt::format("parameter 'rtc' names '{}', but there is no such RTC; create it before "
                         "this one in manager.components.precreate",
                         settings_.rtc));
-    const auto ports = enumerate_ports(*rtc);
-    link::PortTable table{settings_.rtc, {}};
+    const auto ports = rtc ? enumerate_ports(*rtc) : std::vector<RtcPort>{};
+    link::PortTable table;
+    if (rtc) table.components.push_back({settings_.rtc, rtc->getTypeName()});
     for (const auto& port : ports) table.ports.push_back(port.entry);
     link::LinkOptions options;
     options.name = settings_.link;
@@ -72,18 +74,21 @@ void InterceptorComp::share_rtc_ports() {
     options.group = settings_.group;
     options.wait = link::wait_options_from_environment();
     link_ = std::make_unique<link::Link>(shm::Side::second, options, table, static_cast<LinkHandler&>(*this));
+    LinkBuffer::register_factory();
+    opros_rtcs_ = std::make_unique<OprosRtcs>(getInstanceName(), manager, *link_, settings_.link,
+                                              settings_.call_timeout);
     // The report waits for the peer, and so must not run in the thread of the RTC's execution context.
-    rtc_driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,
-                                              [this] { link_->post([this] { report_rtc_error(); }); });
+    if (rtc)
+        rtc_driver_ = std::make_unique<RtcDriver>(*rtc, settings_.call_timeout,
+                                                  [this] { link_->post([this] { report_rtc_error(); }); });
     own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [] {});
     create_mirror_ports(ports);
     link_->open();
-    spdlog::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(), settings_.rtc,
-                 settings_.link);
+    spdlog::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
+                 table.component_names(), settings_.link);
 }
 
 void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
-    LinkBuffer::register_factory();
     for (const auto& port : ports)
         if (link::is_data_port(port.entry.kind))
             create_data_mirror(port);
@@ -167,6 +172,7 @@ void InterceptorComp::connect(RTC::PortBase& mirror, RTC::PortService_ptr rtc_po
 
 void InterceptorComp::disconnect_all() {
     if (link_) link_->close(); // first: its threads use everything below
+    opros_rtcs_.reset();
     rtc_driver_.reset();
     own_driver_.reset();
     for (auto& port : data_ports_) port->disconnect_all();
@@ -176,6 +182,18 @@ void InterceptorComp::disconnect_all() {
 }
 
 // ---- the peer connects, disconnects, calls
+
+/// Refuses a table that has a port of the same name, because the channels of both share one segment.
+std::string InterceptorComp::check_peer_ports(const link::PortTable& peer) {
+    for (const auto& port : peer.ports)
+        if (std::find(channel_keys_.begin(), channel_keys_.end(), channel_key(port.name)) !=
+            channel_keys_.end())
+            return fmt::format(
+                "link '{}': both sides share a port '{}'; rename the OPRoS component or the RTC",
+                settings_.link, port.name);
+    opros_rtcs_->set_peer_table(peer);
+    return "";
+}
 
 void InterceptorComp::link_state_changed(bool up) {
     if (up) spdlog::info("{}: link '{}' is up", getInstanceName(), settings_.link);
@@ -192,8 +210,13 @@ void InterceptorComp::link_state_changed(bool up) {
 }
 
 void InterceptorComp::peer_disconnected() {
+    opros_rtcs_->peer_lost();
+    deactivate_if_activated_by_link();
+}
+
+void InterceptorComp::deactivate_if_activated_by_link() {
     // An RTC that somebody else has activated keeps running: it does not depend on the link.
-    if (!activated_by_link_.exchange(false)) return;
+    if (!activated_by_link_.exchange(false) || !rtc_driver_) return;
     const std::string error = rtc_driver_->deactivate();
     if (!error.empty()) spdlog::error("{}: {}: {}", getInstanceName(), settings_.rtc, error);
 }
@@ -210,10 +233,12 @@ Reply InterceptorComp::execute_command(const link::Request& request) {
     if (request.operation == control::activate) {
         error = activate();
     } else if (request.operation == control::deactivate) {
-        error = rtc_driver_->deactivate();
+        error = rtc_driver_ ? rtc_driver_->deactivate() : "";
         activated_by_link_ = false;
     } else if (request.operation == control::reset) {
-        error = rtc_driver_->reset();
+        error = rtc_driver_ ? rtc_driver_->reset() : "";
+    } else if (request.operation == control::state) {
+        error = receive_state(request);
     } else if (request.operation == control::bind) {
         error = bind(request.arguments);
     } else if (request.operation == control::listen) {
@@ -229,11 +254,20 @@ std::string InterceptorComp::activate() {
     activated_by_link_ = true;
     // This component before the RTC, which may send and call through the mirrors from its onActivated on.
     std::string error = own_driver_->activate();
-    if (error.empty()) error = rtc_driver_->activate();
+    if (error.empty() && rtc_driver_) error = rtc_driver_->activate();
     if (!error.empty()) activated_by_link_ = false;
     // The peer may have gone before the RTC was active: then nobody else deactivates it.
-    if (!link_->is_up()) peer_disconnected();
+    if (!link_->is_up()) deactivate_if_activated_by_link();
     return error;
+}
+
+std::string InterceptorComp::receive_state(const link::Request& request) {
+    try {
+        opros_rtcs_->receive_state(request);
+        return "";
+    } catch (const link::LinkError& error) {
+        return error.what();
+    }
 }
 
 std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
@@ -260,6 +294,7 @@ std::string InterceptorComp::listen(std::span<const std::byte> arguments) {
 }
 
 void InterceptorComp::peer_connected() {
+    opros_rtcs_->peer_connected();
     if (unreported_error_) report_rtc_error(); // there was no peer when the RTC went to ERROR
 }
 

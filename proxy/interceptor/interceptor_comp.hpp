@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/opros/opros_rtcs.hpp"
 #include "proxy/interceptor/rtc_driver.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 #include "proxy/interceptor/service/mirror_provided_port.hpp"
@@ -24,7 +25,8 @@ namespace tandem::interceptor {
 /// The RTM side of the proxy: an ordinary RTC that shares the ports of another RTC of its manager with
 /// AdaptorComp, and activates, deactivates and resets that RTC when AdaptorComp asks for it. Its OutPort
 /// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
-/// goes down. If the peer dies, the RTC is deactivated.
+/// goes down. If the peer dies, the RTC is deactivated. The OPRoS components that AdaptorComp shares are RTCs of this
+/// manager while this component is there.
 class InterceptorComp final : public RTC::DataFlowComponentBase, private link::LinkHandler {
   public:
     explicit InterceptorComp(RTC::Manager* manager);
@@ -45,7 +47,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void disconnect_all();
 
     // LinkHandler, in the link's threads.
-    std::string check_peer_ports(const link::PortTable&) override { return ""; }
+    std::string check_peer_ports(const link::PortTable&) override;
     void link_state_changed(bool up) override;
     void peer_connected() override;
     void peer_disconnected() override;
@@ -54,15 +56,18 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
 
     // Each returns an empty string or an error of one line.
     std::string activate();
+    std::string receive_state(const link::Request&);
     std::string bind(std::span<const std::byte> arguments);
     std::string listen(std::span<const std::byte> arguments);
 
+    void deactivate_if_activated_by_link();
     void report_rtc_error();
     std::string channel_key(const std::string& port) const;
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
-    std::unique_ptr<RtcDriver> rtc_driver_, own_driver_;
+    std::unique_ptr<OprosRtcs> opros_rtcs_;
+    std::unique_ptr<RtcDriver> rtc_driver_, own_driver_; ///< rtc_driver_: nullptr without an RTC to share
     std::atomic<bool> activated_by_link_{false}; ///< then a peer that goes leaves it to be deactivated
     std::atomic<bool> unreported_error_{false};  ///< the RTC went to ERROR and the peer does not know yet
 

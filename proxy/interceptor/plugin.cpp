@@ -4,34 +4,26 @@
 #include <tandem_version.hpp>
 
 namespace {
-const char* const specification[] = {"implementation_id",
-                                     "InterceptorComp",
-                                     "type_name",
-                                     "InterceptorComp",
-                                     "description",
-                                     "the RTM side of Tandem's proxy",
-                                     "version",
-                                     tandem::version,
-                                     "vendor",
-                                     "Tandem",
-                                     "category",
-                                     "proxy",
-                                     "activity_type",
-                                     "PERIODIC",
-                                     "kind",
-                                     "DataFlowComponent",
-                                     "max_instance",
-                                     "0",
-                                     "language",
-                                     "C++",
-                                     "lang_type",
-                                     "compile",
-                                     ""};
+/// The profile of a component type, as a manager wants it.
+coil::Properties profile_of(const char* type, const char* description) {
+    coil::Properties profile;
+    const std::pair<const char*, const char*> values[] = {
+        {"implementation_id", type},   {"type_name", type},           {"description", description},
+        {"version", tandem::version},  {"vendor", "Tandem"},          {"category", "proxy"},
+        {"activity_type", "PERIODIC"}, {"kind", "DataFlowComponent"}, {"max_instance", "0"},
+        {"language", "C++"},           {"lang_type", "compile"}};
+    for (const auto& [key, value] : values) profile.setProperty(key, value);
+    return profile;
 }
+
+} // namespace
 
 // What an RTM manager looks up in a module: the library's name followed by Init.
 extern "C" void InterceptorCompInit(RTC::Manager* manager) {
-    coil::Properties profile(specification);
-    manager->registerFactory(profile, RTC::Create<tandem::interceptor::InterceptorComp>,
-                             RTC::Delete<tandem::interceptor::InterceptorComp>);
+    using tandem::interceptor::InterceptorComp;
+    using tandem::interceptor::OprosRtc;
+    coil::Properties own = profile_of("InterceptorComp", "the RTM side of Tandem's proxy");
+    manager->registerFactory(own, RTC::Create<InterceptorComp>, RTC::Delete<InterceptorComp>);
+    coil::Properties shown = profile_of(OprosRtc::implementation_id, "shows an OPRoS component");
+    manager->registerFactory(shown, RTC::Create<OprosRtc>, RTC::Delete<OprosRtc>);
 }

@@ -29,8 +29,7 @@ double number(coil::Properties& properties, const std::string& name, double defa
 Settings read_settings(coil::Properties& properties) {
     Settings settings;
     settings.link = required(properties, "link", "the name that AdaptorComp's property 'link' has");
-    settings.rtc =
-        required(properties, "rtc", "the instance name of the RTC to share, created before this one");
+    settings.rtc = properties.getProperty("rtc");
     settings.call_timeout =
         std::chrono::milliseconds(static_cast<long>(number(properties, "call_timeout", 1000)));
     settings.ring_bytes = 1024 * static_cast<std::size_t>(number(properties, "ring_kib", 256));

@@ -12,7 +12,7 @@ namespace tandem::interceptor {
 /// the project describes them for users.
 struct Settings {
     std::string link; ///< `link`: the name of the link, the same as AdaptorComp's
-    std::string rtc;  ///< `rtc`: instance name of the RTC whose ports are shared
+    std::string rtc;  ///< `rtc`: instance name of the RTC whose ports are shared; empty: none
     std::chrono::milliseconds call_timeout{1'000};    ///< `call_timeout` [ms]: of each call across the link
     std::size_t ring_bytes = std::size_t{256} * 1024; ///< `ring_kib`: of each data port
     std::size_t large_bytes = 0;                      ///< `large_kib`: longest message of a port, see README
@@ -21,7 +21,7 @@ struct Settings {
     std::string group;                ///< `group`: may join the link beside the owner; empty: the owner only
 };
 
-/// Throws std::runtime_error, one line, when `link` or `rtc` is missing or another parameter is not a number
+/// Throws std::runtime_error, one line, when `link` is missing or another parameter is not a number
 /// above 0.
 Settings read_settings(coil::Properties& properties);
 

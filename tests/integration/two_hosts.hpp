@@ -58,6 +58,25 @@ class TwoHosts {
     void set_wait(const std::string& seconds) { wait_ = seconds; }
     void set_interceptor(const std::string& parameters) { interceptor_ = parameters; }
     void append_to_rtc_conf(const std::string& lines) { rtc_conf_more_ += lines; }
+    /// One more OPRoS component, whose profile is in opros/; `properties` as an application profile has them.
+    void add_component(const std::string& name, const std::string& type, const std::string& properties = "") {
+        std::filesystem::copy_file(TEST_SOURCES "/opros/" + type + ".xml", folder_ / (type + ".xml"),
+                                   std::filesystem::copy_options::skip_existing);
+        components_ += "<subcomponent><name>" + name + "</name><reference>" + type +
+                       ".xml</reference><properties>" + properties + "</properties></subcomponent>\n";
+    }
+    static std::string property(const std::string& name, const std::string& value) {
+        return "<property name=\"" + name + "\">" + value + "</property>";
+    }
+    void set_adaptor_properties(const std::string& xml) { adaptor_properties_ = xml; }
+    /// Neither a Talker nor an RTC: the link has components of add_component() only.
+    void leave_out_talker_and_rtc() {
+        talker_.clear();
+        connections_.clear();
+        interceptor_.clear();
+    }
+    /// rtm_host's manager is at this port of 127.0.0.1.
+    void set_manager_port(const std::string& port) { manager_port_ = port; }
     /// More arguments of both hosts.
     void set_switches(const std::vector<std::string>& switches) { switches_ = switches; }
     const std::string& link() const { return link_; }
@@ -66,12 +85,14 @@ class TwoHosts {
     std::filesystem::path write_application() const {
         std::ofstream(folder_ / "app.xml")
             << "<?xml version=\"1.0\"?>\n<package_profile><name>app</name>\n<subcomponents>\n"
-            << "<subcomponent><name>Talker</name><reference>" << talker_
-            << ".xml</reference></subcomponent>\n"
+            << (talker_.empty() ? ""
+                                : "<subcomponent><name>Talker</name><reference>" + talker_ +
+                                      ".xml</reference></subcomponent>\n")
+            << components_
             << "<subcomponent><name>Adaptor</name><reference>AdaptorComp.xml</reference><properties>"
             << "<property name=\"link\">" << link_ << "</property><property name=\"wait\">" << wait_
-            << "</property><property name=\"large_kib\">" << large_kib_
-            << "</property></properties></subcomponent>\n</subcomponents>\n<port_connections>\n"
+            << "</property><property name=\"large_kib\">" << large_kib_ << "</property>"
+            << adaptor_properties_ << "</properties></subcomponent>\n</subcomponents>\n<port_connections>\n"
             << connections_ << "</port_connections></package_profile>\n";
         std::filesystem::copy_file(
             std::filesystem::path(OPROS_HOST).parent_path() / "../plugins/opros/AdaptorComp.xml",
@@ -90,14 +111,17 @@ class TwoHosts {
         return {WEXITSTATUS(status), {std::istreambuf_iterator<char>(file), {}}};
     }
     void start_rtm() {
+        const bool has_rtc = !interceptor_.empty();
         std::ofstream(folder_ / "rtc.conf")
             << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: "
                "100\n"
             << "manager.modules.preload: " << rtc_ << ".so, InterceptorComp.so\n"
-            << "manager.components.precreate: " << rtc_ << rtc_properties_
-            << ", InterceptorComp?link=" << link_ << "&" << interceptor_ << "\n"
+            << "manager.components.precreate: " << (has_rtc ? rtc_ + rtc_properties_ + ", " : "")
+            << "InterceptorComp?link=" << link_ << (has_rtc ? "&" + interceptor_ : "") << "\n"
             << rtc_conf_more_;
-        start("rtm", {RTM_HOST, "-f", (folder_ / "rtc.conf").string()});
+        std::vector<std::string> command{RTM_HOST, "-f", (folder_ / "rtc.conf").string()};
+        if (!manager_port_.empty()) command.insert(command.end(), {"-p", manager_port_});
+        start("rtm", command);
     }
 
     /// Everything a host has written so far.
@@ -153,7 +177,8 @@ class TwoHosts {
 
     std::filesystem::path folder_;
     std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
-                                     interceptor_ = "rtc=EchoRtc0", rtc_conf_more_, rtc_properties_;
+                                     interceptor_ = "rtc=EchoRtc0", rtc_conf_more_, rtc_properties_,
+                                     components_, adaptor_properties_, manager_port_;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::process::ChildProcess> hosts_;
 };

@@ -79,7 +79,7 @@ link::PortTable shared_table(RTC::Manager& manager, const Sharing& sharing) {
     if (!rtc)
         throw RTC::ManagerError("manager.components.precreate: InterceptorComp's 'rtc' names '" +
                                 sharing.rtc + "', but no such RTC is created before it");
-    link::PortTable table{sharing.rtc, {}};
+    link::PortTable table{{{sharing.rtc}}, {}};
     for (auto& port : interceptor::enumerate_ports(*rtc)) table.ports.push_back(std::move(port.entry));
     return table;
 }

@@ -46,6 +46,41 @@ std::vector<std::string> decode_port_names(std::span<const std::byte> bytes) {
     return names;
 }
 
+std::vector<std::byte> encode(const StateReport& report) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter out(bytes);
+    out.put_string(report.component);
+    out.put(static_cast<std::uint32_t>(report.state));
+    out.put(report.sequence);
+    return bytes;
+}
+
+StateReport decode_state_report(std::span<const std::byte> bytes) {
+    wire::CdrReader in(bytes);
+    StateReport report;
+    report.component = in.get_string();
+    report.state = static_cast<ComponentState>(in.get<std::uint32_t>());
+    report.sequence = in.get<std::uint64_t>();
+    if (!in.ok() || report.state > ComponentState::destroyed)
+        throw LinkError("a state report of the peer is damaged");
+    return report;
+}
+
+std::vector<std::byte> encode(const Setting& setting) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter out(bytes);
+    for (const auto* text : {&setting.component, &setting.name, &setting.value}) out.put_string(*text);
+    return bytes;
+}
+
+Setting decode_setting(std::span<const std::byte> bytes) {
+    wire::CdrReader in(bytes);
+    Setting setting;
+    for (auto* text : {&setting.component, &setting.name, &setting.value}) *text = in.get_string();
+    if (!in.ok()) throw LinkError("a setting of the peer is damaged");
+    return setting;
+}
+
 std::vector<std::byte> encode_string(std::string_view text) {
     std::vector<std::byte> bytes;
     wire::CdrWriter(bytes).put_string(text);

@@ -11,24 +11,49 @@
 #include <string_view>
 #include <vector>
 
-/// The control commands: requests with an empty port name, by which AdaptorComp drives the RTC behind
-/// InterceptorComp and learns of its errors. The operation of the request is one of these words; arguments
-/// are in CDR.
+/// The control commands: requests with an empty port name, by which each proxy drives the components that the other
+/// one shares and learns of their states. The operation of the request is one of these words; arguments are in CDR.
 namespace tandem::link::control {
 
-// Executed by InterceptorComp.
-inline constexpr std::string_view activate = "activate";     ///< no arguments; ok when the RTC is ACTIVE
-inline constexpr std::string_view deactivate = "deactivate"; ///< no arguments; ok when it is INACTIVE
-inline constexpr std::string_view reset = "reset";           ///< no arguments; ok when it has left ERROR
-inline constexpr std::string_view bind = "bind";     ///< a ServiceBinding: what a required service now offers
+// Executed by both. InterceptorComp: for all its RTCs, without arguments. AdaptorComp: for the OPRoS component whose
+// name is the argument; the reply is a StateReport.
+inline constexpr std::string_view activate = "activate";     ///< ok when it is active
+inline constexpr std::string_view deactivate = "deactivate"; ///< ok when it is inactive
+inline constexpr std::string_view reset = "reset";           ///< ok when it has left its error state
 inline constexpr std::string_view listen = "listen"; ///< names of the data ports whose messages ring the bell
 
 /// How long InterceptorComp waits for the callback of the RTC, unless its call_timeout is longer: a device may need
 /// seconds to open. Below the 10 s after which opros_host gives an onStop up.
 inline constexpr std::chrono::milliseconds activation_timeout{10'000}, deactivation_timeout{5'000};
 
+// Executed by InterceptorComp.
+inline constexpr std::string_view bind = "bind"; ///< a ServiceBinding: what a required service now offers
+inline constexpr std::string_view state =
+    "state"; ///< a StateReport: an OPRoS component has changed its state
+
 // Executed by AdaptorComp.
-inline constexpr std::string_view failed = "failed"; ///< a string for the log: the RTC went to ERROR
+inline constexpr std::string_view failed = "failed";       ///< a string for the log: the RTC went to ERROR
+inline constexpr std::string_view exit = "exit";           ///< name of an OPRoS component, which is destroyed
+inline constexpr std::string_view configure = "configure"; ///< a Setting
+
+/// The state of an OPRoS component, as far as it concerns an RTC that shows it.
+enum class ComponentState : std::uint32_t { inactive, active, error, destroyed };
+
+struct StateReport {
+    std::string component;
+    ComponentState state{};
+    std::uint64_t sequence =
+        0; ///< of two reports of one session about a component, the one with the larger is newer
+};
+std::vector<std::byte> encode(const StateReport&);
+StateReport decode_state_report(std::span<const std::byte>); ///< Throws LinkError when damaged.
+
+/// A new value of a component's property.
+struct Setting {
+    std::string component, name, value;
+};
+std::vector<std::byte> encode(const Setting&);
+Setting decode_setting(std::span<const std::byte>); ///< Throws LinkError when damaged.
 
 /// What an OPRoS component provides for a service that the RTC requires.
 struct ServiceBinding {

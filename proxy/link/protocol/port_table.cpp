@@ -10,17 +10,29 @@
 namespace tandem::link {
 namespace {
 
-// Bytes of a port at least, to refuse a count that the table cannot hold.
-constexpr std::size_t min_port_bytes = 24;
+// Bytes of a port, a property and a component at least, to refuse a count that the table cannot hold.
+constexpr std::size_t min_port_bytes = 29, min_property_bytes = 13, min_component_bytes = 17;
 
 void put(wire::CdrWriter& out, const Port& port) {
     out.put(static_cast<std::uint32_t>(port.kind));
     for (const auto* text : {&port.name, &port.type, &port.signature, &port.instance}) out.put_string(*text);
     put(out, port.operations);
+    out.put_string(port.component);
+}
+
+void put(wire::CdrWriter& out, const SharedComponent& component) {
+    out.put_string(component.name);
+    out.put_string(component.type);
+    out.put(static_cast<std::uint32_t>(component.properties.size()));
+    for (const auto& [name, value] : component.properties) {
+        out.put_string(name);
+        out.put_string(value);
+    }
 }
 
 void put(wire::CdrWriter& out, const PortTable& table) {
-    out.put_string(table.component);
+    out.put(static_cast<std::uint32_t>(table.components.size()));
+    for (const auto& component : table.components) put(out, component);
     out.put(static_cast<std::uint32_t>(table.ports.size()));
     for (const Port& port : table.ports) put(out, port);
 }
@@ -32,7 +44,20 @@ Port get_port(wire::CdrReader& in) {
         throw LinkError("the peer's port table has a port of unknown kind");
     for (auto* text : {&port.name, &port.type, &port.signature, &port.instance}) *text = in.get_string();
     port.operations = get_service_operations(in);
+    port.component = in.get_string();
     return port;
+}
+
+SharedComponent get_component(wire::CdrReader& in) {
+    SharedComponent component;
+    component.name = in.get_string();
+    component.type = in.get_string();
+    component.properties.resize(in.get_count(min_property_bytes));
+    for (auto& [name, value] : component.properties) {
+        name = in.get_string();
+        value = in.get_string();
+    }
+    return component;
 }
 
 } // namespace
@@ -41,6 +66,12 @@ const Port* PortTable::find(std::string_view name) const {
     const auto at =
         std::find_if(ports.begin(), ports.end(), [&](const Port& port) { return port.name == name; });
     return at == ports.end() ? nullptr : &*at;
+}
+
+std::string PortTable::component_names() const {
+    std::string names;
+    for (const auto& component : components) names += (names.empty() ? "" : ", ") + component.name;
+    return names.empty() ? "no component" : names;
 }
 
 std::vector<std::byte> encode(const PortTable& table) {
@@ -55,10 +86,11 @@ std::vector<std::byte> encode(const PortTable& table) {
 PortTable decode_port_table(std::span<const std::byte> bytes) {
     wire::CdrReader in(bytes);
     PortTable table;
-    table.component = in.get_string();
+    const std::uint32_t components = in.get_count(min_component_bytes);
+    // A damaged entry ends the loops: a wrong count must not make them read zeros millions of times.
+    for (std::uint32_t i = 0; i < components && in.ok(); ++i) table.components.push_back(get_component(in));
     const std::uint32_t count = in.get_count(min_port_bytes);
     table.ports.reserve(count);
-    // A damaged port ends the loop: a wrong count must not make it read zeros millions of times.
     for (std::uint32_t i = 0; i < count && in.ok(); ++i) table.ports.push_back(get_port(in));
     if (!in.ok())
         throw LinkError("the peer's port table is damaged: it ends early or holds a malformed string");

@@ -30,19 +30,36 @@ struct Port {
     std::string signature; ///< data ports: of the message, RTM's leading time included
     std::string instance;  ///< service ports: name of the interface instance
     std::vector<ServiceOperation> operations; ///< service ports: empty when the model cannot tell
+    std::string component{};                  ///< whose port it is: a name in PortTable::components
     bool operator==(const Port&) const = default;
 };
 
-/// The ports that a side shares. It publishes them in the segment; the peer reads them when it connects.
+/// A setting of a component and its value when the table was made.
+struct Property {
+    std::string name, value;
+    bool operator==(const Property&) const = default;
+};
+
+/// A component that a side shares.
+struct SharedComponent {
+    std::string name;
+    std::string type{};                 ///< as its own model calls it
+    std::vector<Property> properties{}; ///< empty for an RTC, whose configuration is not shared
+    bool operator==(const SharedComponent&) const = default;
+};
+
+/// What a side shares. It publishes this in the segment; the peer reads it when it connects.
 struct PortTable {
-    std::string component; ///< whose ports these are
-    std::vector<Port> ports;
+    std::vector<SharedComponent> components;
+    std::vector<Port> ports; ///< of all components; each name occurs once
     bool operator==(const PortTable&) const = default;
 
     const Port* find(std::string_view name) const; ///< nullptr if there is none of that name
+    std::string component_names() const;           ///< for messages: `A, B`
 };
 
-/// In CDR: component, count, and of each port kind, name, type, signature, instance and operations.
+/// In CDR: count, and of each component name, type, count, and of each property name and value; then count, and of
+/// each port kind, name, type, signature, instance, operations and component.
 std::vector<std::byte> encode(const PortTable&);
 /// Throws LinkError when the bytes, which another process wrote, are no table.
 PortTable decode_port_table(std::span<const std::byte>);

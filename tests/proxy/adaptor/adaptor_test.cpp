@@ -31,7 +31,7 @@ constexpr auto soon = 10s;
 struct Peer : link::LinkHandler {
     explicit Peer(const std::string& name)
         : link(shm::Side::second, {name},
-               {"Joystick0",
+               {{{"Joystick0"}},
                 {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
                  {PortKind::data_in, "position", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
                  {PortKind::service_provided,

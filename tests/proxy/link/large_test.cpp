@@ -238,7 +238,7 @@ TEST_CASE("a side that comes back finds chunks though the other one held one and
 }
 
 TEST_CASE("ports whose type sets a bound below the ring's get no chunks") {
-    const PortTable table{"X",
+    const PortTable table{{{"X"}},
                           {{PortKind::data_out, "number", "T", "(uu)d", "", {}},
                            {PortKind::data_out, "image", "T", "(uu)qqqsday", "", {}},
                            {PortKind::service_provided, "service", "T", "", "s", {}},

@@ -38,7 +38,7 @@ inline std::size_t segments_of(const std::string& link) {
 }
 
 inline PortTable joystick_table() {
-    return {"Joystick0",
+    return {{{"Joystick0"}},
             {{PortKind::data_out, "reference", "T", "ad", "", {}},
              {PortKind::data_in, "position", "T", "ad", "", {}}}};
 }

@@ -35,7 +35,7 @@ TEST_CASE("data flow both ways whichever side opens first, and nothing is left b
 TEST_CASE("the segment is as large as the ports need, whichever side opens first") {
     const auto name = unique_name("many");
     const bool adaptor_first = GENERATE(true, false);
-    PortTable table{"Many0", {}};
+    PortTable table{{{"Many0"}}, {}};
     constexpr int ports = 100; // with 256 KiB each: six times the default of segment_mib
     for (int i = 0; i < ports; ++i)
         table.ports.push_back({PortKind::data_out, fmt::format("port{}", i), "T", "d", "", {}});

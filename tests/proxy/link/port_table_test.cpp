@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "proxy/link/protocol/control.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "proxy/link/protocol/request.hpp"
@@ -12,8 +13,8 @@ using namespace tandem::link;
 namespace {
 PortTable wheelchair() {
     return {
-        "JoystickComp0",
-        {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
+        {{"JoystickComp0", "JoystickComp", {{"gain", "2"}, {"axis", "x"}}}, {"Spare0"}},
+        {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}, "JoystickComp0"},
          {PortKind::data_in, "joystickPos", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
          {PortKind::service_required, "chair", "Chair", "", "chair0", {{"limits", ":ad"}, {"stop", ":b"}}}}};
 }
@@ -26,6 +27,7 @@ TEST_CASE("a port table comes out as it went in") {
     REQUIRE(back.find("chair") != nullptr);
     CHECK(back.find("chair")->operations.size() == 2);
     CHECK(back.find("nobody") == nullptr);
+    CHECK(back.component_names() == "JoystickComp0, Spare0");
 }
 
 TEST_CASE("a port table that was cut short anywhere is refused") {
@@ -47,6 +49,19 @@ TEST_CASE("damaged port tables are refused or read, never more") {
             SUCCEED();
         }
     }
+}
+
+TEST_CASE("state reports and settings come out as they went in, and are refused when cut short") {
+    const auto report = control::encode(control::StateReport{"Camera", control::ComponentState::error, 7});
+    const auto back = control::decode_state_report(report);
+    CHECK((back.component == "Camera" && back.state == control::ComponentState::error && back.sequence == 7));
+    CHECK_THROWS_AS(control::decode_state_report(std::span(report).first(report.size() - 1)), LinkError);
+    auto unknown = control::encode(control::StateReport{"Camera", control::ComponentState{4}, 7});
+    CHECK_THROWS_AS(control::decode_state_report(unknown), LinkError);
+    const auto setting = control::encode(control::Setting{"Camera", "gain", "2.5"});
+    const auto set = control::decode_setting(setting);
+    CHECK((set.component == "Camera" && set.name == "gain" && set.value == "2.5"));
+    CHECK_THROWS_AS(control::decode_setting(std::span(setting).first(setting.size() - 1)), LinkError);
 }
 
 TEST_CASE("a request comes out as it went in, its arguments aligned to 8") {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/share/shared_components.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace tandem::adaptor {
+namespace control = link::control;
+using link::CallStatus;
+using link::Reply;
+
+namespace {
+
+// Of a state report: one more only if the peer is there and did not answer in time.
+constexpr int report_attempts = 3;
+
+} // namespace
+
+link::PortTable SharedComponents::find(const std::vector<std::string>& names, ComponentDirectory* directory) {
+    if (!directory && !names.empty())
+        spdlog::error("{}: property 'share': this engine does not show components to each other "
+                      "(ComponentDirectory.h); nothing is shared",
+                      owner_);
+    directory_ = directory;
+    for (const auto& name : names) {
+        if (!directory || find(name)) continue;
+        if (!directory->find(name) || name == owner_) {
+            spdlog::error(
+                "{}: property 'share' names '{}', which is no other component of the application; it has {}",
+                owner_, name, fmt::join(directory->names(), ", "));
+            continue;
+        }
+        components_.push_back(std::make_unique<SharedComponent>(name, *directory));
+        for (const auto& line : components_.back()->describe(table_)) spdlog::warn("{}: {}", owner_, line);
+    }
+    return table_;
+}
+
+void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_listener) {
+    link_ = &link;
+    for (const auto& component : components_)
+        component->connect(table_, link, set_listener, [this, &component = *component] {
+            link_->post([this, &component] { report(component); });
+        });
+}
+
+void SharedComponents::disconnect() {
+    for (const auto& component : components_) component->disconnect();
+}
+
+SharedComponent* SharedComponents::find(std::string_view name) const {
+    const auto found = std::find_if(components_.begin(), components_.end(),
+                                    [&](const auto& component) { return component->name() == name; });
+    return found == components_.end() ? nullptr : found->get();
+}
+
+Reply SharedComponents::serve(const link::Request& request) {
+    try {
+        if (request.operation == control::configure) return configure(request);
+        if (request.operation == control::listen) {
+            listen(request.arguments);
+            return {};
+        }
+    } catch (const link::LinkError& error) {
+        return Reply::failure(CallStatus::bad_arguments, error.what());
+    }
+    if (request.operation != control::activate && request.operation != control::deactivate &&
+        request.operation != control::reset && request.operation != control::exit)
+        return Reply::failure(CallStatus::no_such_operation, "unknown command");
+    const std::string name = control::decode_string(request.arguments);
+    SharedComponent* component = find(name);
+    if (!component)
+        return Reply::failure(CallStatus::bad_arguments, fmt::format("no component '{}' is shared", name));
+    const std::string error = component->execute(request.operation);
+    return error.empty() ? Reply{CallStatus::ok, control::encode(component->report())}
+                         : Reply::failure(CallStatus::exception, error);
+}
+
+Reply SharedComponents::configure(const link::Request& request) {
+    const auto setting = control::decode_setting(request.arguments);
+    if (find(setting.component) && directory_->setProperty(setting.component, setting.name, setting.value)) {
+        spdlog::info("{}: property '{}' of {} is set to '{}' by the RTM side", owner_, setting.name,
+                     setting.component, setting.value);
+        return {};
+    }
+    return Reply::failure(CallStatus::bad_arguments,
+                          fmt::format("no component '{}' is shared", setting.component));
+}
+
+/// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
+void SharedComponents::listen(std::span<const std::byte> arguments) {
+    const auto names = control::decode_port_names(arguments);
+    for (const auto& port : table_.ports)
+        if (port.kind == link::PortKind::data_out)
+            link_->writer(port.name).set_peer_listens(std::find(names.begin(), names.end(), port.name) !=
+                                                      names.end());
+}
+
+void SharedComponents::peer_connected() {
+    for (const auto& component : components_) report(*component);
+}
+
+void SharedComponents::peer_lost() {
+    for (const auto& component : components_) component->peer_lost();
+}
+
+/// Tells the peer the component's state. A peer that is not there gets it when it comes.
+void SharedComponents::report(SharedComponent& component) {
+    for (int attempt = 0; attempt < report_attempts && link_->is_up(); ++attempt)
+        if (link_->call({"", control::state, "", control::encode(component.report())}, call_timeout_)
+                .status == CallStatus::ok)
+            return;
+    if (link_->is_up())
+        spdlog::error("{}: the RTM side was not told the state of {}: no reply within {} ms", owner_,
+                      component.name(), call_timeout_.count());
+}
+
+} // namespace tandem::adaptor

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/adaptor/share/shared_component.hpp"
+#include "proxy/link/protocol/reply.hpp"
+#include "proxy/link/protocol/request.hpp"
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tandem::adaptor {
+
+/// The OPRoS components that the property `share` names, and the commands of the peer that concern them.
+class SharedComponents {
+  public:
+    /// `owner` is AdaptorComp's name, for messages.
+    SharedComponents(std::string owner, std::chrono::milliseconds call_timeout)
+        : owner_(std::move(owner)), call_timeout_(call_timeout) {}
+    ~SharedComponents() { disconnect(); }
+
+    /// Finds the components and describes them. One that is not there, and a port that cannot cross, is logged in one
+    /// line and left out. `directory` may be nullptr, then none is there. [main-thread]
+    link::PortTable find(const std::vector<std::string>& names, ComponentDirectory* directory);
+
+    /// Connects their ports with the link, whose own table find() has returned. [main-thread]
+    void connect(link::Link& link, const SetArrivalListener& set_listener);
+    /// On return nothing of the components is in use. Before them and the link. [main-thread]
+    void disconnect();
+
+    /// Executes a command for one of them. [worker-thread]
+    link::Reply serve(const link::Request& request);
+
+    // [task-thread]
+    void peer_connected();
+    void peer_lost();
+
+  private:
+    SharedComponent* find(std::string_view name) const;
+    link::Reply configure(const link::Request& request);
+    void listen(std::span<const std::byte> arguments);
+    void report(SharedComponent& component);
+
+    const std::string owner_;
+    const std::chrono::milliseconds call_timeout_;
+    ComponentDirectory* directory_ = nullptr;
+    link::Link* link_ = nullptr;
+    link::PortTable table_;
+    std::vector<std::unique_ptr<SharedComponent>> components_;
+};
+
+} // namespace tandem::adaptor

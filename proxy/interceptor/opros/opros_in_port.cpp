@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/opros/opros_in_port.hpp"
+
+#include "proxy/interceptor/data/link_buffer.hpp"
+
+#include <rtm/CORBA_SeqUtil.h>
+#include <rtm/NVUtil.h>
+
+namespace tandem::interceptor {
+namespace {
+
+std::string first_of_list(const RTC::ConnectorProfile& profile, const char* key) {
+    const std::string list = coil::normalize(NVUtil::toString(profile.properties, key));
+    return list.substr(0, list.find(','));
+}
+
+} // namespace
+
+OprosInPort::OprosInPort(const char* name, const char* data_type, std::string channel_key)
+    : RTC::InPortBase(name, data_type), channel_key_(std::move(channel_key)) {
+    addProperty("dataport.marshaling_types", "cdr");
+    // What comes must go to the link in somebody's thread: the sender's.
+    m_profile.properties[static_cast<CORBA::ULong>(NVUtil::find_index(
+        m_profile.properties, "dataport.dataflow_type"))] = NVUtil::newNV("dataport.dataflow_type", "push");
+}
+
+RTC::ReturnCode_t OprosInPort::publishInterfaces(RTC::ConnectorProfile& profile) {
+    if (first_of_list(profile, "dataport.dataflow_type") == "pull")
+        return refuse(RTC::BAD_PARAMETER,
+                      std::string(getName()) + ": this port of an OPRoS component takes pushed data only");
+    if (first_of_list(profile, "dataport.serializer.cdr.endian") == "big")
+        return refuse(RTC::BAD_PARAMETER,
+                      std::string(getName()) +
+                          ": this port of an OPRoS component takes little-endian data only");
+    const std::pair<const char*, const char*> properties[] = {
+        {"dataport.inport.buffer_type", LinkBuffer::factory_name},
+        {"dataport.inport.buffer.channel", channel_key_.c_str()}};
+    for (const auto& [name, value] : properties)
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(name, value));
+    return RTC::InPortBase::publishInterfaces(profile);
+}
+
+} // namespace tandem::interceptor

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/interceptor/data/link_buffer.hpp"
+
+#include <rtm/OutPortBase.h>
+
+#include <string>
+
+namespace tandem::interceptor {
+
+/// The OutPort that shows an output port of an OPRoS component: forwards what has come through the link to all that
+/// are connected, encoded as it is.
+class OprosOutPort final : public RTC::OutPortBase {
+  public:
+    /// `channel_key` is the port's channel in LinkBuffer's registry.
+    OprosOutPort(const char* name, const char* data_type, const std::string& channel_key);
+
+    /// Sends all messages that have come. How long it may block: as OutPort::write() for each. [context's thread]
+    void forward();
+    /// Drops what has come: nobody was connected. [any-thread]
+    void discard() { buffer_.reset(); }
+    bool is_connected();
+    bool write() override { return false; }
+
+  private:
+    RTC::ReturnCode_t publishInterfaces(RTC::ConnectorProfile& profile) override;
+    void send();
+
+    LinkBuffer buffer_;
+    RTC::ByteData message_;
+};
+
+} // namespace tandem::interceptor

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/interceptor/opros/opros_in_port.hpp"
+#include "proxy/interceptor/opros/opros_out_port.hpp"
+#include "proxy/link/link.hpp"
+#include "proxy/link/protocol/control.hpp"
+
+#include <rtm/DataFlowComponentBase.h>
+#include <rtm/ExtTrigExecutionContext.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace tandem::interceptor {
+
+/// Shows one OPRoS component as an RTC: its data ports, its properties as configuration parameters, its life cycle.
+/// Whoever activates, deactivates or resets this RTC makes the OPRoS component start, stop or recover; what the OPRoS
+/// component does by itself is followed. Its context has a thread that runs when data have come.
+class OprosRtc final : public RTC::DataFlowComponentBase {
+  public:
+    static constexpr const char* implementation_id = "OprosComponent";
+
+    /// What an OprosRtc is made of.
+    struct Source {
+        link::SharedComponent component;
+        std::vector<link::Port> ports; ///< of the component
+        link::Link* link = nullptr;
+        std::string link_name;
+        std::chrono::milliseconds call_timeout{};
+        std::function<void()>
+            connections_changed; ///< an OutPort was connected or disconnected; must not wait
+        std::function<void()> configuration_changed; ///< must not wait
+        std::function<void()> finalized;             ///< it has left the manager; must not wait
+    };
+
+    /// Creates the RTC in the manager, under the component's name. Throws RTC::ManagerError, one line. The link must
+    /// outlive all references to it.
+    static OprosRtc& create(RTC::Manager& manager, Source source);
+
+    explicit OprosRtc(RTC::Manager* manager);
+    ~OprosRtc() override;
+
+    const Source& source() const { return source_; }
+    bool is_finalized() const { return finalized_; }
+    /// Ends it without a word to the OPRoS component, which goes on.
+    void leave(RTC::Manager& manager);
+
+    /// Remembers the component's state: from here on no cycle of an RTC that should be in ERROR succeeds. False for
+    /// a report that is older than another one. [any-thread]
+    bool remember(const link::control::StateReport& report);
+    /// The OPRoS host is not there: the component counts as being in ERROR. [any-thread]
+    void peer_lost();
+    /// Brings the RTC towards the state that was remembered last. True when it is in it. [task-thread]
+    bool follow();
+
+    /// Sends the values of the active configuration set that the OPRoS component does not have. `known` are those that
+    /// it has, when they are not those that were sent last. [task-thread]
+    void send_configuration(const std::vector<link::Property>* known = nullptr);
+    /// Channels of the OutPorts that somebody is connected to, for whose messages the context is woken. [task-thread]
+    std::vector<std::string> listen();
+
+    RTC::ReturnCode_t onInitialize() override;
+    RTC::ReturnCode_t onFinalize() override;
+    RTC::ReturnCode_t onActivated(RTC::UniqueId) override;
+    RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override;
+    RTC::ReturnCode_t onReset(RTC::UniqueId) override;
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override;
+
+  private:
+    struct Output {
+        std::unique_ptr<OprosOutPort> port;
+        std::string channel;
+        bool listens = false;
+    };
+    void add_port(const link::Port& port);
+    void add_configuration();
+    std::string channel_key(const link::Port& port) const;
+    bool command(std::string_view command, std::chrono::milliseconds timeout);
+    bool is_following() const { return follower_ == std::this_thread::get_id(); }
+    bool must_tell_component() const;
+    RTC::LifeCycleState state() const;
+    void wake();
+
+    Source source_;
+    RTC::ExtTrigExecutionContext* context_ = nullptr; ///< own
+    std::vector<std::unique_ptr<OprosInPort>> inputs_;
+    std::vector<Output> outputs_;
+    std::vector<std::string> channel_keys_;     ///< registered with LinkBuffer
+    std::map<std::string, std::string> values_; ///< bound to the configuration parameters
+    std::map<std::string, std::string> sent_;   ///< what the OPRoS component has
+
+    mutable std::mutex state_mutex_;
+    link::control::ComponentState component_state_{};
+    std::uint64_t sequence_ = 0;
+    bool peer_is_there_ = false;
+    std::atomic<bool> fault_{true}; ///< the component is in ERROR, or its host is not there
+    std::atomic<bool> leaving_{false}, finalized_{false};
+    std::atomic<bool> wake_pending_{false};
+    std::atomic<std::thread::id> follower_{}; ///< the thread that is in follow()
+};
+
+} // namespace tandem::interceptor

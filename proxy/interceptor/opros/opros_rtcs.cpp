@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/opros/opros_rtcs.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+namespace tandem::interceptor {
+namespace control = link::control;
+using control::ComponentState;
+
+namespace {
+
+// An RTC that somebody else is just activating gets its state when that is done.
+constexpr int follow_attempts = 50;
+constexpr std::chrono::milliseconds follow_pause{10};
+
+std::vector<link::Port> ports_of(const link::PortTable& table, const std::string& component) {
+    std::vector<link::Port> ports;
+    // The names come from another process: what does not begin with the component's name is not of it.
+    for (const auto& port : table.ports)
+        if (port.component == component && port.name.starts_with(component + ".")) ports.push_back(port);
+    return ports;
+}
+
+const link::SharedComponent* find_component(const link::PortTable& table, const std::string& name) {
+    const auto found = std::find_if(table.components.begin(), table.components.end(),
+                                    [&](const auto& component) { return component.name == name; });
+    return found == table.components.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+OprosRtcs::OprosRtcs(std::string owner, RTC::Manager& manager, link::Link& link, std::string link_name,
+                     std::chrono::milliseconds call_timeout)
+    : owner_(std::move(owner)), manager_(manager), link_(link), link_name_(std::move(link_name)),
+      call_timeout_(call_timeout) {}
+
+void OprosRtcs::set_peer_table(const link::PortTable& table) {
+    const std::lock_guard lock(mutex_);
+    table_ = table;
+    reports_.clear();
+}
+
+void OprosRtcs::receive_state(const link::Request& request) {
+    const auto report = control::decode_state_report(request.arguments);
+    {
+        const std::lock_guard lock(mutex_);
+        if (!find_component(table_, report.component))
+            throw link::LinkError(fmt::format("the peer shares no component '{}'", report.component));
+        auto& newest = reports_[report.component];
+        if (newest.sequence >= report.sequence) return;
+        newest = report;
+        // At once: an RTC whose component has failed must not look healthy until the task thread has the time.
+        const auto entry = rtcs_.find(report.component);
+        if (entry != rtcs_.end()) entry->second->rtc->remember(report);
+    }
+    link_.post([this, name = report.component] { follow(name); });
+}
+
+void OprosRtcs::peer_connected() {
+    std::vector<std::string> changed;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [name, entry] : rtcs_)
+            if (!find_component(table_, name) || ports_of(table_, name) != entry->rtc->source().ports)
+                changed.push_back(name);
+    }
+    for (const auto& name : changed) {
+        spdlog::info("{}: OPRoS component {} is not shared any more as it was", owner_, name);
+        remove(name);
+    }
+    // Settings that were made here hold for the peer that has come.
+    link::PortTable table;
+    {
+        const std::lock_guard lock(mutex_);
+        table = table_;
+    }
+    for (const auto& component : table.components)
+        if (auto* rtc = find(component.name)) rtc->send_configuration(&component.properties);
+    publish_listened_channels();
+}
+
+void OprosRtcs::peer_lost() {
+    std::vector<std::shared_ptr<Entry>> all;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [name, entry] : rtcs_) all.push_back(entry);
+    }
+    for (const auto& entry : all) entry->rtc->peer_lost();
+    for (const auto& entry : all) entry->rtc->follow();
+}
+
+/// nullptr also for one that is on its way out. The result is valid in the task thread until it removes it.
+OprosRtc* OprosRtcs::find(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    const auto found = rtcs_.find(name);
+    return found == rtcs_.end() || found->second->rtc->is_finalized() ? nullptr : found->second->rtc;
+}
+
+/// [task-thread]
+void OprosRtcs::follow(const std::string& name) {
+    control::StateReport report;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = reports_.find(name);
+        if (found == reports_.end()) return; // another peer has come meanwhile
+        report = found->second;
+    }
+    if (report.state == ComponentState::destroyed) return remove(name);
+    OprosRtc* rtc = find(name);
+    if (!rtc) rtc = create(name);
+    if (!rtc) return;
+    rtc->remember(report);
+    for (int attempt = 0; attempt < follow_attempts && !rtc->follow(); ++attempt)
+        std::this_thread::sleep_for(follow_pause);
+}
+
+/// Returns nullptr, with a line in the log, when the manager refuses it.
+OprosRtc* OprosRtcs::create(const std::string& name) {
+    OprosRtc::Source source;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto* component = find_component(table_, name);
+        if (!component) return nullptr;
+        source.component = *component;
+        source.ports = ports_of(table_, name);
+    }
+    source.link = &link_;
+    source.link_name = link_name_;
+    source.call_timeout = call_timeout_;
+    source.connections_changed = [this] { link_.post([this] { publish_listened_channels(); }); };
+    source.configuration_changed = [this, name] {
+        link_.post([this, name] {
+            if (auto* rtc = find(name)) rtc->send_configuration();
+        });
+    };
+    source.finalized = [this] { link_.post([this] { forget_finalized(); }); };
+    try {
+        OprosRtc& rtc = OprosRtc::create(manager_, std::move(source));
+        const auto entry = std::make_shared<Entry>(rtc);
+        {
+            const std::lock_guard lock(mutex_);
+            rtcs_[name] = entry;
+        }
+        spdlog::info("{}: OPRoS component {} is shown as an RTC", owner_, name);
+        rtc.send_configuration(); // what rtc.conf has set
+        return &rtc;
+    } catch (const RTC::ManagerError& error) {
+        spdlog::error("{}: OPRoS component {} cannot be shown as an RTC: {}", owner_, name, error.what());
+        return nullptr;
+    }
+}
+
+void OprosRtcs::remove(const std::string& name) {
+    std::shared_ptr<Entry> removed;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = rtcs_.find(name);
+        if (found == rtcs_.end()) return;
+        removed = found->second;
+        rtcs_.erase(found);
+    }
+    removed->rtc->leave(manager_);
+}
+
+void OprosRtcs::forget_finalized() {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(rtcs_, [](const auto& entry) { return entry.second->rtc->is_finalized(); });
+}
+
+/// Asks the peer to ring the doorbell for the ports that somebody is connected to. [task-thread]
+void OprosRtcs::publish_listened_channels() {
+    std::vector<std::shared_ptr<Entry>> all;
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [name, entry] : rtcs_)
+            if (!entry->rtc->is_finalized()) all.push_back(entry);
+    }
+    std::vector<std::string> channels;
+    for (const auto& entry : all)
+        for (auto& channel : entry->rtc->listen()) channels.push_back(std::move(channel));
+    if (!link_.is_up()) return; // peer_connected() comes here again
+    const auto reply = link_.call({"", control::listen, "", control::encode(channels)}, call_timeout_);
+    if (reply.status != link::CallStatus::ok && link_.is_up())
+        spdlog::warn("{}: data of OPRoS components are forwarded up to 1 s late: {}", owner_, reply.text());
+}
+
+void OprosRtcs::close() {
+    std::map<std::string, std::shared_ptr<Entry>> all;
+    {
+        const std::lock_guard lock(mutex_);
+        all.swap(rtcs_);
+    }
+    for (const auto& [name, entry] : all) entry->rtc->leave(manager_);
+}
+
+} // namespace tandem::interceptor

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// OPRoS components shown as RTCs, and used by the tools of RTM.
+#include "tests/apps/tandem/program.hpp"
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+using tandem::test::Result;
+
+namespace {
+
+/// A port of 127.0.0.1 that nobody listens at.
+std::string unused_port() {
+    const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    REQUIRE(bind(fd, reinterpret_cast<sockaddr*>(&address), size) == 0);
+    getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+    close(fd);
+    return std::to_string(ntohs(address.sin_port));
+}
+
+/// Two hosts, of which the OPRoS host shares its components, and `tandem rtm` for the RTM host.
+struct Shared : TwoHosts {
+    explicit Shared(const std::string& names = "Motor") : port(unused_port()) {
+        leave_out_talker_and_rtc();
+        set_manager_port(port);
+        set_adaptor_properties(property("share", names));
+    }
+    Result run(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "rtm");
+        arguments.insert(arguments.end(), {"--manager", "127.0.0.1:" + port});
+        return tandem::test::tandem_program(arguments);
+    }
+    bool good(const std::vector<std::string>& arguments, const std::string& expected = "") const {
+        const Result result = run(arguments);
+        UNSCOPED_INFO(result.output << result.errors);
+        return result.exit_code == 0 && result.output_contains(expected);
+    }
+    /// Whether `tandem rtm list` comes to show the component in that state; "": not at all.
+    bool shows(const std::string& component, const std::string& state) const {
+        std::string last;
+        for (int i = 0; i < 1500; ++i) {
+            last = "";
+            for (const auto& entry : run({"list", "--json"}).json())
+                if (entry["instance"] == component) last = entry["state"];
+            if (last == state) return true;
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+        UNSCOPED_INFO(component << " is " << last);
+        return false;
+    }
+    void start() {
+        start_rtm();
+        start_opros();
+    }
+    std::string port;
+};
+
+} // namespace
+
+TEST_CASE("a shared OPRoS component is an RTC with ports, parameters and state") {
+    Shared hosts;
+    hosts.add_component("Motor", "MotorComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE")); // its own host has started it
+    const auto tree = hosts.run({"tree"}).output;
+    CHECK_THAT(tree, Catch::Contains("Motor.speed DataInPort IDL:RTC/TimedDouble:1.0") &&
+                         Catch::Contains("Motor.torque DataOutPort IDL:RTC/TimedDouble:1.0") &&
+                         Catch::Contains("Motor.angles DataOutPort IDL:RTC/TimedDoubleSeq:1.0") &&
+                         !Catch::Contains("Motor.count"));
+    CHECK(hosts.says("rtm",
+                     "Motor: port 'count' is not shown: no standard data type of RTM has the members of "
+                     "OPRoS type long, 'x'"));
+    CHECK(hosts.good({"info", "Motor"}, "MotorComp"));
+    CHECK(hosts.good({"conf", "Motor"}, "gain=2"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.shows("Motor", "ERROR")); // until that host comes back
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a shared OPRoS component is activated, deactivated, configured and fed by tools of RTM") {
+    Shared hosts;
+    hosts.add_component("Motor", "MotorComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    CHECK(hosts.good({"inject", "Motor:speed", "3"}));
+    CHECK(hosts.says("opros", "Motor torque 6.000000"));
+
+    CHECK(hosts.good({"conf", "Motor", "gain=5"}, "gain=5"));
+    CHECK(hosts.says("opros", "property 'gain' of Motor is set to '5' by the RTM side"));
+    CHECK(hosts.good({"inject", "Motor:speed", "3"}));
+    CHECK(hosts.says("opros", "Motor torque 15.000000"));
+
+    CHECK(hosts.good({"deactivate", "Motor"}, "Motor INACTIVE"));
+    CHECK(hosts.says("opros", "Motor stopped"));
+    CHECK(hosts.good({"activate", "Motor"}, "Motor ACTIVE"));
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK(hosts.stop("opros") == 0);
+}
+
+TEST_CASE("data of shared OPRoS components go where tools of RTM connect them to") {
+    Shared hosts("Motor, Pump");
+    hosts.add_component("Motor", "MotorComp");
+    hosts.add_component("Pump", "MotorComp", TwoHosts::property("gain", "10"));
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    REQUIRE(hosts.shows("Pump", "ACTIVE"));
+    CHECK(hosts.good({"conf", "Pump"}, "gain=10"));
+    CHECK(hosts.good({"connect", "Motor:torque", "Pump:speed"}));
+    for (int round = 1; round <= 3; ++round) {
+        CHECK(hosts.good({"inject", "Motor:speed", std::to_string(round)}));
+        CHECK(hosts.says("opros", "Pump torque " + std::to_string(20 * round) + "."));
+    }
+    CHECK(hosts.good({"disconnect", "Motor:torque", "Pump:speed"}));
+    const auto before = hosts.output("opros").size();
+    CHECK(hosts.good({"inject", "Motor:speed", "4"}));
+    CHECK(hosts.says("opros", "Motor torque 8."));
+    CHECK(hosts.output("opros").find("Pump torque 80", before) == std::string::npos);
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("what fails in a shared OPRoS component is an error of its RTC, and the reverse") {
+    Shared hosts("Motor, Pump");
+    hosts.add_component("Motor", "MotorComp");
+    hosts.add_component("Pump", "MotorComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    const auto fails = [&](const std::string& callback) {
+        return hosts.good({"conf", "Motor", "fails=" + callback});
+    };
+    SECTION("onExecute throws") {
+        CHECK(fails("execute"));
+        CHECK(hosts.shows("Motor", "ERROR"));
+        CHECK(hosts.says("opros", "Motor in error"));
+        CHECK_FALSE(hosts.good({"activate", "Motor"}));
+    }
+    SECTION("onStart fails") {
+        CHECK(hosts.good({"deactivate", "Motor"}, "Motor INACTIVE"));
+        CHECK(fails("start"));
+        CHECK_FALSE(hosts.good({"activate", "Motor"}));
+        CHECK(
+            hosts.says("rtm", "Motor: cannot activate the OPRoS component: component Motor: onStart failed"));
+        CHECK(hosts.shows("Motor", "ERROR"));
+        CHECK(hosts.says("opros", "Motor in error"));
+    }
+    SECTION("onStop fails") {
+        CHECK(fails("stop"));
+        hosts.run({"deactivate", "Motor"}); // RTM knows no deactivation that fails
+        CHECK(hosts.shows("Motor", "ERROR"));
+        CHECK(hosts.says("opros", "Motor in error"));
+    }
+    CHECK(hosts.shows("Pump", "ACTIVE"));
+    CHECK(fails("no"));
+    // Its property is set before the next start, so the first recovery decides on the old one, which does not fail.
+    CHECK(hosts.good({"reset", "Motor"}, "Motor INACTIVE"));
+    CHECK(hosts.says("opros", "Motor recovered"));
+    CHECK(hosts.good({"activate", "Motor"}, "Motor ACTIVE"));
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("an OPRoS host that is killed shows in its RTCs, and is followed when it comes back") {
+    Shared hosts("Motor, Pump");
+    hosts.add_component("Motor", "MotorComp");
+    hosts.add_component("Pump", "MotorComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    REQUIRE(hosts.shows("Pump", "ACTIVE"));
+    CHECK(hosts.good({"deactivate", "Pump"}));
+    CHECK(hosts.good({"conf", "Motor", "gain=5"}));
+    CHECK(hosts.good({"connect", "Motor:torque", "Pump:speed"}));
+    hosts.kill("opros");
+    CHECK(hosts.shows("Motor", "ERROR"));
+    CHECK(hosts.shows("Pump", "ERROR"));
+    CHECK_FALSE(hosts.good({"reset", "Motor"}));
+    CHECK(hosts.says("rtm", "Motor: cannot reset the OPRoS component: the OPRoS host is not there"));
+    const auto before = hosts.output("opros").size();
+    hosts.start_opros();
+    CHECK(hosts.shows("Motor", "ACTIVE"));
+    CHECK(hosts.shows("Pump", "ACTIVE")); // as its own host has it
+    CHECK(hosts.good({"inject", "Motor:speed", "3"}));
+    CHECK(hosts.says("opros", "Motor torque 15.", before)); // the RTC's configuration holds
+    CHECK(hosts.says("opros", "Pump torque 30.", before));  // and so does its connection
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK(hosts.stop("opros") == 0);
+}
+
+TEST_CASE("an RTC that exits destroys the OPRoS component, and only that") {
+    Shared hosts("Motor, Pump");
+    hosts.add_component("Motor", "MotorComp");
+    hosts.add_component("Pump", "MotorComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    REQUIRE(hosts.shows("Pump", "ACTIVE"));
+    CHECK(hosts.good({"exit", "Motor"}));
+    CHECK(hosts.says("opros", "Motor destroyed"));
+    CHECK(hosts.shows("Motor", ""));
+    CHECK(hosts.shows("Pump", "ACTIVE"));
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK(hosts.output("opros").find("Pump stopped") == std::string::npos);
+    hosts.start_rtm(); // another one
+    CHECK(hosts.shows("Pump", "ACTIVE"));
+    CHECK(hosts.shows("Motor", ""));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("a component started through its RTC is stopped when the RTM host is gone, others go on") {
+    Shared hosts("Motor, Pump, Nobody");
+    hosts.add_component("Motor", "MotorComp");
+    hosts.add_component("Pump", "MotorComp");
+    hosts.start();
+    CHECK(hosts.says("opros", "Adaptor: property 'share' names 'Nobody', which is no other component of the "
+                              "application; it has Motor, Pump, Adaptor"));
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    CHECK(hosts.good({"deactivate", "Motor"}));
+    CHECK(hosts.good({"activate", "Motor"}));
+    const auto before = hosts.output("opros").size();
+    hosts.kill("rtm");
+    CHECK(hosts.says("opros", "Motor stopped", before));
+    CHECK(hosts.output("opros").find("Pump stopped", before) == std::string::npos);
+    CHECK(hosts.stop("opros") == 0);
+}
