@@ -75,6 +75,7 @@ std::vector<Sharing> take_sharings(coil::Properties& config) {
 }
 
 link::PortTable shared_table(RTC::Manager& manager, const Sharing& sharing) {
+    if (sharing.rtc.empty()) return {}; // it only shows OPRoS components
     auto* rtc = manager.getComponent(sharing.rtc.c_str());
     if (!rtc)
         throw RTC::ManagerError("manager.components.precreate: InterceptorComp's 'rtc' names '" +

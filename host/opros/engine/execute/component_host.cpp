@@ -192,7 +192,7 @@ std::string ComponentHost::request(ComponentTransition transition) {
         lock.try_lock();
     }
     if (lock) return make_transition(transition);
-    const char* callback = current_callback_;
+    const char* callback = current_callback();
     return fmt::format("component {} has not returned from {} for {} s", name_,
                        callback ? callback : "a callback", max_cycle_wait.count());
 }
