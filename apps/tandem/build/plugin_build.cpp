@@ -196,7 +196,7 @@ void require_folder(const fs::path& folder) {
 
 // CMake configures anew each time: a second build in a kept folder compiles only what has changed.
 // Everything is made in the build folder; the output folder is touched only after the build has succeeded.
-fs::path build_plugin(const std::string& model, const std::string& name, const std::string& entry_point,
+fs::path build_plugin(const std::string& model, const std::string& name, const EntryPoint& entry_point,
                       const PluginBuildOptions& options, const fs::path& default_folder) {
     for (const auto& dir : options.include_dirs) require_folder(dir);
     const fs::path output =

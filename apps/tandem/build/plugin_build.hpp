@@ -30,12 +30,12 @@ void add_build_options(CLI::App* command, PluginBuildOptions& options, const cha
 /// Throws std::runtime_error if there is no such folder.
 void require_folder(const std::filesystem::path& folder);
 
-/// Builds NAME.so, whose function `entry_point` the host looks for, with tandem_add_<model>_component() and puts it into
+/// Builds NAME.so, whose entry point the host looks for, with tandem_add_<model>_component() and puts it into
 /// `default_folder`, or into options.output together with the files that CMake has put beside it. An old library is
 /// replaced only by a complete new one. Returns its path. Throws std::runtime_error with one line, after the compiler's
 /// output has been printed.
 std::filesystem::path build_plugin(const std::string& model, const std::string& name,
-                                   const std::string& entry_point, const PluginBuildOptions& options,
+                                   const EntryPoint& entry_point, const PluginBuildOptions& options,
                                    const std::filesystem::path& default_folder);
 
 } // namespace tandem::command

@@ -91,24 +91,46 @@ std::string names_of(const Paths& files, const fs::path& folder) {
     return names;
 }
 
+// The source that is meant to define the function, else all that do.
+Paths entries_of(const Paths& files, const EntryPoint& entry_point) {
+    if (entry_point.source.empty()) return filter(files, entry_point.function);
+    return {fs::weakly_canonical(entry_point.source)};
+}
+
+// Takes out the sources of the folder's other components.
+void remove_others(const Paths& entries, const EntryPoint& entry_point, Paths& sources) {
+    Paths others = entry_point.source.empty() ? Paths{} : filter(sources, entry_point.function);
+    for (const auto& function : entry_point.others)
+        for (const auto& file : filter(sources, function)) others.push_back(file);
+    std::erase_if(sources, [&](const auto& source) {
+        const auto is_source = [&](const auto& other) { return other == source; };
+        return std::any_of(others.begin(), others.end(), is_source) &&
+               std::none_of(entries.begin(), entries.end(), is_source);
+    });
+}
+
 // Takes what the project files list together with a source that defines the entry point.
 void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSources& selected) {
     std::set<fs::path> places{folder, folder / "src"};
     for (const auto& entry : entries) places.insert(entry.parent_path());
+    std::vector<SourceList> lists;
+    for (const auto& place : places)
+        for (const auto& list : read_source_lists(place))
+            if (std::any_of(list.sources.begin(), list.sources.end(), [&](const auto& source) {
+                    return std::find(entries.begin(), entries.end(), source) != entries.end();
+                }))
+                lists.push_back(list);
+    // Those of Visual C++ have sources for Windows, too.
+    if (!std::all_of(lists.begin(), lists.end(), [](const auto& list) { return list.for_windows; }))
+        std::erase_if(lists, [](const auto& list) { return list.for_windows; });
     Paths listed, project_files;
     const auto add = [](Paths& all, const fs::path& file) {
         if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(file);
     };
-    for (const auto& place : places)
-        for (const auto& list : read_source_lists(place)) {
-            const bool has_entry =
-                std::any_of(list.sources.begin(), list.sources.end(), [&](const auto& source) {
-                    return std::find(entries.begin(), entries.end(), source) != entries.end();
-                });
-            if (!has_entry) continue;
-            add(project_files, list.project_file);
-            for (const auto& source : list.sources) add(listed, source);
-        }
+    for (const auto& list : lists) {
+        add(project_files, list.project_file);
+        for (const auto& source : list.sources) add(listed, source);
+    }
     if (listed.empty()) return;
     for (const auto& source : selected.sources)
         if (std::find(listed.begin(), listed.end(), source) == listed.end())
@@ -119,7 +141,7 @@ void apply_source_lists(const fs::path& folder, const Paths& entries, SelectedSo
 
 } // namespace
 
-SelectedSources select_sources(const fs::path& named_folder, const std::string& entry_point,
+SelectedSources select_sources(const fs::path& named_folder, const EntryPoint& entry_point,
                                const SourceOptions& options) {
     // Canonical, so that a project file's "../x.cpp" is the same path as that of the folder's own x.cpp.
     const fs::path folder = fs::canonical(named_folder);
@@ -129,20 +151,19 @@ SelectedSources select_sources(const fs::path& named_folder, const std::string& 
     } else {
         add_sources(folder, selected.sources);
         add_sources(folder / "src", selected.sources);
-        auto entries = filter(selected.sources, entry_point);
-        if (entries.empty()) {
-            entries = filter(list_files_below(folder), entry_point);
-            for (const auto& entry : entries) add_sources(entry.parent_path(), selected.sources);
-        }
+        auto entries = entries_of(selected.sources, entry_point);
+        if (entries.empty()) entries = entries_of(list_files_below(folder), entry_point);
+        for (const auto& entry : entries) add_sources(entry.parent_path(), selected.sources);
+        remove_others(entries, entry_point, selected.sources);
         apply_source_lists(folder, entries, selected);
     }
     remove_excluded(folder, options.excluded, selected.sources);
     if (selected.sources.empty())
         throw std::runtime_error("no C++ source in " + named_folder.string() +
                                  " nor in its src/; name them with --source FILE if they are elsewhere");
-    const auto entries = filter(selected.sources, entry_point);
+    const auto entries = filter(selected.sources, entry_point.function);
     if (entries.size() > 1)
-        throw std::runtime_error(names_of(entries, folder) + " each define " + entry_point +
+        throw std::runtime_error(names_of(entries, folder) + " each define " + entry_point.function +
                                  "(), of which a library has one; leave the others out with --exclude FILE");
     return selected;
 }

@@ -38,7 +38,7 @@ int opros_build(const OprosBuildOptions& options) {
     require_folder(options.folder);
     const auto profile = select_component_profile(options.folder, options.profile);
     // Beside the profile, where opros_host looks first.
-    const auto library = build_plugin("opros", library_stem(profile), "getComponent", options,
+    const auto library = build_plugin("opros", library_stem(profile), {"getComponent"}, options,
                                       profile.location.file.parent_path());
     print_text(library.string() + "\n");
     return 0;

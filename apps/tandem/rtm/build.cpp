@@ -1,40 +1,83 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds an RT-Component from its folder, under the name that its module function gives.
+// Builds the RT-Components in a folder, each under the name that its module function gives.
 #include "apps/tandem/build/component_folder.hpp"
+#include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/commands.hpp"
-#include "apps/tandem/rtm/module_names.hpp"
+#include "apps/tandem/rtm/modules.hpp"
 
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace tandem::command {
 namespace {
 
-// The module to build. Its name is that of the library, because rtm_host loads NAME.so by calling NAMEInit().
-std::string select_module(const RtmBuildOptions& options) {
-    if (!options.name.empty()) return options.name;
-    const auto modules = find_module_names(options.folder);
-    if (modules.size() == 1) return *modules.begin();
-    if (modules.empty())
+std::string names_of(const std::vector<Module>& modules) {
+    std::string names;
+    for (const auto& each : modules) names += (names.empty() ? "" : ", ") + each.name;
+    return names;
+}
+
+// The modules to build. Their names are those of the libraries, because rtm_host loads X.so by calling XInit(), or
+// rtc_init() if there is none.
+std::vector<Module> select_modules(const RtmBuildOptions& options, const std::vector<Module>& all) {
+    if (!options.name.empty()) {
+        const auto known = std::find_if(all.begin(), all.end(),
+                                        [&](const auto& module) { return module.name == options.name; });
+        return {known != all.end() ? *known : Module{options.name, options.name + "Init", {}}};
+    }
+    if (all.empty())
         throw std::runtime_error(
             "no source in " + options.folder.string() +
             " nor below it defines a module function, void NAMEInit(RTC::Manager*); "
             "name the module with --name NAME if a macro or an included file defines it");
-    std::string names;
-    for (const auto& each : modules) names += (names.empty() ? "" : ", ") + each;
-    throw std::runtime_error(options.folder.string() + " has the modules " + names +
-                             "; choose one with --name NAME");
+    if (all.size() > 1 && !options.sources.sources.empty())
+        throw std::runtime_error(options.folder.string() + " has the modules " + names_of(all) +
+                                 "; choose the one that --source is for with --name NAME");
+    return all;
+}
+
+// Builds one of the folder's modules and prints the library's path. `several`: others are built, too.
+void build_module(const Module& module, const std::vector<Module>& all, RtmBuildOptions options,
+                  bool several) {
+    require_component_name(module.name); // it becomes the name of a file and of a CMake target
+    EntryPoint entry_point{module.function};
+    for (const auto& other : all) {
+        if (other.name == module.name) continue;
+        if (other.function == module.function)
+            entry_point.source = module.source;
+        else
+            entry_point.others.push_back(other.function);
+    }
+    if (several && !options.build.empty()) options.build /= module.name;
+    print_text(build_plugin("rtm", module.name, entry_point, options, options.folder).string() + "\n");
 }
 
 } // namespace
 
 int rtm_build(const RtmBuildOptions& options) {
     require_folder(options.folder);
-    const std::string name = select_module(options);
-    // Also for a name that was found: it becomes the name of a file and of a CMake target.
-    require_component_name(name);
-    print_text(build_plugin("rtm", name, name + "Init", options, options.folder).string() + "\n");
-    return 0;
+    const auto all = find_modules(options.folder);
+    const auto selected = select_modules(options, all);
+    if (selected.size() == 1) {
+        build_module(selected.front(), all, options, false);
+        return 0;
+    }
+    std::vector<Module> failed;
+    for (const auto& module : selected) try {
+            build_module(module, all, options, true);
+        } catch (const std::runtime_error& error) {
+            fmt::print(stderr, "tandem: {}\n", replace_control_characters(error.what()));
+            failed.push_back(module);
+        }
+    if (failed.empty()) return 0;
+    throw std::runtime_error(
+        fmt::format("{} of the {} modules in {} were not built: {} (the lines above say why)", failed.size(),
+                    selected.size(), options.folder.string(), names_of(failed)));
 }
 
 } // namespace tandem::command

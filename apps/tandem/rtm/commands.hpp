@@ -12,10 +12,10 @@ int rtm_new(const std::string& name, const std::filesystem::path& parent);
 
 /// Of build: the common options, and the module.
 struct RtmBuildOptions : PluginBuildOptions {
-    std::string name; ///< of the module, when the folder has several
+    std::string name; ///< of the module to build; empty: all that the folder has
 };
-/// Builds NAME.so from the sources and IDL files in the folder and prints its path. Nothing else goes to standard
-/// output unless the build fails, so that scripts can use it.
+/// Builds NAME.so from the sources and IDL files in the folder, for each module, and prints its path. Nothing else goes
+/// to standard output unless a build fails, so that scripts can use it.
 int rtm_build(const RtmBuildOptions& options);
 
 } // namespace tandem::command

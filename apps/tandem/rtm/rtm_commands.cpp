@@ -17,9 +17,10 @@ void add_build(CLI::App& rtm, Action& selected) {
         "Takes the sources in DIR and DIR/src, or what its CMakeLists.txt or makefile lists, without those\n"
         "that have a main(), the IDL files in DIR and DIR/idl, those above DIR that a source needs, and the\n"
         "headers there and in DIR/include. The function NAMEInit(RTC::Manager*) gives the plugin its name;\n"
-        "it is put into DIR. Nothing else is changed. Exit code 1 if it cannot be built.");
+        "of several modules each is built. It is put into DIR. Nothing else is changed. Exit code 1 if one\n"
+        "cannot be built.");
     add_build_options(command, *options, "folder for the plugin instead of DIR");
-    command->add_option("--name", options->name, "name of the module, when DIR has several");
+    command->add_option("--name", options->name, "module to build, when DIR has several (all of them)");
     command->callback([=, &selected] { selected = [options] { return rtm_build(*options); }; });
 }
 

@@ -28,12 +28,12 @@ Names names_of(const std::vector<fs::path>& files) {
 }
 
 Names selected(const fs::path& folder, const SourceOptions& options = {}) {
-    return names_of(select_sources(folder, "getComponent", options).sources);
+    return names_of(select_sources(folder, {"getComponent"}, options).sources);
 }
 
 std::string refused(const fs::path& folder, const SourceOptions& options = {}) {
     try {
-        select_sources(folder, "getComponent", options);
+        select_sources(folder, {"getComponent"}, options);
     } catch (const std::runtime_error& error) {
         return error.what();
     }
@@ -65,7 +65,7 @@ TEST_CASE("what the folder's makefile, CMakeLists.txt or Visual C++ project leav
                  "NAME = Old # the library\nSRCS = $(NAME).cpp \\\n  Helper.cpp ../common/Gain.cpp\n"
                  "OBJS = $(SRCS:.cpp=.o)\n");
     CHECK(selected(old) == listed);
-    CHECK(names_of(select_sources(old, "getComponent", {}).left_out) == Names{"OldBackup.cpp"});
+    CHECK(names_of(select_sources(old, {"getComponent"}, {}).left_out) == Names{"OldBackup.cpp"});
     folder.write("Old/Makefile", "OBJS = Old.o Helper.o ../common/Gain.o\nother: OldBackup.o\n");
     CHECK(selected(old) == listed);
     fs::remove(old / "Makefile");
@@ -81,6 +81,9 @@ TEST_CASE("what the folder's makefile, CMakeLists.txt or Visual C++ project leav
                  "<File RelativePath=\".\\OldBackup.cpp\"><FileConfiguration Name=\"Debug\" "
                  "ExcludedFromBuild=\"true\"/></File></Files></VisualStudioProject>\n");
     CHECK(selected(old) == listed);
+    // A makefile is for this platform, a project of Visual C++ has files for Windows, too.
+    folder.write("Old/Makefile", "OBJS = Old.o\n");
+    CHECK(selected(old) == Names{"Old.cpp"});
 }
 
 TEST_CASE("several sources that define the entry point are named, and --exclude or --source decides") {

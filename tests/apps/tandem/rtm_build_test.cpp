@@ -27,7 +27,7 @@ std::string failed(const std::vector<std::string>& arguments) {
 
 } // namespace
 
-TEST_CASE("the sources of an RT-Component must define exactly one module") {
+TEST_CASE("the sources of an RT-Component must define a module") {
     const Folder folder;
     const std::string dir = folder.path() / "Rtc";
     CHECK_THAT(failed({dir}), Catch::Contains("is not a folder"));
@@ -35,9 +35,10 @@ TEST_CASE("the sources of an RT-Component must define exactly one module") {
     folder.write("Rtc/src/a.cpp", "// void OldInit(RTC::Manager* m);\n/* void OlderInit(RTC::Manager*) */\n"
                                   "void setInit(int); bool BoolInit(RTC::Manager*);\n");
     CHECK_THAT(failed({dir}), Catch::Contains("NAMEInit(RTC::Manager*)") && Catch::Contains("--name"));
-    folder.write("Rtc/include/b.h", "void BInit(RTC::Manager *manager);\n");
+    folder.write("Rtc/b.cpp", "void BInit(RTC::Manager *manager) {}\n");
     folder.write("Rtc/c.cpp", "extern \"C\" void CInit(RTC::Manager*) {}\n");
-    CHECK_THAT(failed({dir}), Catch::Contains("modules B, C") && Catch::Contains("--name"));
+    CHECK_THAT(failed({dir, "--source", "b.cpp"}),
+               Catch::Contains("modules B, C") && Catch::Contains("--name"));
     CHECK_THAT(failed({dir, "--name", "no good"}), Catch::Contains("cannot be the name"));
 }
 
@@ -113,4 +114,36 @@ TEST_CASE("a source whose main() a macro leaves out is built, and one with a mai
     INFO(built.output << built.errors);
     CHECK(built.exit_code == 0);
     CHECK(tandem::test::shell("nm " + dir + "/Good.so").output.find(" main\n") == std::string::npos);
+}
+
+// Two components in the style of the first templates, whose function has the same name in each; what one of their
+// libraries hands to its own manager is no module, nor is what only a header declares.
+TEST_CASE("of a folder with several modules each is built from its own sources") {
+    const Folder folder;
+    const std::string dir = folder.path() / "Rtc";
+    const auto old_style = [](const std::string& name) {
+        return "#include <rtm/Manager.h>\n#include \"Shared.h\"\n"
+               "static const char* spec[] = {\"implementation_id\", \"" +
+               name +
+               "\", \"\"};\nvoid handed(int);\n"
+               "extern \"C\" void rtc_init(RTC::Manager* manager) { shared(); (void)spec; }\n";
+    };
+    folder.write("Rtc/pub_rtc.cpp", old_style("Publisher"));
+    folder.write("Rtc/sub_rtc.cpp", old_style("Subscriber"));
+    folder.write("Rtc/Shared.h", "void shared();\nvoid ElsewhereInit(RTC::Manager*);\n");
+    folder.write("Rtc/Shared.cpp",
+                 "#include <rtm/Manager.h>\n#include \"Shared.h\"\n"
+                 "void MyModuleInit(RTC::Manager* manager) {}\n"
+                 "void shared() { RTC::Manager::instance().setModuleInitProc(MyModuleInit); }\n");
+    const auto built = tandem_program({"rtm", "build", dir});
+    INFO(built.output << built.errors);
+    CHECK(built.exit_code == 0);
+    CHECK(built.output == dir + "/Publisher.so\n" + dir + "/Subscriber.so\n");
+    folder.write("Rtc/sub_rtc.cpp", "#error this one is broken\n" + old_style("Subscriber"));
+    const auto half = tandem_program({"rtm", "build", dir, "--output", folder.path() / "out"});
+    CHECK(half.exit_code == 1);
+    CHECK(half.output.find((folder.path() / "out/Publisher.so").string() + "\n") == 0);
+    CHECK_THAT(half.errors, Catch::Contains("tandem: component Subscriber does not compile: ") &&
+                                Catch::EndsWith("tandem: 1 of the 2 modules in " + dir +
+                                                " were not built: Subscriber (the lines above say why)\n"));
 }

@@ -13,6 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_visual_project(const fs::path& file) {
+    const auto ending = to_lower(file.extension().string());
+    return ending == ".vcproj" || ending == ".vcxproj";
+}
+
 // Adds a word's file if it exists: a source, or the source of an object file.
 void add_source(const fs::path& folder, const std::string& word, std::vector<fs::path>& sources) {
     const fs::path file = folder / to_posix_path(word);
@@ -29,7 +34,7 @@ void add_source(const fs::path& folder, const std::string& word, std::vector<fs:
 }
 
 void add_list(const fs::path& project_file, const Words& words, std::vector<SourceList>& lists) {
-    SourceList list{project_file, {}};
+    SourceList list{project_file, {}, is_visual_project(project_file)};
     for (const auto& word : words) {
         if (word == unknown_files) return;
         add_source(project_file.parent_path(), word, list.sources);
@@ -59,11 +64,6 @@ Variables read_make_variables(const fs::path& file) {
 bool is_makefile(const fs::path& file) {
     const auto name = to_lower(file.filename().string());
     return name.rfind("makefile", 0) == 0 && name.find(".in") == std::string::npos;
-}
-
-bool is_visual_project(const fs::path& file) {
-    const auto ending = to_lower(file.extension().string());
-    return ending == ".vcproj" || ending == ".vcxproj";
 }
 
 // Whether a file is left out of all configurations of a Visual C++ project.

@@ -12,6 +12,7 @@ namespace tandem::command {
 struct SourceList {
     std::filesystem::path project_file;
     std::vector<std::filesystem::path> sources; ///< absolute; only those that exist
+    bool for_windows = false;                   ///< of Visual C++
 };
 
 /// The lists of the project files that lie in the folder itself. A list with a pattern (GLOB, wildcard) is left out.

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/rtm/modules.hpp"
+#include "apps/tandem/build/folder/source_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Identifiers and numbers as words, every other character but white space as a token of its own.
+std::vector<std::string> tokenize(const std::string& text) {
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < text.size();) {
+        // The characters of C++ identifiers in ASCII; others are tokens of their own, which match nothing below.
+        const auto word = [&](std::size_t at) {
+            return at < text.size() &&
+                   (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+        };
+        std::size_t end = i;
+        while (word(end)) ++end;
+        if (end == i && !std::isspace(static_cast<unsigned char>(text[i]))) end = i + 1;
+        if (end > i) found.push_back(text.substr(i, end - i));
+        i = std::max(end, i + 1);
+    }
+    return found;
+}
+
+// Whether the tokens from `at` on are the wanted ones.
+bool matches_at(const std::vector<std::string>& all, std::size_t at,
+                std::initializer_list<const char*> wanted) {
+    if (at + wanted.size() > all.size()) return false;
+    for (const char* each : wanted)
+        if (all[at++] != each) return false;
+    return true;
+}
+
+// The value of implementation_id in a component's specification, else the file's name.
+std::string implementation_id(const std::vector<std::string>& tokens, const fs::path& file) {
+    for (std::size_t i = 0; i + 4 < tokens.size(); ++i)
+        if (matches_at(tokens, i, {"implementation_id", "\"", ",", "\""})) return tokens[i + 4];
+    return file.stem().string();
+}
+
+// Adds the modules of a file. A source with a main() is the component's own program, which tandem rtm build leaves out.
+void add_modules(const fs::path& file, std::map<std::string, Module>& modules) {
+    const auto all = tokenize(strip_comments(read_text(file)));
+    // Gathered apart: main() may follow the module function, and then none of this file counts.
+    std::vector<Module> found_here;
+    std::set<std::string> of_programs; // functions that are handed to a manager of the program's own
+    for (std::size_t i = 1; i < all.size(); ++i) {
+        if (matches_at(all, i, {"main", "("}) && all[i - 1] == "int") return;
+        // void XInit(RTC::Manager* ...: a definition or a declaration, with or without extern "C" before it.
+        const std::string& word = all[i];
+        if (all[i - 1] == "setModuleInitProc" && word == "(" && i + 1 < all.size())
+            of_programs.insert(all[i + 1]);
+        if (all[i - 1] != "void" || !matches_at(all, i + 1, {"(", "RTC", ":", ":", "Manager", "*"})) continue;
+        if (word == "rtc_init" && is_source(file))
+            found_here.push_back({implementation_id(all, file), word, file});
+        else if (word.size() > 4 && word.ends_with("Init"))
+            found_here.push_back(
+                {word.substr(0, word.size() - 4), word, is_source(file) ? file : fs::path{}});
+    }
+    for (auto& module : found_here) {
+        if (of_programs.count(module.function) != 0) continue;
+        auto& known = modules.try_emplace(module.name, module).first->second;
+        if (known.source.empty()) known.source = module.source;
+    }
+}
+
+} // namespace
+
+std::vector<Module> find_modules(const fs::path& folder) {
+    std::map<std::string, Module> modules;
+    for (const char* place : {"", "src", "include"})
+        for (const auto& file : list_files(folder / place))
+            if (is_source_or_header(file)) add_modules(file, modules);
+    if (modules.empty())
+        for (const auto& file : list_files_below(folder))
+            if (is_source_or_header(file)) add_modules(file, modules);
+    // A function that only a header declares may be one of a library that the component uses.
+    const bool defined = std::any_of(modules.begin(), modules.end(),
+                                     [](const auto& entry) { return !entry.second.source.empty(); });
+    std::vector<Module> found;
+    for (auto& [name, module] : modules)
+        if (!defined || !module.source.empty()) found.push_back(std::move(module));
+    return found;
+}
+
+} // namespace tandem::command
