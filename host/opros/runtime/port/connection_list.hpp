@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/short_mutex.hpp"
+
 #include <algorithm>
 #include <mutex>
 #include <vector>
@@ -15,29 +17,29 @@ class ConnectionList {
   public:
     /// Does nothing for NULL, and for one that is in the list.
     void add(Link* connection) {
-        const std::lock_guard<std::mutex> lock(mutex_);
+        const std::lock_guard lock(mutex_);
         if (connection &&
             std::find(connections_.begin(), connections_.end(), connection) == connections_.end())
             connections_.push_back(connection);
     }
     void remove(Link* connection) {
-        const std::lock_guard<std::mutex> lock(mutex_);
+        const std::lock_guard lock(mutex_);
         connections_.erase(std::remove(connections_.begin(), connections_.end(), connection),
                            connections_.end());
     }
     void clear() {
-        const std::lock_guard<std::mutex> lock(mutex_);
+        const std::lock_guard lock(mutex_);
         connections_.clear();
     }
     /// In the order in which they were added. `visit` must not change the list: the lock is not recursive.
     template <class Visit>
     void for_each(Visit visit) {
-        const std::lock_guard<std::mutex> lock(mutex_);
+        const std::lock_guard lock(mutex_);
         for (Link* connection : connections_) visit(*connection);
     }
 
   private:
-    std::mutex mutex_;
+    tandem::rt::ShortMutex mutex_;
     std::vector<Link*> connections_;
 };
 

@@ -33,7 +33,11 @@ class DataQueue {
     void clear() { count_ = 0; }
 
   private:
-    std::size_t index(std::size_t i) const { return (first_ + i) % slots_.size(); }
+    // i <= slots_.size(). Without a division, which would take longer than all else in push().
+    std::size_t index(std::size_t i) const {
+        const std::size_t sum = first_ + i;
+        return sum < slots_.size() ? sum : sum - slots_.size();
+    }
     std::size_t next_index() const { return policy_ == OPROS_LIFO ? index(count_ - 1) : first_; }
     void grow();
 

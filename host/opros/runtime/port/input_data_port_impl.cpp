@@ -16,7 +16,7 @@ InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolic
 
 void InputDataPortImpl::push(const opros_any& value) {
     {
-        const std::lock_guard<std::mutex> lock(mutex_);
+        const std::lock_guard lock(mutex_);
         // A new slot gets an object that this port's code has created, then the copy is assigned to it: the
         // given object may belong to a library that is unloaded before this port.
         opros_any& slot = queue_.push();
@@ -29,7 +29,7 @@ void InputDataPortImpl::push(const opros_any& value) {
 
 opros_any* InputDataPortImpl::pop() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     if (queue_.size() == 0 && consumer_waits_ && queue_.keeps_order()) return pop_from_source();
     poll_sources();
     consumer_waits_ = queue_.size() == 0;
@@ -45,20 +45,20 @@ opros_any* InputDataPortImpl::pop() {
 
 opros_any* InputDataPortImpl::peek() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     poll_sources();
     return queue_.size() == 0 ? nullptr : new opros_any(queue_.front());
 }
 
 std::size_t InputDataPortImpl::size() {
     if (!may_have_values_.load(std::memory_order_acquire)) return 0;
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     poll_sources();
     return queue_.size();
 }
 
 void InputDataPortImpl::clear() {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll && source->next(); ++i) source->done();
     queue_.clear();
@@ -66,7 +66,7 @@ void InputDataPortImpl::clear() {
 }
 
 void InputDataPortImpl::add_source(DataPortSource* source) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     sources_.push_back(source);
     give_listener_to(source);
     update_hints();
@@ -74,7 +74,7 @@ void InputDataPortImpl::add_source(DataPortSource* source) {
 
 // The lock makes the caller wait for a poll that is using the source.
 void InputDataPortImpl::remove_source(DataPortSource* source) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     sources_.erase(std::remove(sources_.begin(), sources_.end(), source), sources_.end());
     if (listener_.load(std::memory_order_relaxed)) source->setListener(nullptr);
     polled_sources_.erase(source);
@@ -83,7 +83,7 @@ void InputDataPortImpl::remove_source(DataPortSource* source) {
 }
 
 void InputDataPortImpl::set_listener(DataPortListener* listener) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     listener_.store(listener, std::memory_order_release);
     for (DataPortSource* source : sources_) give_listener_to(source);
 }
@@ -97,7 +97,7 @@ void InputDataPortImpl::give_listener_to(DataPortSource* source) {
 }
 
 bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned int limit) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::lock_guard lock(mutex_);
     if (!queue_is_default_) return false;
     queue_ = opros::DataQueue(policy, limit);
     update_hints();

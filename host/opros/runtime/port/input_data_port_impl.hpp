@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/opros/runtime/port/data_queue.hpp"
+#include "host/rt/short_mutex.hpp"
 
 #include <InputDataPortInterface.h>
 
@@ -56,7 +57,7 @@ class InputDataPortImpl {
     void allocate_spare();
 
     InputDataPortInterface& port_;
-    std::mutex mutex_;
+    tandem::rt::ShortMutex mutex_;
     opros::DataQueue queue_;
     std::vector<DataPortSource*> sources_;
     std::set<DataPortSource*> polled_sources_; // those that do not notify the listener

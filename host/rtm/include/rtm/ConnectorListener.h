@@ -183,10 +183,7 @@ class ConnectorListeners {
     }
 
     /// Is there a listener to any event with a message?
-    bool hasDataListener() const {
-        return std::any_of(data_.begin(), data_.end(),
-                           [](const auto& kind) { return kind.count.load(std::memory_order_acquire) != 0; });
-    }
+    bool hasDataListener() const { return data_listeners_.load(std::memory_order_acquire) != 0; }
 
     ConnectorListenerStatus::Enum notify(ConnectorDataListenerType type, ConnectorInfo& info, ByteData& data,
                                          const std::string& marshalingtype) {
@@ -232,6 +229,7 @@ class ConnectorListeners {
     static constexpr auto DataKinds =
         static_cast<std::size_t>(ConnectorDataListenerType::CONNECTOR_DATA_LISTENER_NUM);
     static constexpr auto InfoKinds = static_cast<std::size_t>(ConnectorListenerType::CONNECTOR_LISTENER_NUM);
+    std::atomic<std::size_t> data_listeners_{0}; // in all of data_: each message asks for it
     std::array<Holder<ConnectorDataListener>, DataKinds> data_;
     std::array<Holder<ConnectorListener>, InfoKinds> info_;
 };

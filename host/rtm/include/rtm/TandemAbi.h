@@ -4,7 +4,7 @@
 #ifndef RTM_TANDEMABI_H
 #define RTM_TANDEMABI_H
 
-#define TANDEM_RTM_ABI 9 // headers: 113c08c84b26bb30
+#define TANDEM_RTM_ABI 10 // headers: 445fe70e8138db0e
 
 // Written into every object file as an ELF note, which the loader of modules reads before it loads one. A
 // note rather than a symbol: it need not be linked and cannot clash, and no linker option or strip removes it

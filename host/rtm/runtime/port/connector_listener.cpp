@@ -87,6 +87,7 @@ bool ConnectorListeners::addListener(ConnectorDataListenerType type, ConnectorDa
                                      bool autoclean) {
     if (index(type) >= data_.size() || listener == nullptr) return false;
     data_[index(type)].add(listener, autoclean);
+    ++data_listeners_;
     return true;
 }
 bool ConnectorListeners::addListener(ConnectorListenerType type, ConnectorListener* listener,
@@ -96,7 +97,9 @@ bool ConnectorListeners::addListener(ConnectorListenerType type, ConnectorListen
     return true;
 }
 bool ConnectorListeners::removeListener(ConnectorDataListenerType type, ConnectorDataListener* listener) {
-    return index(type) < data_.size() && data_[index(type)].remove(listener);
+    if (index(type) >= data_.size() || !data_[index(type)].remove(listener)) return false;
+    --data_listeners_;
+    return true;
 }
 bool ConnectorListeners::removeListener(ConnectorListenerType type, ConnectorListener* listener) {
     return index(type) < info_.size() && info_[index(type)].remove(listener);

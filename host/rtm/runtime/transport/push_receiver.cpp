@@ -12,7 +12,7 @@ PushReceiver::PushReceiver(InPortBase& port, const ConnectorInfo& info, CdrBuffe
       timestamp_(timestampPolicy(info.properties)) {}
 
 DataPortStatus PushReceiver::receive(ByteData& bytes) {
-    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    const std::lock_guard lock(open_mutex_);
     if (!open_) return DataPortStatus::CONNECTION_LOST;
     if (timestamp_ == TimestampPolicy::on_received) port_.stampOnReceive(bytes);
     listeners_.notify(ConnectorDataListenerType::ON_RECEIVED, info_, bytes, marshaling_type_);
@@ -25,7 +25,7 @@ bool PushReceiver::needsBytes() const {
 }
 
 bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
-    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    const std::lock_guard lock(open_mutex_);
     if (!open_ || in_place_ == nullptr || needsBytes()) return false;
     const BufferStatus written = in_place_->writeInPlace(marshal);
     status = written == BufferStatus::OK     ? DataPortStatus::PORT_OK
@@ -35,7 +35,7 @@ bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status
 }
 
 bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& status) {
-    std::shared_lock<std::shared_mutex> lock(open_mutex_);
+    const std::lock_guard lock(open_mutex_);
     if (!open_ || direct_buffer_ == nullptr || needsBytes()) return false;
     const BufferStatus written = writer(*direct_buffer_);
     status = written == BufferStatus::OK        ? DataPortStatus::PORT_OK
@@ -70,7 +70,7 @@ DataPortStatus PushReceiver::store(ByteData& bytes) {
 }
 
 void PushReceiver::close() {
-    std::unique_lock<std::shared_mutex> lock(open_mutex_);
+    const std::lock_guard lock(open_mutex_);
     open_ = false;
 }
 

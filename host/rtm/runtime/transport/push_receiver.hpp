@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include "host/rt/short_mutex.hpp"
 #include <rtm/ConnectorListener.h>
 #include <rtm/DirectBuffer.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/Timestamp.h>
-#include <shared_mutex>
 
 namespace RTC {
 
@@ -39,7 +39,7 @@ class PushReceiver {
     bool full() const { return direct_buffer_ ? direct_buffer_->full() : buffer_.full(); }
     bool needsBytes() const;
 
-    std::shared_mutex open_mutex_; // shared by receivers, exclusive to close()
+    tandem::rt::ShortMutex open_mutex_; // one message at a time; close() waits for it
     bool open_ = true;
     InPortBase& port_;
     ConnectorListeners& listeners_;
