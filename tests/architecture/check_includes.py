@@ -90,6 +90,7 @@ PUBLIC_TO_APPS = {
     "host/rtm/runtime/manager/manager_options.hpp",
     "host/rtm/runtime/naming/remote_names.hpp",
     "host/rtm/runtime/port/custom_serializer.hpp",
+    "proxy/adaptor/archive/type_check.hpp",
     "proxy/interceptor/rtc_port.hpp",
 }
 # The two component models' API headers: a room of one model must not see the other's.

@@ -31,9 +31,36 @@ TEST_CASE("check says which connections cannot be checked while the RTM host doe
     CHECK_THAT(text,
                Contains("component 'Adaptor' will have the ports of the RTC on link '" + hosts.link() +
                         "', which no RTM host shares now: its connections cannot be checked; start that host "
-                        "and check again\n") &&
+                        "and check again, or name its configuration with --rtc-conf FILE\n") &&
                    Contains("app: 2 components and 0 connections fit; 3 connections not checked\n"));
     CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("check finds the ports of an AdaptorComp in the rtc.conf while the RTM host does not run") {
+    TwoHosts hosts;
+    hosts.write_rtc_conf();
+    const auto rtc_conf = (hosts.folder() / "rtc.conf").string();
+    const auto [code, text] = hosts.check_application({"--rtc-conf", rtc_conf});
+    CHECK(code == 0);
+    CHECK(text == "app: 2 components and 3 connections fit\n");
+
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "numbers", "Adaptor", "numbers") +
+                          TwoHosts::connection("data", "Talker", "word", "Adaptor", "wort"));
+    const auto [code_of_errors, errors] = hosts.check_application({"--rtc-conf", rtc_conf});
+    CHECK(code_of_errors == 1);
+    CHECK_THAT(errors,
+               Contains("'ai'") && Contains("'(uu)ad'") && Contains("'wort'") && Contains("app: 2 errors\n"));
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("check tells what keeps an rtc.conf from being carried out") {
+    TwoHosts hosts;
+    hosts.append_to_rtc_conf("manager.components.precreate: NoSuchRtc\n");
+    hosts.write_rtc_conf();
+    const auto [code, text] = hosts.check_application({"--rtc-conf", (hosts.folder() / "rtc.conf").string()});
+    CHECK(code == 1);
+    CHECK_THAT(text,
+               Contains("rtc.conf: manager.components.precreate: there is no component type NoSuchRtc"));
 }
 
 TEST_CASE("two hosts that are ended at the same time end in order and without an error") {

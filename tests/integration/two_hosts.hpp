@@ -101,16 +101,18 @@ class TwoHosts {
     }
     void start_opros() { start("opros", {OPROS_HOST, write_application().string(), "--strict"}); }
     /// Runs `tandem opros check` on the application. Returns its exit code and what it printed.
-    std::pair<int, std::string> check_application() const {
+    std::pair<int, std::string> check_application(const std::vector<std::string>& arguments = {}) const {
         const auto log = folder_ / "check.log";
-        const std::string command = std::string(TANDEM_PROGRAM) + " opros check " +
-                                    write_application().string() + " --plugin-path " + TEST_PLUGINS + " > " +
-                                    log.string() + " 2>&1";
+        std::string command = "TANDEM_PLUGIN_PATH=" TEST_PLUGINS " " TANDEM_PROGRAM " opros check " +
+                              write_application().string();
+        for (const auto& argument : arguments) command += " " + argument;
+        command += " > " + log.string() + " 2>&1";
         const int status = std::system(command.c_str());
         std::ifstream file(log);
         return {WEXITSTATUS(status), {std::istreambuf_iterator<char>(file), {}}};
     }
-    void start_rtm() {
+    const std::filesystem::path& folder() const { return folder_; }
+    void write_rtc_conf() const {
         const bool has_rtc = !interceptor_.empty();
         std::ofstream(folder_ / "rtc.conf")
             << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: "
@@ -119,6 +121,9 @@ class TwoHosts {
             << "manager.components.precreate: " << (has_rtc ? rtc_ + rtc_properties_ + ", " : "")
             << "InterceptorComp?link=" << link_ << (has_rtc ? "&" + interceptor_ : "") << "\n"
             << rtc_conf_more_;
+    }
+    void start_rtm() {
+        write_rtc_conf();
         std::vector<std::string> command{RTM_HOST, "-f", (folder_ / "rtc.conf").string()};
         if (!manager_port_.empty()) command.insert(command.end(), {"-p", manager_port_});
         start("rtm", command);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace tandem::command {
 
@@ -21,5 +22,17 @@ struct LinkProfileOptions {
 /// Writes a folder with which `tandem run` joins two components, and prints which of their ports are connected and why
 /// the others are not. 1 if no port is.
 int link_profile(const LinkProfileOptions& options);
+
+/// Of check.
+struct LinkCheckOptions {
+    std::filesystem::path folder;
+    std::vector<std::filesystem::path> plugin_dirs;
+    bool initialize = false; ///< run onInitialize of the OPRoS components, for ports that are created there
+    double timeout_s = 10;   ///< time limit for the components' code
+    bool json = false;
+};
+/// Prints every port of both sides of the links of an application with its partner, signatures and conversion, or why it
+/// has none. 1 if a configured connection cannot be made.
+int link_check(const LinkCheckOptions& options);
 
 } // namespace tandem::command

@@ -36,12 +36,35 @@ void add_profile(CLI::App& link, Action& selected) {
     command->callback([=, &selected] { selected = [options] { return link_profile(*options); }; });
 }
 
+void add_check(CLI::App& link, Action& selected) {
+    auto options = std::make_shared<LinkCheckOptions>();
+    CLI::App* command = add_command(
+        link, "check", "Prints which ports of both sides are joined, and why the others are not",
+        "DIR is the folder of tandem run: opros/ with an application, rtm/rtc.conf. The hosts may run or "
+        "not.\n"
+        "Signatures are those of docs/wire_format.md; of services, operations as each model writes them.\n"
+        "Exit code 1 if a connection of the application cannot be made.");
+    command->add_option("DIR", options->folder, "folder with opros/ and rtm/")->required();
+    command->add_option("--plugin-path", options->plugin_dirs, "folder with component libraries (repeatable)")
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    command->add_flag(
+        "--initialize", options->initialize,
+        "run onInitialize() of the OPRoS components in a child process, for ports created there");
+    command->add_option("--timeout", options->timeout_s, "time limit for the components' code (10)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.1, 3600.));
+    command->add_flag("--json", options->json, "print JSON instead of text");
+    command->callback([=, &selected] { selected = [options] { return link_check(*options); }; });
+}
+
 } // namespace
 
 void add_link_commands(CLI::App& tandem, Action& selected) {
     CLI::App* link = tandem.add_subcommand("link", "Joins OPRoS components and RTCs");
     link->require_subcommand(1);
     add_profile(*link, selected);
+    add_check(*link, selected);
 }
 
 } // namespace tandem::command

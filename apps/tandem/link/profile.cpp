@@ -51,7 +51,7 @@ void find_errors(std::vector<PortPair>& pairs, const ComponentPair& components, 
         trials.push_back({port_type(pair.opros), opros, rtc});
     }
     const auto errors =
-        try_connections_in_child(trials, {{adaptor_name, link::encode_as_text(table)}}, options);
+        try_connections_in_child(trials, {}, {{adaptor_name, link::encode_as_text(table)}}, options);
     for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].error = errors.at(i);
 }
 

@@ -5,6 +5,7 @@
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/type_profile_errors.hpp"
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/shared_ports/link_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/load_component.hpp"
 #include "host/opros/engine/profile/flatten_composites.hpp"
@@ -46,28 +47,43 @@ class Findings {
     std::map<std::string, std::string> port_tables;
 };
 
+/// Throws engine::SetupError if the RTM host's configuration cannot be carried out.
+std::optional<LinkPorts> find_shared_ports(const engine::Subcomponent& entry, const std::string& link,
+                                           LinkPortFinder& finder) {
+    try {
+        return finder.find(link);
+    } catch (const plugin::Error& error) { // names the file
+        throw engine::SetupError(entry.location, "component '" + entry.name + "': the ports on link '" +
+                                                     link + "' are not known: " + error.what());
+    }
+}
+
 /// Adds the ports of an AdaptorComp to those that it has without its peer. False, with a line that says so, if they
 /// are not known now.
-bool find_mirrors(const engine::Subcomponent& entry, const std::string& link, nlohmann::json& ports,
-                  Findings& findings) {
-    const auto table = read_shared_ports(link);
-    if (!table) {
+bool find_mirrors(const engine::Subcomponent& entry, const std::string& link, LinkPortFinder& finder,
+                  nlohmann::json& ports, Findings& findings) {
+    const auto shared = find_shared_ports(entry, link, finder);
+    if (!shared) {
+        const std::string where =
+            finder.conf().empty()
+                ? "; start that host and check again, or name its configuration with --rtc-conf FILE"
+                : ", and " + finder.conf().string() + " has no InterceptorComp with this link";
         findings.unknown.push_back(fmt::format(
             "{}: component '{}' will have the ports of the RTC on link '{}', which no RTM host shares now: "
-            "its connections cannot be checked; start that host and check again",
-            entry.location.text(), entry.name, link));
+            "its connections cannot be checked{}",
+            entry.location.text(), entry.name, link, where));
         findings.unknown_components.insert(entry.name);
         return false;
     }
-    findings.port_tables[entry.name] = link::encode_as_text(*table);
-    for (auto& port : describe_mirrors(*table)) ports.push_back(std::move(port));
+    findings.port_tables[entry.name] = link::encode_as_text(shared->table);
+    for (auto& port : describe_mirrors(shared->table)) ports.push_back(std::move(port));
     return true;
 }
 
 /// Adds where a component does not fit its profile. False if it cannot be connected, because its ports are not known
 /// now. Throws if there is no component that could be connected.
 bool check_component(const ApplicationProfile& application, const engine::Subcomponent& entry,
-                     const InspectOptions& options, Findings& findings) {
+                     const InspectOptions& options, LinkPortFinder& finder, Findings& findings) {
     // The application's folder comes first, as in opros_host.
     auto dirs = options.plugin_dirs;
     dirs.insert(dirs.begin(), application.location.file.parent_path());
@@ -92,7 +108,8 @@ bool check_component(const ApplicationProfile& application, const engine::Subcom
             (absent["misspelt"] ? findings.lines : findings.notes).push_back(absent["line"]);
         }
         auto ports = description["ports"];
-        if (mirrors && !find_mirrors(entry, adaptor_link(entry, profile), ports, findings)) return false;
+        if (mirrors && !find_mirrors(entry, adaptor_link(entry, profile), finder, ports, findings))
+            return false;
         findings.add(find_port_mismatches(profile, ports, options.initialize || mirrors));
         findings.add(find_type_profile_errors(profile));
         return true;
@@ -150,10 +167,12 @@ int opros_check(const InspectOptions& options) {
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
             errors.lines.push_back(connection.location.text() + ": " + connection.error);
+    LinkPortFinder finder(options.rtc_conf.empty() ? partner_rtc_conf(options.file) : options.rtc_conf,
+                          {{}, options.timeout_s});
     std::vector<std::string> excluded;
     for (const auto& entry : application.subcomponents) {
         bool is_known = false;
-        errors.run_step([&] { is_known = check_component(application, entry, options, errors); });
+        errors.run_step([&] { is_known = check_component(application, entry, options, finder, errors); });
         if (!is_known) excluded.push_back(entry.name);
     }
     // Components that cannot be run are left out, so that the connections of the others are still checked.

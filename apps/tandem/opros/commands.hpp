@@ -20,6 +20,8 @@ struct InspectOptions {
     bool initialize = false; ///< run onInitialize in a child process, for ports that are created there
     double timeout_s = 10;   ///< time limit for the component's code
     bool json = false;
+    std::filesystem::path
+        rtc_conf; ///< check: of the RTM host at the other end of links; empty: ../rtm/rtc.conf
 };
 /// Prints what a component library or a profile of any kind contains.
 int opros_info(const InspectOptions& options);

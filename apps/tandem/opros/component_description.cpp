@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/component_description.hpp"
 
+#include "proxy/adaptor/archive/type_check.hpp"
+
 #include <Component.h>
 #include <InputDataPortInterface.h>
 #include <InputEventPortInterface.h>
@@ -22,11 +24,21 @@ json describe_methods(ServicePortInterface& port) {
     return methods;
 }
 
+// Null for a type that cannot cross a link, or whose own load() refuses the values of a trial.
+json signature_of(const opros_any& sample) {
+    try {
+        return adaptor::value_signature(sample);
+    } catch (const std::exception&) {
+        return nullptr;
+    }
+}
+
 // A port's type is the type of its sample value, which is empty in ports that carry any type.
 json describe_typed_port(Port& port, const char* kind, bool input) {
     const opros_any sample = port.sample();
     json out{{"kind", kind}, {"direction", input ? "input" : "output"}};
     out["type"] = sample.empty() ? json() : json(sample.type());
+    if (sample.serializable()) out["signature"] = signature_of(sample);
     return out;
 }
 

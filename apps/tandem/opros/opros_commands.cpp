@@ -52,6 +52,13 @@ void add_info_and_check(CLI::App& opros, Action& selected) {
                     "Each error is one line: file, line, what is wrong, what was expected.\n"
                     "Exit code 1 if there is an error.");
     add_inspect_options(check, *options, "application profile (XML)");
+    check
+        ->add_option(
+            "--rtc-conf", options->rtc_conf,
+            "rtc.conf of the RTM host behind an AdaptorComp, for its ports while that host does not run "
+            "(../rtm/rtc.conf, seen from FILE in a folder opros)")
+        ->type_name("FILE")
+        ->check(CLI::ExistingFile);
     check->callback([=, &selected] {
         selected = [options] {
             append_default_dirs(*options);

@@ -147,10 +147,11 @@ std::vector<std::string> check_connections_in_child(const std::vector<std::strin
 }
 
 std::vector<std::string> try_connections_in_child(const std::vector<TrialConnection>& trials,
+                                                  const std::vector<std::string>& excluded,
                                                   const std::map<std::string, std::string>& port_tables,
                                                   const InspectOptions& options) {
     json request = make_request(options);
-    request["excluded"] = json::array();
+    request["excluded"] = excluded;
     request["port_tables"] = port_tables;
     request["trials"] = json::array();
     for (const auto& trial : trials)

@@ -46,6 +46,7 @@ struct TrialConnection {
 /// As check_connections_in_child(), but makes each of these connections alone, and none of the application's own.
 /// Returns why each of them is refused, without a file's name; "" for one that is made.
 std::vector<std::string> try_connections_in_child(const std::vector<TrialConnection>& trials,
+                                                  const std::vector<std::string>& excluded,
                                                   const std::map<std::string, std::string>& port_tables,
                                                   const InspectOptions& options);
 

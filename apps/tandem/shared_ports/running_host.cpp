@@ -17,14 +17,20 @@ std::optional<link::PortTable> read_shared_ports(const std::string& link) {
 }
 
 nlohmann::json describe_mirrors(const link::PortTable& table) {
+    using nlohmann::json;
     static constexpr const char* directions[] = {"output", "input", "provided",
                                                  "required"}; // by link::PortKind
-    nlohmann::json ports = nlohmann::json::array();
-    for (const auto& port : table.ports)
-        ports.push_back({{"name", port.name},
-                         {"kind", link::is_data_port(port.kind) ? "data" : "service"},
-                         {"direction", directions[static_cast<std::size_t>(port.kind)]},
-                         {"type", nullptr}});
+    json ports = json::array();
+    for (const auto& port : table.ports) {
+        json out{{"name", port.name},
+                 {"kind", link::is_data_port(port.kind) ? "data" : "service"},
+                 {"direction", directions[static_cast<std::size_t>(port.kind)]},
+                 {"type", nullptr}};
+        if (link::is_data_port(port.kind)) out["signature"] = port.signature;
+        for (const auto& operation : port.operations)
+            out["methods"].push_back({{"name", operation.name}, {"signature", operation.signature}});
+        ports.push_back(std::move(out));
+    }
     return ports;
 }
 

@@ -13,8 +13,8 @@ namespace tandem::command {
 /// no running host does. Throws std::runtime_error: the name is not that of a link, or what is there is damaged.
 std::optional<link::PortTable> read_shared_ports(const std::string& link);
 
-/// The mirrors of these ports as describe_component() describes ports, without types: those are compared when the ports
-/// are connected.
+/// The mirrors of these ports as describe_component() describes ports, without types, which are compared when the ports
+/// are connected; data ports with "signature", services with the operations that are known as "methods".
 nlohmann::json describe_mirrors(const link::PortTable& table);
 
 } // namespace tandem::command

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/link/joined_ports.hpp"
+
+#include "apps/tandem/opros/partner_ports.hpp"
+#include "apps/tandem/opros/probe_tasks.hpp"
+#include "apps/tandem/shared_ports/link_ports.hpp"
+#include "apps/tandem/shared_ports/running_host.hpp"
+#include "host/opros/engine/load/load_component.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
+
+#include <algorithm>
+
+namespace tandem::command {
+namespace {
+
+/// Fills in what is found, component by component.
+class Collector {
+  public:
+    Collector(const RunFolder& folder, const InspectOptions& options)
+        : options_(options), finder_(folder.rtc_conf, {options.plugin_dirs, options.timeout_s}) {
+        options_.file = folder.application;
+        joined_.application = engine::read_application_profile(folder.application);
+        if (engine::has_composites(joined_.application, options.plugin_dirs))
+            joined_.application = engine::flatten_composites(joined_.application, options.plugin_dirs);
+    }
+
+    JoinedPorts collect() {
+        for (const auto& entry : joined_.application.subcomponents) {
+            try {
+                add(entry);
+            } catch (const std::runtime_error& error) {
+                joined_.errors.emplace_back(error.what());
+            }
+        }
+        note_links_without_adaptor();
+        try_connections();
+        return std::move(joined_);
+    }
+
+  private:
+    void add(const engine::Subcomponent& entry) {
+        auto dirs = options_.plugin_dirs;
+        dirs.insert(dirs.begin(), options_.file.parent_path());
+        const auto file = entry.file.empty()
+                              ? engine::find_component_profile(joined_.application, entry, dirs)
+                              : entry.file;
+        const auto profile = engine::read_component_profile(file);
+        const auto library = engine::find_component_library(profile, dirs);
+        if (is_adaptor(library)) return add_adaptor(entry, adaptor_link(entry, profile));
+        engine::require_opros_component(library);
+        joined_.components[entry.name] = {entry, describe_in_child(library, file, options_)["ports"], "", "",
+                                          false};
+    }
+
+    void add_adaptor(const engine::Subcomponent& entry, const std::string& link) {
+        joined_links_.push_back(link);
+        const auto shared = finder_.find(link);
+        if (!shared) {
+            std::string named;
+            for (const auto& [other, rtc] : finder_.configured_links())
+                named += (named.empty() ? "" : ", ") + other;
+            throw engine::SetupError(entry.location,
+                                     "component '" + entry.name + "' joins link '" + link +
+                                         "', which no InterceptorComp of the rtc.conf names (it names: " +
+                                         (named.empty() ? "none" : named) + ")");
+        }
+        tables_[entry.name] = link::encode_as_text(shared->table);
+        joined_.components[entry.name] = {entry, describe_mirrors(shared->table), link,
+                                          shared->table.component_names(), shared->running};
+    }
+
+    void note_links_without_adaptor() {
+        try {
+            for (const auto& [link, rtc] : finder_.configured_links())
+                if (std::find(joined_links_.begin(), joined_links_.end(), link) == joined_links_.end())
+                    joined_.errors.push_back(finder_.conf().string() + ": InterceptorComp shares " + rtc +
+                                             " on link '" + link +
+                                             "', which no AdaptorComp of the application joins");
+        } catch (const std::runtime_error& error) {
+            // The hosts may run although a second one could not, for instance because of a device in use.
+            if (tables_.empty()) joined_.errors.emplace_back(error.what());
+        }
+    }
+
+    void try_connections() {
+        std::vector<TrialConnection> trials;
+        auto& errors = joined_.connection_errors;
+        for (const auto& connection : joined_.application.connections) {
+            errors.push_back(connection.error);
+            if (is_known(connection))
+                trials.push_back({connection.type, connection.source, connection.target});
+        }
+        std::vector<std::string> excluded;
+        for (const auto& entry : joined_.application.subcomponents)
+            if (joined_.components.count(entry.name) == 0) excluded.push_back(entry.name);
+        const auto found = try_connections_in_child(trials, excluded, tables_, options_);
+        std::size_t next = 0;
+        for (std::size_t i = 0; i < errors.size(); ++i)
+            if (is_known(joined_.application.connections[i])) errors[i] = found.at(next++);
+    }
+
+    bool is_known(const engine::ConnectionProfile& connection) const {
+        return connection.error.empty() && joined_.components.count(connection.source.component) != 0 &&
+               joined_.components.count(connection.target.component) != 0;
+    }
+
+    InspectOptions options_;
+    LinkPortFinder finder_;
+    JoinedPorts joined_;
+    std::vector<std::string> joined_links_;
+    std::map<std::string, std::string> tables_; ///< of each AdaptorComp, for the child process
+};
+
+} // namespace
+
+JoinedPorts find_joined_ports(const RunFolder& folder, const InspectOptions& options) {
+    return Collector(folder, options).collect();
+}
+
+} // namespace tandem::command

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two sides of the links of an application: which port has which partner, as the configuration says.
+#pragma once
+
+#include "apps/tandem/opros/commands.hpp"
+#include "apps/tandem/run/run_folder.hpp"
+#include "host/opros/engine/profile/application_profile.hpp"
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace tandem::command {
+
+/// A component of the application: an OPRoS component, or the RTC that an AdaptorComp stands for.
+struct JoinedComponent {
+    engine::Subcomponent entry;
+    nlohmann::json ports; ///< as describe_component() gives them, with a "signature" of what crosses the link
+    std::string link;     ///< of an AdaptorComp, otherwise empty
+    std::string rtc;      ///< the RTC behind it
+    bool running = false; ///< an RTM host shares these ports now
+    /// As the user knows the component: the RTC's name for an AdaptorComp.
+    const std::string& name() const { return link.empty() ? entry.name : rtc; }
+};
+
+struct JoinedPorts {
+    engine::ApplicationProfile application;
+    std::map<std::string, JoinedComponent> components; ///< by their names in the application
+    std::vector<std::string> connection_errors;        ///< by connection; empty for one that can be made
+    std::vector<std::string> errors; ///< what keeps a component or a link from being looked at
+};
+
+/// Finds out the ports of all components, those of RTCs from hosts that run or else from the rtc.conf, and tries each
+/// connection in a child process. Throws std::runtime_error if the application cannot be read.
+JoinedPorts find_joined_ports(const RunFolder& folder, const InspectOptions& options);
+
+} // namespace tandem::command

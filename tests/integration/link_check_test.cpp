@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// `tandem link check`: both sides of a link, with hosts that run or do not.
+#include "tests/integration/scratch_folder.hpp"
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// `joined` of TalkerComp and EchoRtc, as tandem link profile writes it.
+struct JoinedFolder : ScratchFolder {
+    JoinedFolder() {
+        add_component("TalkerComp");
+        add_component("EchoRtc");
+        REQUIRE(tandem({"link", "profile", "TalkerComp", "EchoRtc", "--out", "joined"}).exit_code() == 0);
+    }
+    /// Replaces a text in a file of the folder.
+    void edit(const std::string& file, const std::string& text, const std::string& replacement) const {
+        std::ifstream in(path() / file);
+        std::string content{std::istreambuf_iterator<char>(in), {}};
+        const auto at = content.find(text);
+        REQUIRE(at != std::string::npos);
+        std::ofstream(path() / file) << content.replace(at, text.size(), replacement);
+    }
+};
+
+} // namespace
+
+TEST_CASE("link check prints each port with its partner, both signatures and the conversion") {
+    JoinedFolder folder;
+    const auto result = folder.tandem({"link", "check", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 0);
+    CHECK_THAT(result.output,
+               Contains("link TalkerComp-EchoRtc: EchoRtc0 behind Adaptor, from the rtc.conf\n"));
+    const auto json = nlohmann::json::parse(folder.tandem({"link", "check", "joined", "--json"}).output);
+    REQUIRE(json["connections"].size() == 3);
+    const auto connection = [&](const std::string& from) {
+        for (const auto& each : json["connections"])
+            if (each["from"] == from) return each;
+        return nlohmann::json();
+    };
+    CHECK(connection("TalkerComp.word")["to"] == "EchoRtc0.word");
+    CHECK(connection("TalkerComp.word")["from_port"]["signature"] == "s");
+    CHECK(connection("TalkerComp.word")["to_port"]["signature"] == "(uu)s");
+    CHECK(connection("TalkerComp.word")["conversion"] == "tm is set");
+    CHECK(connection("EchoRtc0.reply")["conversion"] == "tm is left out");
+    CHECK(connection("TalkerComp.dictionary")["to_port"]["methods"][0]["signature"] == "sad:ai");
+    CHECK_THAT(result.output,
+               Contains("without a partner: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
+                   Contains("without a partner: TalkerComp.numbers (data output, 'ai')"));
+}
+
+TEST_CASE("link check fails for a configured connection that cannot be made, and tells the other ones") {
+    JoinedFolder folder;
+    folder.edit("joined/opros/joined.xml", "component_name=\"Adaptor\" port_name=\"word\"",
+                "component_name=\"Adaptor\" port_name=\"numbers\"");
+    const auto result = folder.tandem({"link", "check", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 1);
+    CHECK_THAT(result.output, Contains(": cannot be connected: type mismatch") &&
+                                  Contains("has signature 's'") && Contains("'(uu)ad'"));
+    CHECK_THAT(result.output, Contains("EchoRtc0.reply"));
+}
+
+TEST_CASE("link check names a link that only one side has") {
+    JoinedFolder folder;
+    folder.edit("joined/rtm/rtc.conf", "link=TalkerComp-EchoRtc", "link=other");
+    const auto result = folder.tandem({"link", "check", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 1);
+    CHECK_THAT(
+        result.output,
+        Contains("component 'Adaptor' joins link 'TalkerComp-EchoRtc', which no InterceptorComp of the "
+                 "rtc.conf names (it names: other)\n"));
+    CHECK_THAT(result.output,
+               Contains("InterceptorComp shares EchoRtc0 on link 'other', which no AdaptorComp of the "
+                        "application joins\n"));
+}
+
+TEST_CASE("link check asks the RTM host that runs, and disturbs nobody") {
+    JoinedFolder folder;
+    TwoHosts hosts;
+    hosts.start_rtm();
+    REQUIRE(hosts.says("rtm", "ready"));
+    folder.edit("joined/opros/joined.xml", ">TalkerComp-EchoRtc<", ">" + hosts.link() + "<");
+    std::filesystem::remove(folder.path() / "joined/rtm/rtc.conf");
+    const auto result = folder.tandem({"link", "check", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 0);
+    CHECK_THAT(result.output, Contains("link " + hosts.link() + ": EchoRtc0 behind Adaptor, running\n"));
+    CHECK_THAT(hosts.output("rtm"), !Contains("is up"));
+    CHECK(hosts.stop("rtm") == 0);
+}
