@@ -29,15 +29,19 @@ bool peer_has_gone(CallStatus status) {
     return status == CallStatus::peer_died || status == CallStatus::shut_down;
 }
 
-/// Returns an error if two ports of the peer would get mirrors of the same name.
-std::string check_names(const link::PortTable& peer, const link::PortTable& own, const std::string& link) {
+/// Removes the ports of the peer whose mirrors would have the name of another port. Returns a line about the last of
+/// them; empty if there is none.
+std::string remove_doubles(link::PortTable& peer, const link::PortTable& own, const std::string& link) {
     std::set<std::string> names{"linkState"};
     for (const auto& port : own.ports) names.insert(port.name);
-    for (const auto& port : peer.ports)
-        if (!names.insert(port.name).second)
-            return fmt::format("link '{}': the peer shares a port '{}', which is there already; rename it",
-                               link, port.name);
-    return "";
+    std::string error;
+    std::erase_if(peer.ports, [&](const link::Port& port) {
+        if (names.insert(port.name).second) return false;
+        error = fmt::format("link '{}': the peer shares a port '{}', which is there already; rename it", link,
+                            port.name);
+        return true;
+    });
+    return error;
 }
 
 } // namespace
@@ -60,7 +64,8 @@ ReturnType AdaptorComp::onInitialize() {
         settings_ = read_settings(getPropertyMap());
         create_link();
         if (!settings_.port_table.empty()) {
-            const std::string error = check_peer_ports(link::decode_port_table_text(settings_.port_table));
+            auto table = link::decode_port_table_text(settings_.port_table);
+            const std::string error = check_peer_ports(table);
             if (!error.empty()) throw link::LinkError(error);
             create_mirror_ports();
             return OPROS_SUCCESS;
@@ -102,12 +107,25 @@ ReturnType AdaptorComp::onStart() {
         spdlog::error("{}: {}", getId(), error.what());
         return OPROS_CALL_API_ERROR;
     }
+    if (const std::string refused = first_refusal(); settings_.strict && !refused.empty()) {
+        spdlog::error("{}: strict: {}", getId(), refused);
+        return OPROS_CALL_API_ERROR;
+    }
     rtc_failed_ = false;
     const auto code = drive_rtc(control::activate);
     // The RTC may have gone to ERROR between its activation and this line; the report came to serve().
     started_ = code == OPROS_SUCCESS && !rtc_failed_;
     publish_link_state();
     return started_ || code != OPROS_SUCCESS ? code : OPROS_CALL_API_ERROR;
+}
+
+/// Why the first connection that was refused was refused; empty if there is none.
+std::string AdaptorComp::first_refusal() const {
+    for (const auto& port : inputs_)
+        if (!port->refusals().empty()) return port->refusals().front();
+    for (const auto& port : outputs_)
+        if (!port->refusals().empty()) return port->refusals().front();
+    return "";
 }
 
 ReturnType AdaptorComp::onStop() {
@@ -164,20 +182,30 @@ void AdaptorComp::create_mirror_port(const link::Port& port) {
     }
 }
 
-/// Before the mirrors are created, any table is accepted whose names can be used. Afterwards the ports are
-/// connected, so a peer that came back must still have every one of them with the same type.
-std::string AdaptorComp::check_peer_ports(const link::PortTable& peer) {
+/// Before the mirrors are created, any table is accepted; of two ports of one name the first counts. Afterwards the
+/// ports are connected: of a peer that came back those are used that it has with the same type as before.
+std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
     if (!mirrors_created_) {
+        const std::string error = remove_doubles(peer, own_ports_, settings_.link);
+        if (!error.empty() && settings_.strict) return error;
+        if (!error.empty()) spdlog::error("{}; it is left out, the others work", error);
         peer_ports_ = peer;
-        return check_names(peer, own_ports_, settings_.link);
+        return "";
     }
     for (const auto& port : peer_ports_.ports) {
         const auto* found = peer.find(port.name);
         if (found && *found == port) continue;
-        return fmt::format("link '{}': port '{}' of the peer that came back {}; start this host again",
-                           settings_.link, port.name, found ? "has another type than before" : "is gone");
+        const auto error =
+            fmt::format("link '{}': port '{}' of the peer that came back {}; start this host again to use it",
+                        settings_.link, port.name, found ? "has another type than before" : "is gone");
+        if (settings_.strict) return error;
+        spdlog::error("{}; it is left out, the others work", error);
     }
+    std::erase_if(peer.ports, [this](const link::Port& port) {
+        const auto* known = peer_ports_.find(port.name);
+        return !known || *known != port;
+    });
     return "";
 }
 
@@ -238,12 +266,15 @@ Reply AdaptorComp::send_command(std::string_view command, std::span<const std::b
 }
 
 /// Tells the peer which operations are provided here for the services that the RTC requires. Returns an empty
-/// string or why the peer refused them.
+/// string or why the peer could not be told. A service that the peer refuses is left out, unless the user is strict.
 std::string AdaptorComp::publish_bindings() {
     for (const auto* port : required_) {
         const auto reply = send_command(
             control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
-        if (reply.status != CallStatus::ok) return describe_failure(reply, settings_.call_timeout);
+        if (reply.status == CallStatus::ok) continue;
+        const std::string error = describe_failure(reply, settings_.call_timeout);
+        if (settings_.strict || reply.status != CallStatus::exception) return error;
+        spdlog::error("{}: {}; this service is left out, the others work", getId(), error);
     }
     return "";
 }

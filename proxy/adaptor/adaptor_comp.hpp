@@ -48,7 +48,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
 
   private:
     // LinkHandler, in the link's threads.
-    std::string check_peer_ports(const link::PortTable&) override;
+    std::string check_peer_ports(link::PortTable&) override;
     void link_state_changed(bool up) override;
     void peer_connected() override;
     void peer_disconnected() override;
@@ -57,6 +57,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
 
     void create_link();
     void close_link();
+    std::string first_refusal() const;
     void create_mirror_ports();
     void create_mirror_port(const link::Port&);
     MirrorRequiredPort* find_required_port(std::string_view name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/settings.hpp"
 
-#include "proxy/link/protocol/positive_number.hpp"
+#include "proxy/link/protocol/setting.hpp"
 
 #include <fmt/format.h>
 
@@ -51,6 +51,8 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
         settings.group = group->second;
     if (const auto share = properties.find("share"); share != properties.end())
         settings.share = split_names(share->second);
+    if (const auto strict = properties.find("strict"); strict != properties.end())
+        settings.strict = link::parse_flag("property", "strict", strict->second);
     if (const auto table = properties.find("port_table"); table != properties.end())
         settings.port_table = table->second;
     return settings;

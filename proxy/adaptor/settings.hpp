@@ -20,7 +20,8 @@ struct Settings {
     /// `port_table`, for tools: the ports to mirror (link::encode_as_text()). No link is opened then.
     std::string port_table;
     std::vector<std::string> share; ///< `share`: names of the OPRoS components that are shown as RTCs
-    std::string group;              ///< `group`: may join the link beside the owner; empty: the owner only
+    bool strict = false; ///< `strict`: a connection that is refused is an error when the component is started
+    std::string group;   ///< `group`: may join the link beside the owner; empty: the owner only
 };
 
 /// Throws std::runtime_error, one line, when `link` is missing or another property is not a number above 0.

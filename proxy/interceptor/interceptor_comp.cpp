@@ -7,6 +7,7 @@
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 #include "proxy/wire/signature_match.hpp"
+#include "proxy/wire/type_text.hpp"
 
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/NVUtil.h>
@@ -90,8 +91,12 @@ void InterceptorComp::share_rtc_ports() {
 
 void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
     for (const auto& port : ports)
-        if (link::is_data_port(port.entry.kind))
+        if (port.entry.has_ring())
             create_data_mirror(port);
+        else if (link::is_data_port(port.entry.kind))
+            leave_out(fmt::format("port '{}' of {}: type {} cannot cross the link: {}", port.entry.name,
+                                  settings_.rtc, port.entry.type,
+                                  wire::first_unsupported(wire::parse_signature(port.entry.signature))));
         else
             create_service_mirror(port);
     // A service port with several interfaces has an entry for each, but is connected once.
@@ -104,6 +109,12 @@ void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
     }
 }
 
+/// One port that cannot be used does not keep the others from working, unless the user asked for that.
+void InterceptorComp::leave_out(const std::string& reason) {
+    if (settings_.strict) throw std::runtime_error(reason);
+    spdlog::error("{}: {}; this port is left out, the others work", getInstanceName(), reason);
+}
+
 std::string InterceptorComp::channel_key(const std::string& port) const {
     return settings_.link + "/" + port;
 }
@@ -112,7 +123,11 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
     const std::string key = channel_key(entry.name);
     LinkChannel channel;
-    channel.timed = wire::is_timed(entry.signature);
+    const auto type = wire::parse_signature(entry.signature);
+    channel.timed = wire::is_timed(type);
+    if (wire::contains(type, wire::Kind::any) || wire::contains(type, wire::Kind::fixed))
+        channel.transcoded =
+            std::make_shared<const wire::Type>(channel.timed ? wire::without_time(type) : type);
     if (entry.kind == PortKind::data_out) {
         channel.writer = &link_->writer(entry.name);
         written_ports_.push_back(entry.name);
@@ -166,8 +181,8 @@ void InterceptorComp::connect(RTC::PortBase& mirror, RTC::PortService_ptr rtc_po
             CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(name, value));
     }
     if (mirror.connect(profile) != RTC::RTC_OK)
-        throw std::runtime_error(fmt::format("port '{}' cannot be connected with that of {}: {}",
-                                             mirror.getName(), settings_.rtc, mirror.connectError()));
+        leave_out(fmt::format("port '{}' cannot be connected with that of {}: {}", mirror.getName(),
+                              settings_.rtc, mirror.connectError()));
 }
 
 void InterceptorComp::disconnect_all() {
@@ -184,7 +199,7 @@ void InterceptorComp::disconnect_all() {
 // ---- the peer connects, disconnects, calls
 
 /// Refuses a table that has a port of the same name, because the channels of both share one segment.
-std::string InterceptorComp::check_peer_ports(const link::PortTable& peer) {
+std::string InterceptorComp::check_peer_ports(link::PortTable& peer) {
     for (const auto& port : peer.ports)
         if (std::find(channel_keys_.begin(), channel_keys_.end(), channel_key(port.name)) !=
             channel_keys_.end())

@@ -44,10 +44,11 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void create_data_mirror(const RtcPort&);
     void create_service_mirror(const RtcPort&);
     void connect(RTC::PortBase& mirror, RTC::PortService_ptr rtc_port, const std::string& channel_key);
+    void leave_out(const std::string& reason);
     void disconnect_all();
 
     // LinkHandler, in the link's threads.
-    std::string check_peer_ports(const link::PortTable&) override;
+    std::string check_peer_ports(link::PortTable&) override;
     void link_state_changed(bool up) override;
     void peer_connected() override;
     void peer_disconnected() override;

@@ -6,10 +6,7 @@
 #include <rtm/InterfaceSignatures.h>
 #include <rtm/NVUtil.h>
 
-#include <fmt/format.h>
-
 #include <set>
-#include <stdexcept>
 
 namespace tandem::interceptor {
 namespace {
@@ -27,19 +24,27 @@ std::string short_name(const RTC::PortProfile& profile) {
     return dot == std::string::npos ? full : full.substr(dot + 1);
 }
 
+/// The signature of a data port's type. A reference in it would have to be kept alive by somebody: data ports carry none.
+std::string without_references(const wire::Type& type) {
+    if (wire::contains(type, wire::Kind::object)) return "?{it holds an object reference}";
+    return wire::to_named_signature(type);
+}
+
 link::Port data_port(const RTC::PortProfile& profile, PortKind kind) {
     link::Port port;
     port.kind = kind;
     port.name = short_name(profile);
     port.type = property(profile, "dataport.data_type");
-    // Known from the IDL that the RTC's library was built with; '?' stands for a type that has no signature.
+    // Known from the IDL that the RTC's library was built with.
     const std::string signature = RTC::InterfaceSignatures::type(port.type);
-    if (signature.empty() || signature.find('?') != std::string::npos)
-        throw std::runtime_error(fmt::format(
-            "port '{}': type {} cannot cross the link: {}", static_cast<const char*>(profile.name), port.type,
-            signature.empty() ? "its IDL is not known to this process; build the RTC's IDL with it"
-                              : "it holds what has no signature (any, object, union): " + signature));
-    port.signature = wire::to_signature(wire::parse_signature(signature));
+    try {
+        if (signature.empty())
+            port.signature = "?{its IDL is not known to the RTM host; build the RTC's IDL with it}";
+        else
+            port.signature = without_references(wire::parse_signature(signature));
+    } catch (const wire::SignatureError&) {
+        port.signature = "?{it is nested too deeply, or has too many members}";
+    }
     return port;
 }
 

@@ -19,8 +19,8 @@ struct RtcPort {
 
 /// Lists the ports of an RTC. A service port with several interfaces gives one entry for each, named
 /// `port.instance`. A port named `linkState` is left out, because both proxies have one of that name.
-/// Throws std::runtime_error, one line, for a data port whose IDL type this process does not know, and
-/// CORBA::Exception if the RTC does not answer.
+/// A data port whose type cannot cross has link::no_signature in its entry. Throws CORBA::Exception if the RTC does
+/// not answer.
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc);
 
 } // namespace tandem::interceptor

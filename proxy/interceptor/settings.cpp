@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/settings.hpp"
 
-#include "proxy/link/protocol/positive_number.hpp"
+#include "proxy/link/protocol/setting.hpp"
 
 #include <fmt/format.h>
 
@@ -37,6 +37,7 @@ Settings read_settings(coil::Properties& properties) {
     settings.segment_bytes =
         std::size_t{1024} * 1024 * static_cast<std::size_t>(number(properties, "segment_mib", 4));
     settings.group = properties.getProperty("group");
+    settings.strict = link::parse_flag("parameter", "strict", properties.getProperty("strict"));
     return settings;
 }
 

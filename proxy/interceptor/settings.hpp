@@ -18,6 +18,7 @@ struct Settings {
     std::size_t large_bytes = 0;                      ///< `large_kib`: longest message of a port, see README
     std::size_t segment_bytes =
         std::size_t{4} * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
+    bool strict = false;              ///< `strict`: a port that cannot be shared is an error at set-up
     std::string group;                ///< `group`: may join the link beside the owner; empty: the owner only
 };
 

@@ -15,9 +15,10 @@ class LinkHandler {
   public:
     virtual ~LinkHandler() = default;
 
-    /// Compares the peer's ports with what this side needs. Returns an empty string to accept them, otherwise
-    /// one line that names the port and what was expected. [supervisor-thread] Must not wait for the peer.
-    virtual std::string check_peer_ports(const PortTable& peer) = 0;
+    /// Compares the peer's ports with what this side needs, and removes from the table those that it cannot use.
+    /// Returns an empty string to accept the others, otherwise one line that names the port and what was expected.
+    /// [supervisor-thread] Must not wait for the peer.
+    virtual std::string check_peer_ports(PortTable& peer) = 0;
 
     /// Data flow from now on (`up`), or no longer. [supervisor-thread] Must not wait for the peer: while this
     /// function runs, nobody watches whether it is alive.

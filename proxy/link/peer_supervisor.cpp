@@ -114,7 +114,7 @@ bool PeerSupervisor::chunks_suffice(const LinkSession& session) {
 
 /// Has the handler check the peer's table, then binds the channels and opens the peer's call queue.
 std::string PeerSupervisor::bind_to_peer(LinkSession& session) {
-    const PortTable peer_ports = session.read_peer_table();
+    PortTable peer_ports = session.read_peer_table();
     std::string refusal = handler_.check_peer_ports(peer_ports);
     if (!refusal.empty()) return refusal;
     channels_.bind(session.segment(), own_ports_, side_);

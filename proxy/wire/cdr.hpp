@@ -20,9 +20,12 @@ namespace tandem::wire {
 static_assert(std::endian::native == std::endian::little,
               "primitives are copied in the machine's byte order");
 
-/// A type whose CDR encoding is its memory representation, aligned to its size.
+/// A type whose CDR encoding is its memory representation, aligned to its size; of long double: to 8, as omniORB does.
+/// wchar_t is none: see wide_text.hpp.
 template <class T>
-concept CdrPrimitive = std::is_arithmetic_v<T> && sizeof(T) <= 8;
+concept CdrPrimitive = std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>;
+template <CdrPrimitive T>
+constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
 /// Writes CDR, into a span or a growing vector. Beyond the end of a span nothing is written but size() goes
 /// on counting: so a caller learns how much room a message needs, as with snprintf. [one thread]
@@ -34,7 +37,7 @@ class CdrWriter {
 
     template <CdrPrimitive T>
     void put(T value) {
-        align(sizeof(T));
+        align(cdr_alignment<T>);
         append(&value, sizeof(T));
     }
     void put_bool(bool value) { put<std::uint8_t>(value ? 1 : 0); }
@@ -86,7 +89,7 @@ class CdrReader {
     template <CdrPrimitive T>
     T get() {
         T value{};
-        if (align(sizeof(T)) && skip(sizeof(T)))
+        if (align(cdr_alignment<T>) && skip(sizeof(T)))
             std::memcpy(&value, in_.data() + position_ - sizeof(T), sizeof(T));
         return value;
     }
@@ -121,6 +124,10 @@ class CdrReader {
     bool align(std::size_t alignment) { return skip((0 - position_) & (alignment - 1)); }
 
     bool ok() const { return ok_; }
+    /// For what reads a format of its own: the bytes are wrong, so ok() is false from here on.
+    void fail() { ok_ = false; }
+    /// Goes on reading at a position that was passed before.
+    void seek(std::size_t position) { position_ = std::min(position, in_.size()); }
     std::size_t position() const { return position_; }
     std::size_t remaining() const { return in_.size() - position_; }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/wire/type.hpp"
+
 #include <string>
 #include <string_view>
 
@@ -14,13 +16,24 @@ enum class SignatureMatch {
     mismatch
 };
 
-/// Compares the signature of what is sent with that of what is received. Throws SignatureError if one of them
-/// does not parse.
+/// Whether values of the two types have the same bytes: equal types, and those that only one of the models has:
+/// an enumeration fits int32 and uint32, a fixed a string, an any `(say)`, an object a string. Bounds are not
+/// compared: see needs_check().
+bool types_fit(const Type& from, const Type& to);
+
+/// Whether bytes of `from`, which fits, may hold values that `to` cannot: beyond a bound, no enumerator, a text that
+/// is no fixed, a discriminator without a case.
+bool needs_check(const Type& from, const Type& to);
+
+/// Compares the signature of what is sent with that of what is received, by types_fit(). Throws SignatureError if
+/// one of them does not parse.
 SignatureMatch match_signatures(std::string_view from, std::string_view to);
 
-/// True if the message begins with RTM's `Time tm`, the structure `(uu)`, and holds more than that. Throws
-/// SignatureError.
-bool is_timed(std::string_view signature);
+/// True if the message begins with RTM's `Time tm`, the structure `(uu)`, and holds more than that.
+bool is_timed(const Type& message);
+bool is_timed(std::string_view signature); ///< Throws SignatureError.
+/// The message, which is timed, without its time.
+Type without_time(const Type& message);
 
 /// The two message signatures of an operation signature `arguments:result`, e.g. `ss:d`, in canonical form.
 struct OperationSignature {

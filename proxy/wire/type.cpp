@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <limits>
-#include <numeric>
 
 namespace tandem::wire {
 namespace {
@@ -12,16 +13,18 @@ namespace {
 // Bounds for signatures that another process wrote: parsing one must not exhaust the stack or the memory.
 constexpr int max_depth = 32;
 constexpr std::size_t max_members = 4096;
-constexpr std::uint32_t max_array = 1u << 24;
+constexpr std::uint32_t max_array = 1u << 24, max_bound = 0xffffffff, max_digits = 31;
 
 /// Recursive descent over one signature.
 class Parser {
   public:
-    explicit Parser(std::string_view text) : text_(text) {}
+    explicit Parser(std::string_view text, std::size_t position = 0) : text_(text), position_(position) {}
 
+    Type parse_one() { return parse_member(0); }
+    std::size_t position() const { return position_; }
     Type parse_message() {
         Type message;
-        while (position_ < text_.size()) add_member(message, parse_type(0));
+        while (position_ < text_.size()) add_member(message, parse_member(0));
         return message;
     }
 
@@ -31,39 +34,125 @@ class Parser {
         if (position_ == text_.size()) fail("it ends where a type was expected");
         const char code = text_[position_++];
         switch (code) {
-        case 'a':
-            return Type{Kind::sequence, 0, {parse_type(depth + 1)}};
+        case 'a': {
+            const auto bound = parse_bound();
+            return Type{Kind::sequence, bound, {parse_type(depth + 1)}};
+        }
         case '[': {
             const auto count = parse_array_count();
             return Type{Kind::array, count, {parse_type(depth + 1)}};
         }
         case '(':
             return parse_structure(depth);
+        case '<':
+            return parse_union(depth);
+        case 'F':
+            return parse_fixed();
+        case '?':
+            return Type{Kind::unsupported, 0, {}, 0, parse_name(), {}};
+        case 's':
+        case 'w':
+        case 'e':
+            return Type{static_cast<Kind>(code), parse_bound(), {}};
         default:
             break;
         }
-        if (std::string_view("bcynqiuxtfdsw").find(code) == std::string_view::npos)
+        if (std::string_view("bcynqiuxtfdDWvo").find(code) == std::string_view::npos)
             fail(fmt::format("'{}' is not a type code", code));
         return Type{static_cast<Kind>(code), 0, {}};
+    }
+
+    Type parse_member(int depth) {
+        std::string name = parse_name();
+        Type member = parse_type(depth);
+        // What cannot cross has its reason in the name; the member's own name goes in front of it.
+        if (member.kind == Kind::unsupported && !name.empty())
+            member.name = "field '" + name + "' is " + member.name;
+        else if (member.kind != Kind::unsupported)
+            member.name = std::move(name);
+        return member;
     }
 
     Type parse_structure(int depth) {
         Type structure;
         while (position_ < text_.size() && text_[position_] != ')')
-            add_member(structure, parse_type(depth + 1));
+            add_member(structure, parse_member(depth + 1));
         if (position_ == text_.size()) fail("')' is missing");
         if (structure.children.empty()) fail("a structure without members takes no bytes");
         ++position_;
         return structure;
     }
 
-    std::uint32_t parse_array_count() {
-        std::uint32_t count = 0;
-        while (position_ < text_.size() && text_[position_] >= '0' && text_[position_] <= '9') {
-            count = count * 10 + static_cast<std::uint32_t>(text_[position_++] - '0');
-            if (count > max_array) fail("the array is too long");
+    // <DISCRIMINATOR;LABEL,LABEL=TYPE;*=TYPE>
+    Type parse_union(int depth) {
+        Type type{Kind::union_type, 0, {parse_type(depth + 1)}};
+        const Kind kind = type.children.front().kind;
+        if (std::string_view("bcnqiuxte").find(static_cast<char>(kind)) == std::string_view::npos)
+            fail("a union's discriminator is an integer, a char, a boolean or an enumeration");
+        while (skip_char(';')) {
+            std::vector<std::int64_t> labels;
+            if (!skip_char('*')) do
+                    labels.push_back(parse_label());
+                while (skip_char(','));
+            if (!skip_char('=')) fail("'=' was expected behind the labels of a union's case");
+            Type member = parse_member(depth + 1);
+            member.labels = std::move(labels);
+            add_member(type, std::move(member));
         }
-        if (count == 0 || position_ == text_.size() || text_[position_++] != ']') fail("'[N]' was expected");
+        if (!skip_char('>')) fail("'>' is missing");
+        if (type.children.size() == 1) fail("a union has a case at least");
+        return type;
+    }
+
+    Type parse_fixed() {
+        Type type{Kind::fixed, parse_number(max_digits), {}};
+        if (!skip_char(',')) fail("'Fdigits,scale' was expected");
+        type.scale = parse_number(max_digits);
+        if (type.count == 0 || type.scale > type.count) fail("a fixed has 1 to 31 digits");
+        return type;
+    }
+
+    std::int64_t parse_label() {
+        const bool negative = skip_char('-');
+        std::int64_t value = 0;
+        const auto* begin = text_.data() + position_;
+        const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
+        if (error != std::errc() || end == begin || *begin == '-') fail("a number was expected");
+        position_ += static_cast<std::size_t>(end - begin);
+        return negative ? -value : value;
+    }
+
+    std::string parse_name() {
+        if (!skip_char('{')) return {};
+        const auto end = text_.find('}', position_);
+        if (end == std::string_view::npos) fail("'}' is missing");
+        std::string name(text_.substr(position_, end - position_));
+        position_ = end + 1;
+        return name;
+    }
+
+    std::uint32_t parse_bound() { return skip_char('#') ? parse_number(max_bound) : 0; }
+
+    std::uint32_t parse_number(std::uint32_t max) {
+        std::uint64_t number = 0;
+        if (position_ == text_.size() || text_[position_] < '0' || text_[position_] > '9')
+            fail("a number was expected");
+        while (position_ < text_.size() && text_[position_] >= '0' && text_[position_] <= '9') {
+            number = number * 10 + static_cast<std::uint64_t>(text_[position_++] - '0');
+            if (number > max) fail(fmt::format("the number is above {}", max));
+        }
+        return static_cast<std::uint32_t>(number);
+    }
+
+    bool skip_char(char expected) {
+        if (position_ == text_.size() || text_[position_] != expected) return false;
+        ++position_;
+        return true;
+    }
+
+    std::uint32_t parse_array_count() {
+        const std::uint32_t count = parse_number(max_array);
+        if (count == 0 || !skip_char(']')) fail("'[N]' was expected");
         return count;
     }
 
@@ -77,28 +166,70 @@ class Parser {
     }
 
     std::string_view text_;
-    std::size_t position_ = 0;
+    std::size_t position_;
 };
 
-void append(std::string& out, const Type& type) {
-    switch (type.kind) {
-    case Kind::structure:
-        out += '(';
-        for (const Type& member : type.children) append(out, member);
-        out += ')';
-        return;
-    case Kind::sequence:
-        out += 'a';
-        break;
-    case Kind::array:
-        out += fmt::format("[{}]", type.count);
-        break;
-    default:
-        out += static_cast<char>(type.kind);
-        return;
+/// Writes signatures, with the names of members or without.
+class Printer {
+  public:
+    explicit Printer(bool names) : names_(names) {}
+
+    std::string message(const Type& message) {
+        for (const Type& member : message.children) append_member(member);
+        return std::move(out_);
     }
-    append(out, type.children.front());
-}
+
+  private:
+    void append_member(const Type& member) {
+        if (names_ && !member.name.empty() && member.kind != Kind::unsupported)
+            out_ += '{' + member.name + '}';
+        append(member);
+    }
+
+    void append(const Type& type) {
+        out_ += static_cast<char>(type.kind);
+        switch (type.kind) {
+        case Kind::structure:
+            for (const Type& member : type.children) append_member(member);
+            out_ += ')';
+            return;
+        case Kind::array:
+            out_ += fmt::format("{}]", type.count);
+            return append(type.children.front());
+        case Kind::sequence:
+            append_bound(type);
+            return append(type.children.front());
+        case Kind::union_type:
+            return append_cases(type);
+        case Kind::fixed:
+            out_ += fmt::format("{},{}", type.count, type.scale);
+            return;
+        case Kind::unsupported:
+            out_ += '{' + type.name + '}';
+            return;
+        default:
+            return append_bound(type);
+        }
+    }
+
+    void append_bound(const Type& type) {
+        if (type.count != 0) out_ += fmt::format("#{}", type.count);
+    }
+
+    void append_cases(const Type& type) {
+        append(type.children.front());
+        for (std::size_t i = 1; i < type.children.size(); ++i) {
+            const Type& member = type.children[i];
+            out_ += member.labels.empty() ? std::string(";*=")
+                                          : fmt::format(";{}=", fmt::join(member.labels, ","));
+            append_member(member);
+        }
+        out_ += '>';
+    }
+
+    const bool names_;
+    std::string out_;
+};
 
 } // namespace
 
@@ -109,11 +240,15 @@ Type parse_signature(std::string_view signature) {
     return message;
 }
 
-std::string to_signature(const Type& message) {
-    std::string out;
-    for (const Type& member : message.children) append(out, member);
-    return out;
+Type parse_next_type(std::string_view text, std::size_t& position) {
+    Parser parser(text, position);
+    Type type = parser.parse_one();
+    position = parser.position();
+    return type;
 }
+
+std::string to_signature(const Type& message) { return Printer(false).message(message); }
+std::string to_named_signature(const Type& message) { return Printer(true).message(message); }
 
 std::size_t primitive_size(Kind kind) {
     switch (kind) {
@@ -127,26 +262,57 @@ std::size_t primitive_size(Kind kind) {
     case Kind::int32:
     case Kind::uint32:
     case Kind::float32:
+    case Kind::enumeration:
         return 4;
     case Kind::int64:
     case Kind::uint64:
     case Kind::float64:
         return 8;
+    case Kind::long_double:
+        return 16;
     default:
         return 0;
     }
 }
 
+std::size_t primitive_alignment(Kind kind) { return std::min<std::size_t>(primitive_size(kind), 8); }
+
+bool contains(const Type& type, Kind kind) {
+    return type.kind == kind || std::any_of(type.children.begin(), type.children.end(),
+                                            [&](const Type& child) { return contains(child, kind); });
+}
+
 double max_encoded_bytes(const Type& type) {
-    const std::size_t size = primitive_size(type.kind);
-    // Before a primitive there are at most size - 1 bytes of padding.
-    if (size != 0) return static_cast<double>(2 * size - 1);
-    if (type.kind == Kind::structure)
-        return std::accumulate(
-            type.children.begin(), type.children.end(), 0.0,
-            [](double sum, const Type& member) { return sum + max_encoded_bytes(member); });
-    if (type.kind == Kind::array) return type.count * max_encoded_bytes(type.children.front());
-    return std::numeric_limits<double>::infinity();
+    // Before a primitive there are at most alignment - 1 bytes of padding.
+    if (const std::size_t size = primitive_size(type.kind); size != 0)
+        return static_cast<double>(size + primitive_alignment(type.kind) - 1);
+    constexpr double count_bytes = 7, infinite = std::numeric_limits<double>::infinity();
+    const double bound = type.count == 0 ? infinite : type.count;
+    double all = 0, longest = 0;
+    for (const Type& child : type.children) {
+        all += max_encoded_bytes(child);
+        if (&child != &type.children.front()) longest = std::max(longest, max_encoded_bytes(child));
+    }
+    switch (type.kind) {
+    case Kind::structure:
+        return all;
+    case Kind::union_type:
+        return max_encoded_bytes(type.children.front()) + longest;
+    case Kind::array:
+        return type.count * all;
+    case Kind::sequence:
+        return count_bytes + bound * all;
+    case Kind::string:
+        return count_bytes + bound + 1;
+    case Kind::wide_string:
+        return count_bytes + 2 * (bound + 1);
+    case Kind::wide_character:
+        return 3;
+    case Kind::fixed:
+        return count_bytes + type.count + 4; // sign, point, a zero before the point, the final NUL
+    default:
+        return infinite;
+    }
 }
 
 } // namespace tandem::wire

@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-// Type signatures: one short string that says what a CDR payload holds, e.g. `(uu)ad` for RTC::TimedDoubleSeq.
-// The alphabet is that of the D-Bus specification ("Type System", signature strings), which has the same type
-// codes b y n q i u x t d s a ( ). Added are c (char), f (float), w (wide string) and [N] (fixed array); left
-// out are D-Bus's o, g, v, h and { }. The whole alphabet is in this folder's README.
+// Type signatures: one string that says what a CDR payload holds, e.g. `(uu)ad` for RTC::TimedDoubleSeq. The alphabet
+// is that of the D-Bus specification ("Type System", signature strings), which has the same type codes b y n q i u x
+// t d s o v a ( ), and more where CDR has more. docs/wire_format.md has the whole alphabet.
 namespace tandem::wire {
 
 /// A signature that does not parse; what() is one line with the signature, what was expected and where.
@@ -32,20 +31,36 @@ enum class Kind : char {
     uint64 = 't',
     float32 = 'f',
     float64 = 'd',
+    long_double = 'D',
+    wide_character = 'W',
+    enumeration = 'e', ///< its number, as uint32
     string = 's',
     wide_string = 'w',
-    sequence = 'a', ///< one child, the element
-    array = '[',    ///< one child, the element, and a count
-    structure = '(' ///< children are the members
+    fixed = 'F', ///< crosses as a string, `12.34`
+    any = 'v',   ///< crosses as the value's signature, a string, and its CDR, a sequence of octets
+    object = 'o',
+    sequence = 'a',    ///< one child, the element
+    array = '[',       ///< one child, the element, and a count
+    structure = '(',   ///< children are the members
+    union_type = '<',  ///< children are the discriminator and the cases
+    unsupported = '?', ///< cannot cross; `name` says why
 };
 
 /// One node of a parsed signature. A message is a structure whose children are its members.
 struct Type {
     Kind kind = Kind::structure;
-    std::uint32_t count = 0; ///< elements of an array
+    /// Elements of an array; the bound of a sequence or string, 0: none; enumerators of an enumeration, 0: unknown;
+    /// digits of a fixed.
+    std::uint32_t count = 0;
     std::vector<Type> children;
+    std::uint32_t scale = 0;            ///< of a fixed: digits behind the point
+    std::string name{};                 ///< of a member, empty if not known; no part of the comparison
+    std::vector<std::int64_t> labels{}; ///< of a union's case: the discriminator's values; none: all others
 
-    bool operator==(const Type&) const = default;
+    bool operator==(const Type& other) const {
+        return kind == other.kind && count == other.count && scale == other.scale && labels == other.labels &&
+               children == other.children;
+    }
 };
 
 /// Parses a message signature into a structure of its members. Parentheses around the whole are dropped, since
@@ -53,11 +68,23 @@ struct Type {
 /// 4096 members or an array of 2^24: signatures come from other processes.
 Type parse_signature(std::string_view signature);
 
-/// The signature of a type; of a message (top-level structure) without the outer parentheses.
-std::string to_signature(const Type& message);
+/// Parses the one type, or member with its name, whose signature begins at `position`, and moves that behind it.
+/// Throws SignatureError.
+Type parse_next_type(std::string_view text, std::size_t& position);
 
-/// Bytes of a primitive in CDR, which is also its alignment; 0 for everything else.
+/// The signature of a message without the outer parentheses. Names of members are left out: signatures of equal
+/// types are equal.
+std::string to_signature(const Type& message);
+/// The same with the names of members, each in braces before its type: `{tm}({sec}u{nsec}u){data}ad`.
+std::string to_named_signature(const Type& message);
+
+/// Bytes of a primitive in CDR, which is also its alignment (but for long double: 8); 0 for everything else. A wide
+/// character is none: it has a length in front.
 std::size_t primitive_size(Kind kind);
+std::size_t primitive_alignment(Kind kind);
+
+/// Whether the type, or one that it contains, is of that kind.
+bool contains(const Type& type, Kind kind);
 
 /// An upper bound of the bytes that a value takes in CDR, padding included; infinity when the type sets no
 /// bound (strings, sequences). In double, because the product of nested arrays may exceed any integer.

@@ -52,6 +52,9 @@ class alignas(layout::line_pair) RingProducer {
     /// Publishes the first `used` bytes of what was reserved. False: refused and counted after all.
     bool commit(const void* scratch, std::size_t used, std::uint64_t stamp);
 
+    /// Counts a message that its sender could not make, as sent and dropped. Returns false.
+    bool refuse();
+
     /// reserve(), copy and commit() in one.
     bool write(const void* bytes, std::size_t count, std::uint64_t stamp);
 
@@ -71,7 +74,6 @@ class alignas(layout::line_pair) RingProducer {
     bool drop_until_fits(std::uint64_t room);
     bool fail();
     bool claim_chunk(std::uint64_t bytes);
-    bool refuse();
     bool write_slowly(const void* bytes, std::size_t count, std::uint64_t stamp);
     void clear_commit_word(std::uint64_t position);
     void prepare_next(std::uint64_t record);

@@ -25,6 +25,8 @@ class RingWriter {
     bool commit(std::size_t used, std::uint64_t stamp_ns);
     void cancel_reservation() { producer_.cancel_reservation(); } ///< Forgets what was reserved, uncounted.
 
+    void refuse() { producer_.refuse(); } ///< Counts a message that could not be made, as sent and dropped.
+
     /// reserve(), copy, commit(). False: dropped.
     bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
         return producer_.write(bytes.data(), bytes.size(), stamp_ns);

@@ -25,6 +25,40 @@ TEST_CASE("ports of types that do not fit are refused with both signatures") {
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
+TEST_CASE(
+    "a connection that is refused leaves all others working, and the line says which member and what to do") {
+    TwoHosts hosts;
+    hosts.set_strict(false);
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "numbers", "Adaptor", "numbers") +
+                          TwoHosts::connection("data", "Talker", "word", "Adaptor", "word") +
+                          TwoHosts::connection("data", "Adaptor", "reply", "Talker", "reply") +
+                          TwoHosts::connection("service", "Talker", "dictionary", "Adaptor", "dictionary"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "reply: hello 5 at a time"));
+    CHECK(hosts.says("opros", "pages: 2 last 5"));
+    const auto output = hosts.output("opros");
+    for (const char* part :
+         {"output Talker.numbers is std::vector<int>", "'ai'", "'(uu)ad'",
+          "field 'data[]' is int32 here, double there: ask for widen", "this connection is left out"})
+        CHECK_THAT(output, Catch::Contains(part));
+    CHECK_THAT(output, !Catch::Contains("cannot activate"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("a strict AdaptorComp goes to its error state when a connection is refused") {
+    TwoHosts hosts;
+    hosts.set_strict(false);
+    hosts.set_adaptor_property("strict", "1");
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "numbers", "Adaptor", "numbers"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "strict: port 'numbers': OPRoS type std::vector<int>"));
+    CHECK_THAT(hosts.output("opros"), !Catch::Contains("activated"));
+    CHECK(hosts.stop("rtm") == 0);
+}
+
 TEST_CASE("a port that the peer does not have is named, with those it has") {
     TwoHosts hosts;
     hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "wort"));

@@ -55,6 +55,12 @@ class TwoHosts {
     /// Properties of that RTC, as in `slow_ms=100`.
     void set_rtc_properties(const std::string& properties) { rtc_properties_ = "?" + properties; }
     void set_large_kib(const std::string& of_adaptor) { large_kib_ = of_adaptor; }
+    /// Whether one refused connection ends the OPRoS host.
+    void set_strict(bool strict) { strict_ = strict; }
+    /// More properties of AdaptorComp.
+    void set_adaptor_property(const std::string& name, const std::string& value) {
+        adaptor_properties_ += "<property name=\"" + name + "\">" + value + "</property>";
+    }
     void set_wait(const std::string& seconds) { wait_ = seconds; }
     void set_interceptor(const std::string& parameters) { interceptor_ = parameters; }
     void append_to_rtc_conf(const std::string& lines) { rtc_conf_more_ += lines; }
@@ -99,7 +105,11 @@ class TwoHosts {
             folder_ / "AdaptorComp.xml", std::filesystem::copy_options::overwrite_existing);
         return folder_ / "app.xml";
     }
-    void start_opros() { start("opros", {OPROS_HOST, write_application().string(), "--strict"}); }
+    void start_opros() {
+        std::vector<std::string> command{OPROS_HOST, write_application().string()};
+        if (strict_) command.push_back("--strict");
+        start("opros", command);
+    }
     /// Runs `tandem opros check` on the application. Returns its exit code and what it printed.
     std::pair<int, std::string> check_application(const std::vector<std::string>& arguments = {}) const {
         const auto log = folder_ / "check.log";
@@ -184,6 +194,7 @@ class TwoHosts {
     std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
                                      interceptor_ = "rtc=EchoRtc0", rtc_conf_more_, rtc_properties_,
                                      components_, adaptor_properties_, manager_port_;
+    bool strict_ = true;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::process::ChildProcess> hosts_;
 };

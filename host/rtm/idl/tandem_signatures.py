@@ -4,8 +4,8 @@
 `omniidl -p DIR -btandem_signatures F.idl` writes FSignatures.cpp, whose static initialiser fills
 RTC::InterfaceSignatures, so that a bridge can carry calls of interfaces it has never been compiled for.
 Arguments are those a request carries (in, inout) in order; results those a reply carries: return value,
-then inout and out. What the signature language cannot say (any, object references, unions, valuetypes,
-wchar, long double, recursion) is written `?`, and a bridge refuses that operation by name.
+then inout and out. Members and arguments have their names in braces. What cannot cross (valuetypes, types that
+contain themselves) is written `?{reason}`. docs/wire_format.md has the signature language.
 """
 import os
 
@@ -17,8 +17,10 @@ PRIMITIVES = {
     idltype.tk_short: "n", idltype.tk_ushort: "q", idltype.tk_long: "i", idltype.tk_ulong: "u",
     idltype.tk_longlong: "x", idltype.tk_ulonglong: "t",
     idltype.tk_float: "f", idltype.tk_double: "d",
-    idltype.tk_string: "s", idltype.tk_wstring: "w", idltype.tk_enum: "u",
+    idltype.tk_longdouble: "D", idltype.tk_wchar: "W", idltype.tk_any: "v", idltype.tk_objref: "o",
+    idltype.tk_TypeCode: "?{TypeCode}",
 }
+RECURSIVE = "?{a type that contains itself, whose depth only each value knows}"
 
 
 def arrays(sizes, element):
@@ -27,29 +29,72 @@ def arrays(sizes, element):
     return element
 
 
+def bounded(code, bound):
+    return code + ("#%d" % bound if bound else "")
+
+
 def signature(t, seen=()):
     kind = t.kind()
     if kind in PRIMITIVES:
         return PRIMITIVES[kind]
+    if kind == idltype.tk_string:
+        return bounded("s", t.bound())
+    if kind == idltype.tk_wstring:
+        return bounded("w", t.bound())
+    if kind == idltype.tk_fixed:
+        return "F%d,%d" % (t.digits(), t.scale())
     if kind == idltype.tk_sequence:
-        return "a" + signature(t.seqType(), seen)
+        return bounded("a", t.bound()) + signature(t.seqType(), seen)
     if kind == idltype.tk_alias:
         declarator = t.decl()
         return arrays(declarator.sizes(), signature(declarator.alias().aliasType(), seen))
-    if kind == idltype.tk_struct:
-        return struct_signature(t.decl(), seen)
-    return "?"
+    if kind == idltype.tk_enum:
+        return bounded("e", len(t.decl().enumerators()))
+    decl = t.decl() if isinstance(t, idltype.Declared) else None
+    if isinstance(decl, (idlast.StructForward, idlast.UnionForward)):
+        decl = decl.fullDecl()
+    if isinstance(decl, idlast.Struct):
+        return struct_signature(decl, seen)
+    if isinstance(decl, idlast.Union):
+        return union_signature(decl, seen)
+    return "?{valuetype}"
+
+
+def named(declarator, element):
+    return "{%s}%s" % (declarator.identifier(), arrays(declarator.sizes(), element))
 
 
 def struct_signature(decl, seen=()):
     name = decl.repoId()
     if name in seen:
-        return "?"
+        return RECURSIVE
     parts = ""
     for member in decl.members():
         element = signature(member.memberType(), seen + (name,))
-        parts += "".join(arrays(d.sizes(), element) for d in member.declarators())
+        parts += "".join(named(d, element) for d in member.declarators())
     return "(" + parts + ")"
+
+
+def label(value, decl):
+    """The number of a case's label in the discriminator's type."""
+    if isinstance(value, idlast.Enumerator):
+        return str(decl.switchType().unalias().decl().enumerators().index(value))
+    if isinstance(value, str):
+        number = ord(value)
+        return str(number - 256 if number > 127 else number)
+    return str(int(value))
+
+
+def union_signature(decl, seen=()):
+    name = decl.repoId()
+    if name in seen:
+        return RECURSIVE
+    text = "<" + signature(decl.switchType(), seen + (name,))
+    for case in decl.cases():
+        labels = [None if l.default() else label(l.value(), decl) for l in case.labels()]
+        text += ";" + ("*" if None in labels else ",".join(labels)) + "="
+        text += named(case.declarator(), signature(case.caseType(), seen + (name,)))
+    return text + ">"
 
 
 def quoted(text):
@@ -66,15 +111,16 @@ def operations(interface):
             found[entry[0]] = entry
     for callable_ in interface.callables():
         if isinstance(callable_, idlast.Attribute):
-            value = signature(callable_.attrType())
+            value = "{value}" + signature(callable_.attrType())
             for name in callable_.identifiers():
                 found["_get_" + name] = ("_get_" + name, "", value)
                 if not callable_.readonly():
                     found["_set_" + name] = ("_set_" + name, value, "")
             continue
-        sent = "".join(signature(p.paramType()) for p in callable_.parameters() if p.is_in())
+        parameters = [("{%s}%s" % (p.identifier(), signature(p.paramType())), p) for p in callable_.parameters()]
+        sent = "".join(text for text, p in parameters if p.is_in())
         returned = signature(callable_.returnType())
-        returned += "".join(signature(p.paramType()) for p in callable_.parameters() if p.is_out())
+        returned += "".join(text for text, p in parameters if p.is_out())
         found[callable_.identifier()] = (callable_.identifier(), sent, returned)
     return [found[name] for name in sorted(found)]
 
@@ -89,6 +135,8 @@ class Collector:
                 self.visit(d.definitions())
             elif d.mainFile() and isinstance(d, idlast.Struct):
                 self.lines.append("    {%s, %s}," % (quoted(d.repoId()), quoted(struct_signature(d))))
+            elif d.mainFile() and isinstance(d, idlast.Union):
+                self.lines.append("    {%s, %s}," % (quoted(d.repoId()), quoted(union_signature(d))))
             elif d.mainFile() and isinstance(d, idlast.Interface):
                 self.interface(d)
 

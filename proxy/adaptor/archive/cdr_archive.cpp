@@ -2,6 +2,7 @@
 #include "proxy/adaptor/archive/cdr_archive.hpp"
 
 #include "proxy/wire/time.hpp"
+#include "proxy/wire/wide_text.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -15,47 +16,41 @@ using opros::archive::oarchive;
 
 namespace {
 
-/// Whether a primitive has a counterpart in CDR as both models use it.
-template <class T>
-constexpr bool is_transferable = !std::is_same_v<T, wchar_t> && !std::is_same_v<T, long double>;
-
 template <class T>
 void put(wire::CdrWriter& out, T value) {
     if constexpr (std::is_same_v<T, bool>)
         out.put_bool(value);
-    else if constexpr (is_transferable<T>)
+    else if constexpr (!std::is_same_v<T, wchar_t>)
         out.put(value);
-    else
+    else if (!wire::put_wide_character(out, value))
         throw archive_type_exception();
 }
 
 /// An array of primitives in one copy; `size` is its element count.
 template <class T>
 void put_all(wire::CdrWriter& out, const T* p, long size) {
-    if constexpr (!is_transferable<T>)
-        throw archive_type_exception();
+    if constexpr (std::is_same_v<T, wchar_t>)
+        for (long i = 0; i < size; ++i) put(out, p[i]);
     else if (size > 0)
-        out.put_block(p, sizeof(T) * static_cast<std::size_t>(size), sizeof(T));
+        out.put_block(p, sizeof(T) * static_cast<std::size_t>(size), wire::cdr_alignment<T>);
 }
 
 template <class T>
 void get(wire::CdrReader& in, T& value) {
     if constexpr (std::is_same_v<T, bool>)
         value = in.get_bool();
-    else if constexpr (is_transferable<T>)
-        value = in.get<T>();
+    else if constexpr (std::is_same_v<T, wchar_t>)
+        value = wire::get_wide_character(in);
     else
-        throw archive_type_exception();
+        value = in.get<T>();
 }
 
 template <class T>
 void get_all(wire::CdrReader& in, T* p, long size) {
-    if constexpr (!is_transferable<T>) {
-        throw archive_type_exception();
-    } else if constexpr (std::is_same_v<T, bool>) {
-        for (long i = 0; i < size; ++i) p[i] = in.get_bool(); // one by one: a byte of 2 is not a bool
+    if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, wchar_t>) {
+        for (long i = 0; i < size; ++i) get(in, p[i]); // one by one: a byte of 2 is not a bool
     } else if (size > 0) {
-        const auto block = in.get_block(sizeof(T) * static_cast<std::size_t>(size), sizeof(T));
+        const auto block = in.get_block(sizeof(T) * static_cast<std::size_t>(size), wire::cdr_alignment<T>);
         if (!block.empty()) std::memcpy(p, block.data(), block.size());
     }
 }
@@ -107,7 +102,11 @@ oarchive& CdrOarchive::save(const std::string& value) {
     return *this;
 }
 
-oarchive& CdrOarchive::save(const std::wstring&) { throw archive_type_exception(); }
+oarchive& CdrOarchive::save(const std::wstring& value) {
+    const bool cut_at_nul = value.find(L'\0') != std::wstring::npos;
+    if (cut_at_nul || !wire::put_wide_string(out_, value)) throw archive_type_exception();
+    return *this;
+}
 
 oarchive& CdrOarchive::save_binary(const char* p, long size) {
     write_sequence_head(static_cast<std::size_t>(size));
@@ -145,7 +144,11 @@ iarchive& CdrIarchive::load(std::string& value) {
     return *this;
 }
 
-iarchive& CdrIarchive::load(std::wstring&) { throw archive_type_exception(); }
+iarchive& CdrIarchive::load(std::wstring& value) {
+    wire::get_wide_string(in_, value);
+    check();
+    return *this;
+}
 
 iarchive& CdrIarchive::load_binary(char** p, long& size) {
     const std::size_t count = read_sequence_head();

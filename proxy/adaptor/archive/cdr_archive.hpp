@@ -8,8 +8,8 @@
 namespace tandem::adaptor {
 
 /// Lets a type's own serialization write CDR. The bytes are those of the IDL structure with the same members:
-/// a class adds none, a sequence is its count and its elements, `long` is 8 bytes. Throws
-/// archive_type_exception for long double and wide characters, which have no counterpart.
+/// a class adds none, a sequence is its count and its elements, `long` is 8 bytes. Throws archive_type_exception for
+/// a string with a NUL and for characters beyond U+FFFF, which CORBA's strings cannot hold.
 class CdrOarchive final : public opros::archive::oarchive {
   public:
     explicit CdrOarchive(wire::CdrWriter& out) : out_(out) {}

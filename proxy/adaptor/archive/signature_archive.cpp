@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/archive/signature_archive.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <type_traits>
+#include <utility>
 
 namespace tandem::adaptor {
 
@@ -9,16 +12,21 @@ using opros::archive::iarchive;
 
 namespace {
 
-/// The type code of an OPRoS primitive; 0 for one that cannot cross the link. `long` has the code of its size,
-/// so that the same source means the same on both hosts, which run on one machine.
+// A type that contains itself would be loaded without end.
+constexpr std::size_t max_depth = 30;
+
+/// The type code of an OPRoS primitive. `long` has the code of its size, so that the same source means the same on both
+/// hosts, which run on one machine.
 template <class T>
-constexpr char code() {
+constexpr char code_of() {
     if constexpr (std::is_same_v<T, bool>)
         return 'b';
     else if constexpr (std::is_same_v<T, unsigned char>)
         return 'y';
-    else if constexpr (std::is_same_v<T, wchar_t> || std::is_same_v<T, long double>)
-        return 0;
+    else if constexpr (std::is_same_v<T, wchar_t>)
+        return 'W';
+    else if constexpr (std::is_same_v<T, long double>)
+        return 'D';
     else if constexpr (std::is_floating_point_v<T>)
         return sizeof(T) == 4 ? 'f' : 'd';
     else if constexpr (sizeof(T) == 1)
@@ -31,51 +39,78 @@ constexpr char code() {
         return std::is_signed_v<T> ? 'x' : 't';
 }
 
+/// In memory, so that a string_view of it can be made.
+template <class T>
+constexpr char type_code = code_of<T>();
+
 } // namespace
+
+long long SignatureArchive::next_value() { return leaf_ < values_.size() ? values_[leaf_++] : 0; }
+
+/// Appends the code of what is loaded, behind the name that its member has.
+void SignatureArchive::append(std::string_view text) {
+    if (!name_.empty()) signature_ += '{' + std::exchange(name_, "") + '}';
+    signature_ += text;
+}
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& SignatureArchive::load(type& value) {                                                          \
-        if (code<type>() == 0) throw opros::archive::archive_type_exception();                               \
-        value = {};                                                                                          \
-        signature_ += code<type>();                                                                          \
+        value = static_cast<type>(next_value());                                                             \
+        append({&type_code<type>, 1});                                                                       \
         return *this;                                                                                        \
     }
 OPROS_FOR_EACH_PRIMITIVE(TANDEM_LOAD)
 #undef TANDEM_LOAD
 
 iarchive& SignatureArchive::load(std::string&) {
-    signature_ += 's';
+    next_value();
+    append("s");
     return *this;
 }
 
-// Wide characters have no encoding of their own in CDR: it depends on the CORBA connection.
-iarchive& SignatureArchive::load(std::wstring&) { throw opros::archive::archive_type_exception(); }
+iarchive& SignatureArchive::load(std::wstring&) {
+    next_value();
+    append("w");
+    return *this;
+}
 
 iarchive& SignatureArchive::load_binary(char** p, long& size) {
-    signature_ += "ay";
+    next_value();
+    append("ay");
     if (*p == nullptr) *p = new char[1](); // by the archive's contract the caller deletes it
     size = 0;
     return *this;
 }
 
 std::size_t SignatureArchive::read_sequence_head() {
-    signature_ += 'a';
+    append("a");
     return 1; // one element, so that the type loads it and shows its signature
 }
 
 iarchive& SignatureArchive::read_class_head(const std::string&) {
-    signature_ += '(';
+    if (++depth_ > max_depth) throw RecursiveType();
+    append("(");
     return *this;
 }
 
 iarchive& SignatureArchive::read_class_end(const std::string&) {
+    --depth_;
     signature_ += ')';
     return *this;
 }
 
 long SignatureArchive::read_array_head(long size, char, char) {
-    signature_ += '[' + std::to_string(size) + ']';
+    append('[' + std::to_string(size) + ']');
     return 1;
+}
+
+/// The macros take the name from the source: of `pose.x` and of `"x"` the identifier `x` is kept.
+iarchive& SignatureArchive::read_start_tag(const std::string& name) {
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const auto end = std::find_if(name.rbegin(), name.rend(), is_word);
+    const auto begin = std::find_if_not(end, name.rend(), is_word);
+    name_.assign(begin.base(), end.base());
+    return *this;
 }
 
 } // namespace tandem::adaptor

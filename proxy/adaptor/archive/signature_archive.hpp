@@ -3,16 +3,32 @@
 
 #include <archive/opros_archive.h>
 
+#include <exception>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace tandem::adaptor {
 
-/// Learns a type's signature by letting the type's own load() read from it: returns zeros, claims one element
-/// in every sequence, and appends the type code of whatever is asked for (see proxy/wire/README.md). A load()
-/// that reads different members depending on the values it got shows the branch that zeros lead to. Throws
-/// archive_type_exception for long double and wide characters, which CDR cannot carry here.
+/// Thrown for a type that contains itself.
+class RecursiveType : public std::exception {
+  public:
+    const char* what() const noexcept override {
+        return "it contains itself, and only each value knows how deep";
+    }
+};
+
+/// Learns a type's signature by letting the type's own load() read from it: claims one element in every sequence, and
+/// appends the type code of whatever is asked for, with the name that a member is archived under
+/// (OPROS_SERIALIZATION_NVP). A load() that reads different members depending on the values it got shows the branch
+/// that these values lead to. Throws RecursiveType.
 class SignatureArchive final : public opros::archive::iarchive {
   public:
+    SignatureArchive() = default;
+    /// `values` are given out to the numbers and strings that are asked for, in their order; afterwards zeros.
+    explicit SignatureArchive(std::vector<long long> values) : values_(std::move(values)) {}
+
     /// What was asked for so far; not in canonical form, since classes leave parentheses.
     const std::string& signature() const { return signature_; }
 
@@ -27,10 +43,18 @@ class SignatureArchive final : public opros::archive::iarchive {
     iarchive& read_class_end(const std::string&) override;
     long read_array_head(long size, char, char) override;
 
+    iarchive& read_start_tag(const std::string& name) override;
+    bool keeps_names() const override { return true; }
+
     using iarchive::load;
 
   private:
-    std::string signature_;
+    long long next_value();
+    void append(std::string_view text);
+
+    std::string signature_, name_; ///< name_: of the member that is loaded next
+    std::vector<long long> values_;
+    std::size_t leaf_ = 0, depth_ = 0;
 };
 
 } // namespace tandem::adaptor

@@ -2,46 +2,127 @@
 #include "proxy/adaptor/archive/type_check.hpp"
 
 #include "proxy/adaptor/archive/signature_archive.hpp"
-#include "proxy/wire/type.hpp"
+#include "proxy/wire/type_text.hpp"
 
 #include <fmt/format.h>
 
-namespace tandem::adaptor {
+#include <algorithm>
 
-std::string value_signature(const opros_any& sample) {
-    SignatureArchive recorder;
-    opros_any scratch(sample); // decode() overwrites it, and the sample belongs to the port
-    scratch.decode(recorder);
-    return wire::to_signature(wire::parse_signature(recorder.signature()));
+namespace tandem::adaptor {
+namespace {
+
+using wire::Kind;
+using wire::Type;
+
+/// The cases of the union in `type` that has most of them; 0 if it has none.
+std::size_t count_cases(const Type& type) {
+    std::size_t most = type.kind == Kind::union_type ? type.children.size() - 1 : 0;
+    for (const Type& child : type.children) most = std::max(most, count_cases(child));
+    return most;
 }
 
-TypeCheck check_type(const opros_any& sample, const link::Port& peer) {
-    if (!sample.serializable())
-        return {
-            wire::SignatureMatch::mismatch,
-            fmt::format(
-                "port '{}': OPRoS type {} cannot cross the link: give it save() and load(), or save_this() "
-                "and load_this()",
-                peer.name, sample.type())};
-    std::string signature;
-    try {
-        signature = value_signature(sample);
-    } catch (const std::exception&) {
-        // Thrown by the archive, or by the type's own load().
-        return {
-            wire::SignatureMatch::mismatch,
-            fmt::format(
-                "port '{}': OPRoS type {} cannot cross the link: it holds a long double or wide characters",
-                peer.name, sample.type())};
+/// A value of the discriminator for that case; of the default case the first that no other case has.
+std::int64_t label_of(const Type& type, const Type& chosen) {
+    if (!chosen.labels.empty()) return chosen.labels.front();
+    const auto is_taken = [&](std::int64_t value) {
+        return std::any_of(type.children.begin() + 1, type.children.end(), [&](const Type& each) {
+            return std::find(each.labels.begin(), each.labels.end(), value) != each.labels.end();
+        });
+    };
+    std::int64_t value = 0;
+    while (is_taken(value)) ++value;
+    return value;
+}
+
+/// The type with each union replaced by a structure of its discriminator and its case number `run`. `values` gets
+/// what a SignatureArchive has to give out so that load() takes that case.
+Type choose_cases(const Type& type, std::size_t run, std::vector<long long>& values) {
+    Type chosen = type;
+    if (type.kind == Kind::union_type) {
+        const Type& member = type.children[1 + run % (type.children.size() - 1)];
+        values.push_back(label_of(type, member));
+        chosen.kind = Kind::structure;
+        chosen.children = {type.children.front(), choose_cases(member, run, values)};
+        chosen.children.back().labels.clear();
+        return chosen;
     }
-    const auto match = wire::match_signatures(signature, peer.signature);
-    // strip_time is no match here: the OPRoS value would have a time of which the peer's type knows nothing.
-    if (match == wire::SignatureMatch::equal || match == wire::SignatureMatch::add_time) return {match, ""};
-    return {wire::SignatureMatch::mismatch,
-            fmt::format(
-                "port '{}': OPRoS type {} has signature '{}', the peer's type {} has '{}'; use a type with "
-                "that signature, with or without the leading time '(uu)'",
-                peer.name, sample.type(), signature, peer.type, peer.signature)};
+    for (Type& child : chosen.children) child = choose_cases(child, run, values);
+    // An any is asked for as a string and the octets of its value.
+    if (type.children.empty()) values.insert(values.end(), type.kind == Kind::any ? 2 : 1, 0);
+    return chosen;
+}
+
+Type load_type(const opros_any& sample, std::vector<long long> values) {
+    SignatureArchive recorder(std::move(values));
+    opros_any scratch(sample); // decode() overwrites it, and the sample belongs to the port
+    scratch.decode(recorder);
+    return wire::parse_signature(recorder.signature());
+}
+
+bool reads_every_case(const opros_any& sample, const Type& expected, std::size_t cases) {
+    for (std::size_t run = 0; run < cases; ++run) {
+        std::vector<long long> values;
+        const Type chosen = wire::parse_signature(wire::to_signature(choose_cases(expected, run, values)));
+        try {
+            if (!wire::types_fit(load_type(sample, std::move(values)), chosen)) return false;
+        } catch (const std::exception&) { // the type's own load() refuses that case
+            return false;
+        }
+    }
+    return true;
+}
+
+TypeCheck refusal(const std::string& error) { return {wire::SignatureMatch::mismatch, {}, error}; }
+
+/// The first difference, with the time left aside where only the peer has one, since it is added by itself.
+std::string describe_difference(const Type& own, const Type& peer, bool sends) {
+    const bool time_is_added = wire::is_timed(peer) && !wire::is_timed(own);
+    return wire::first_difference(own, time_is_added ? wire::without_time(peer) : peer, sends);
+}
+
+} // namespace
+
+Type type_of(const opros_any& sample, const Type& peer) {
+    if (const std::size_t cases = count_cases(peer); cases != 0) {
+        if (reads_every_case(sample, peer, cases)) return peer;
+        if (wire::is_timed(peer))
+            if (Type rest = wire::without_time(peer); reads_every_case(sample, rest, cases)) return rest;
+    }
+    return load_type(sample, {});
+}
+
+TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends) {
+    const auto cannot_cross = [&](const std::string& why) {
+        return refusal(
+            fmt::format("port '{}': OPRoS type {} cannot cross the link: {}", peer.name, sample.type(), why));
+    };
+    if (!sample.serializable())
+        return cannot_cross("give it save() and load(), or save_this() and load_this()");
+    TypeCheck check;
+    try {
+        const Type expected = wire::parse_signature(peer.signature);
+        if (const auto reason = wire::first_unsupported(expected); !reason.empty())
+            return refusal(fmt::format("port '{}': the peer's type {} cannot cross the link: {}", peer.name,
+                                       peer.type, reason));
+        check.type = type_of(sample, expected);
+        const std::string own = wire::to_signature(check.type), other = wire::to_signature(expected);
+        check.match = wire::match_signatures(own, other);
+        const std::string difference = describe_difference(check.type, expected, sends);
+        // strip_time is no match here: the OPRoS value would have a time of which the peer's type knows nothing.
+        if (difference.empty() &&
+            (check.match == wire::SignatureMatch::equal || check.match == wire::SignatureMatch::add_time))
+            return check;
+        check.match = wire::SignatureMatch::mismatch;
+        check.error = fmt::format("port '{}': OPRoS type {} has signature '{}', the peer's type {} has '{}'; "
+                                  "{}; or use a type with "
+                                  "that signature, with or without the leading time '(uu)'",
+                                  peer.name, sample.type(), own, peer.type, other, difference);
+    } catch (const wire::SignatureError& error) { // the peer's: it came from another process
+        return refusal(fmt::format("port '{}': {}", peer.name, error.what()));
+    } catch (const std::exception& error) { // thrown by the archive, or by the type's own load()
+        return cannot_cross(error.what());
+    }
+    return check;
 }
 
 } // namespace tandem::adaptor

@@ -12,9 +12,12 @@ MirrorInPort::MirrorInPort(link::Port peer, link::ChannelWriter& channel)
     : peer_(std::move(peer)), channel_(channel) {}
 
 bool MirrorInPort::checkType(opros_any& sample) {
-    const auto check = check_type(sample, peer_);
+    const auto check = check_type(sample, peer_, true);
     type_error_ = check.error;
-    if (!check.error.empty()) return false;
+    if (!check.error.empty()) {
+        refusals_.push_back(check.error);
+        return false;
+    }
     value_has_time_ = wire::is_timed(peer_.signature) && check.match == wire::SignatureMatch::equal;
     return true;
 }

@@ -7,6 +7,7 @@
 #include <InputDataPort.h>
 
 #include <string>
+#include <vector>
 
 namespace tandem::adaptor {
 
@@ -29,12 +30,15 @@ class MirrorInPort final : public InputDataPortInterface {
     bool checkType(opros_any& sample) override;
     bool checkType(DataPort*) override { return true; }
     std::string typeError() const override { return type_error_; }
+    /// Each connection that was refused: why.
+    const std::vector<std::string>& refusals() const { return refusals_; }
 
   private:
     const link::Port peer_;
     link::ChannelWriter& channel_;
     bool value_has_time_ = false; ///< the OPRoS type begins with RTM's time, which the message header carries
     std::string type_error_;
+    std::vector<std::string> refusals_;
 };
 
 } // namespace tandem::adaptor

@@ -24,9 +24,12 @@ bool MirrorOutPort::checkType(DataPort* target) {
                               : "the target is not an input data port");
         return false;
     }
-    const auto check = check_type(input->sample(), peer_);
+    const auto check = check_type(input->sample(), peer_, false);
     type_error_ = check.error;
-    if (!check.error.empty()) return false;
+    if (!check.error.empty()) {
+        refusals_.push_back(check.error);
+        return false;
+    }
     // With equal signatures a leading time belongs to the OPRoS type; otherwise only to the peer's.
     value_has_time_ = wire::is_timed(peer_.signature) && check.match == wire::SignatureMatch::equal;
     if (input->addSource(this) != OPROS_SUCCESS) {

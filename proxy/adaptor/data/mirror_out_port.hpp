@@ -13,6 +13,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tandem::adaptor {
 
@@ -38,6 +39,8 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortSour
     /// becomes the target's source. One target at a time, because a ring has one reader.
     bool checkType(DataPort* target) override;
     std::string typeError() const override { return type_error_; }
+    /// Each connection that was refused: why.
+    const std::vector<std::string>& refusals() const { return refusals_; }
     void removeConnection(IDataPortLink*) override { detach(); }
     void clearConnection() override { detach(); }
 
@@ -57,6 +60,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortSour
     DataPortListener* listener_ = nullptr;
     bool value_has_time_ = false; ///< the OPRoS type begins with RTM's time, which the message header carries
     std::string type_error_;
+    std::vector<std::string> refusals_;
 
     /// From next() to done(): the message's memory must not be reused while it is decoded.
     std::unique_lock<std::mutex> channel_lock_;

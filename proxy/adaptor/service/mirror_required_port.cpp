@@ -24,7 +24,10 @@ std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
     provided_ = nullptr;
     if (!provided) return "";
     std::string error = collect_signatures(*provided);
-    if (error.empty()) provided_ = provided;
+    if (error.empty())
+        provided_ = provided;
+    else
+        signatures_.clear(); // the peer must not be offered what was refused
     return error;
 }
 

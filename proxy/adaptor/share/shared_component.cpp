@@ -90,13 +90,13 @@ std::vector<std::string> SharedComponent::describe(link::PortTable& table) const
         shared.type = sample.type();
         try {
             if (!sample.serializable()) throw opros::archive::archive_type_exception();
-            shared.signature = value_signature(sample);
+            shared.signature = wire::to_named_signature(type_of(sample, {}));
             table.ports.push_back(std::move(shared));
-        } catch (const std::exception&) { // thrown by the archive, or by the type's own load()
+        } catch (const std::exception& error) { // thrown by the archive, or by the type's own load()
             refused.push_back(
-                fmt::format("port '{}' is not shared: OPRoS type {} cannot be serialized; give it "
-                            "save() and load(), without long double and wide characters",
-                            shared.name, shared.type));
+                fmt::format("port '{}' is not shared: OPRoS type {} cannot be serialized ({}); give "
+                            "it save() and load()",
+                            shared.name, shared.type, error.what()));
         }
     }
     return refused;

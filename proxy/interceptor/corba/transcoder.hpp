@@ -9,11 +9,11 @@
 namespace tandem::interceptor {
 
 /// Converts the members of `message` from the ORB's stream, of either byte order, to little-endian CDR. Throws
-/// CORBA::MARSHAL when the stream holds less than that, and for wide strings, whose encoding in CORBA depends
-/// on the connection.
+/// CORBA::SystemException when the stream holds no such message: it ends early, a value is beyond its bound, an
+/// enumeration has no such number.
 void to_cdr(const wire::Type& message, cdrStream& from, wire::CdrWriter& to);
 
-/// The other direction, in the machine's byte order. Throws CORBA::MARSHAL when the CDR holds no such message.
+/// The other direction, in the machine's byte order. Throws CORBA::SystemException when the CDR holds no such message.
 void from_cdr(const wire::Type& message, wire::CdrReader& from, cdrStream& to);
 
 } // namespace tandem::interceptor

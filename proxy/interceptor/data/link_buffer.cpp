@@ -2,11 +2,15 @@
 #include "proxy/interceptor/data/link_buffer.hpp"
 
 #include "proxy/interceptor/corba/stamped_stream.hpp"
+#include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/wire/time.hpp"
+
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <optional>
 
 namespace tandem::interceptor {
 namespace {
@@ -61,10 +65,27 @@ BufferStatus LinkBuffer::write(const RTC::ByteData& message, std::chrono::nanose
     } else {
         stamp = wire::wall_clock_stamp();
     }
-    return write_status(channel_.writer->write_sized(bytes.size(), stamp, [&](std::span<std::byte> room) {
-        std::copy(bytes.begin(), bytes.end(), room.begin());
+    try {
+        return write_body(channel_.transcoded ? transcode_to_link(bytes) : bytes, stamp);
+    } catch (const CORBA::SystemException& error) { // a value that the type allows and the link does not
+        channel_.writer->refuse(error._name());
+        return BufferStatus::BUFFER_ERROR;
+    }
+}
+
+BufferStatus LinkBuffer::write_body(std::span<const std::byte> body, std::uint64_t stamp) {
+    return write_status(channel_.writer->write_sized(body.size(), stamp, [&](std::span<std::byte> room) {
+        std::copy(body.begin(), body.end(), room.begin());
         return true;
     }));
+}
+
+/// Throws CORBA::SystemException.
+std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::byte> body) {
+    StampedInStream in(body, false, 0); // the time is 8 bytes long, which changes no alignment
+    wire::CdrWriter out(transcoded_);
+    to_cdr(*channel_.transcoded, in, out);
+    return transcoded_;
 }
 
 /// Without a peer the message is dropped, and the RTC gets the same status as with an unconnected
@@ -95,27 +116,47 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
 
 BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
+    BufferStatus status = BufferStatus::OK;
     // false: messages in their order, as RTM's own ring buffer returns them.
-    const bool found =
-        channel_.reader->read(false, [&](const shm::Record& record) { copy_message(record, message); });
-    return found ? BufferStatus::OK : BufferStatus::EMPTY;
+    const bool found = channel_.reader->read(
+        false, [&](const shm::Record& record) { status = copy_message(record, message); });
+    return found ? status : BufferStatus::EMPTY;
 }
 
 BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader, bool& read_in_place) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
+    BufferStatus status = BufferStatus::OK;
     const bool found = channel_.reader->read(false, [&](const shm::Record& record) {
         read_in_place = record.bytes.size() >= minInPlaceLength();
-        if (!read_in_place) return copy_message(record, message);
+        if (!read_in_place) {
+            status = copy_message(record, message);
+            return;
+        }
         StampedInStream in(record.bytes, channel_.timed, record.stamp_ns);
         reader(in);
     });
-    return found ? BufferStatus::OK : BufferStatus::EMPTY;
+    return found ? status : BufferStatus::EMPTY;
 }
 
-void LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) const {
+BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {
+    std::span<const std::byte> body = record.bytes;
+    std::optional<cdrMemoryStream> stream; // none for the usual types: it would allocate
+    if (channel_.transcoded) {
+        try {
+            wire::CdrReader in(record.bytes);
+            from_cdr(*channel_.transcoded, in, stream.emplace());
+        } catch (const CORBA::SystemException& error) { // the peer is another process
+            if (undecodable_.should_log())
+                spdlog::error(
+                    "a message of {} bytes from the link does not decode ({}) and is dropped, {} so far",
+                    record.bytes.size(), error._name(), undecodable_.count());
+            return BufferStatus::BUFFER_ERROR;
+        }
+        body = {static_cast<const std::byte*>(stream->bufPtr()), stream->bufSize()};
+    }
     // RTM's time is put back in front of the payload: the port expects the message as its type has it.
     const std::size_t head = channel_.timed ? time_bytes : 0;
-    message.setDataLength(head + record.bytes.size());
+    message.setDataLength(head + body.size());
     message.isLittleEndian(true);
     auto* out = reinterpret_cast<std::byte*>(message.getBuffer());
     wire::CdrWriter writer(std::span(out, message.getDataLength()));
@@ -123,7 +164,8 @@ void LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message)
         writer.put(wire::stamp_seconds(record.stamp_ns));
         writer.put(wire::stamp_nanoseconds(record.stamp_ns));
     }
-    writer.put_block(record.bytes.data(), record.bytes.size(), 1);
+    writer.put_block(body.data(), body.size(), 1);
+    return BufferStatus::OK;
 }
 
 std::size_t LinkBuffer::readable() const { return channel_.reader && !channel_.reader->empty() ? 1 : 0; }

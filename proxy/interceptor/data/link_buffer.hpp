@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/process/log_throttle.hpp"
 #include "proxy/link/channel/channel.hpp"
+#include "proxy/wire/type.hpp"
 
 #include <rtm/CdrBufferBase.h>
 #include <rtm/InPlaceBuffer.h>
 
+#include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace tandem::interceptor {
 
@@ -15,6 +20,8 @@ struct LinkChannel {
     link::ChannelWriter* writer = nullptr; ///< of an OutPort of the RTC: data go to the peer
     link::ChannelReader* reader = nullptr; ///< of an InPort of the RTC: data come from the peer
     bool timed = false; ///< the messages begin with RTM's time, which travels in the record's header
+    /// The message without its time, if it crosses in another form than the RTC's bytes have: it holds an any or a fixed.
+    std::shared_ptr<const wire::Type> transcoded{};
 };
 
 /// The buffer of a connector between the RTC's port and its mirror: what the RTC writes goes to the ring of the
@@ -37,7 +44,9 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     // Long messages are marshalled directly into the chunk of shared memory in which they travel, and
     // unmarshalled from there.
-    std::size_t minInPlaceLength() const override { return link::large_message_bytes; }
+    std::size_t minInPlaceLength() const override {
+        return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : link::large_message_bytes;
+    }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
     RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
                                   bool& read_in_place) override;
@@ -59,11 +68,15 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     bool full() const override { return false; }
 
   private:
-    void copy_message(const shm::Record& record, RTC::ByteData& message) const;
+    RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);
+    std::span<const std::byte> transcode_to_link(std::span<const std::byte> body);
+    RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
     RTC::BufferStatus write_status(bool written) const;
 
     LinkChannel channel_;
-    RTC::ByteData last_; ///< what get() returned last
+    RTC::ByteData last_;                ///< what get() returned last
+    std::vector<std::byte> transcoded_; ///< kept for its memory
+    process::LogThrottle undecodable_;
 };
 
 } // namespace tandem::interceptor

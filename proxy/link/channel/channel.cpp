@@ -38,6 +38,14 @@ bool ChannelWriter::report_refusal(std::size_t bytes) {
     return false;
 }
 
+void ChannelWriter::refuse(std::string_view why) {
+    const std::lock_guard lock(mutex_);
+    if (bound_) bound_->ring.refuse();
+    if (refused_.should_log())
+        spdlog::error("port '{}': a message cannot cross the link and is dropped, {} so far: {}", port_,
+                      refused_.count(), why);
+}
+
 bool ChannelWriter::is_bound() const {
     const std::lock_guard lock(mutex_);
     return bound_.has_value();

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace tandem::link {
 
@@ -67,6 +68,9 @@ class ChannelWriter {
         return false;
     }
 
+    /// Counts a message that cannot cross, as sent and dropped, and logs `why`, one line, not too often.
+    void refuse(std::string_view why);
+
     bool is_bound() const;
     /// True if the ring was damaged by another process; nothing more is sent through it.
     bool corrupt() const;
@@ -87,7 +91,7 @@ class ChannelWriter {
     const std::string port_;
     std::atomic<bool> peer_listens_{false};
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
-    process::LogThrottle no_memory_;
+    process::LogThrottle no_memory_, refused_;
 };
 
 /// The receiving end of a data port across the link. Messages are read from the shared ring in the thread of

@@ -24,7 +24,7 @@ void ChannelTable::bind(const std::shared_ptr<shm::Segment>& segment, const Port
                         shm::Side owner) {
     const bool own_ports = owner == segment->side();
     for (const Port& port : ports.ports) {
-        if (!is_data_port(port.kind)) continue;
+        if (!port.has_ring()) continue;
         const auto ring = segment->find_ring(owner, ring_name(port.name));
         if (!ring) throw LinkError(fmt::format("port '{}' is in the port table but has no ring", port.name));
         // This side writes what leaves its own out ports, and what enters the peer's in ports.

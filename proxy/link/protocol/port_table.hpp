@@ -13,6 +13,10 @@ namespace tandem::link {
 /// What a port is to the component that has it.
 enum class PortKind : std::uint32_t { data_out, data_in, service_provided, service_required };
 
+/// Stands in a signature for a type that has none; `?{reason}`. A port with it is shared, so that the peer can say
+/// why it cannot be connected, but no data pass through it.
+inline constexpr char no_signature = '?';
+
 inline bool is_data_port(PortKind kind) { return kind == PortKind::data_out || kind == PortKind::data_in; }
 
 /// One operation of a service interface.
@@ -32,6 +36,9 @@ struct Port {
     std::vector<ServiceOperation> operations; ///< service ports: empty when the model cannot tell
     std::string component{};                  ///< whose port it is: a name in PortTable::components
     bool operator==(const Port&) const = default;
+
+    /// Whether it is a data port whose messages cross the link, and which so has a ring.
+    bool has_ring() const { return is_data_port(kind) && signature.find(no_signature) == std::string::npos; }
 };
 
 /// A setting of a component and its value when the table was made.

@@ -29,7 +29,7 @@ std::size_t object_bytes(std::size_t bytes) { return shm::round_up(bytes, shm::l
 RingPlan plan_rings(const PortTable& table, shm::Side own, const RingSizes& sizes) {
     RingPlan plan;
     for (const Port& port : table.ports) {
-        if (!is_data_port(port.kind)) continue;
+        if (!port.has_ring()) continue;
         shm::RingOptions ring;
         ring.writer = port.kind == PortKind::data_out ? own : shm::other(own);
         ring.capacity = sizes.ring_bytes;

@@ -62,7 +62,7 @@ bool SessionJoiner::peer_needs_larger_chunks(const LargeMessageLimits& peer) {
     large_bytes_ = peer.requested;
     // A side without data ports creates no rings, so there is nothing to enlarge.
     return std::any_of(own_ports_.ports.begin(), own_ports_.ports.end(),
-                       [](const Port& port) { return is_data_port(port.kind); });
+                       [](const Port& port) { return port.has_ring(); });
 }
 
 void SessionJoiner::remember_peer_memory(const LinkSession& session) {

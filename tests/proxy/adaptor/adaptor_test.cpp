@@ -45,7 +45,7 @@ struct Peer : link::LinkHandler {
         link.open();
     }
     ~Peer() override { link.close(); }
-    std::string check_peer_ports(const link::PortTable&) override { return ""; }
+    std::string check_peer_ports(link::PortTable&) override { return ""; }
     void link_state_changed(bool) override {}
     void peer_connected() override {}
     void peer_disconnected() override {}

@@ -48,7 +48,7 @@ struct LinkSide : LinkHandler {
         : link(side, std::move(options), std::move(table), *this) {}
     ~LinkSide() override { link.close(); }
 
-    std::string check_peer_ports(const PortTable& peer) override {
+    std::string check_peer_ports(PortTable& peer) override {
         table = peer;
         return refusal;
     }

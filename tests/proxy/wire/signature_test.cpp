@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type.hpp"
+#include "proxy/wire/type_text.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace tandem::wire;
 
 TEST_CASE("a signature comes back as it was parsed") {
-    const auto text =
-        GENERATE(as<std::string>{}, "d", "(uu)d", "ad", "aad", "(uu)(ddd)[3]dsa(sb)", "", "bcynqiuxtfdsw");
+    const auto text = GENERATE(as<std::string>{}, "d", "(uu)d", "ad", "aad", "(uu)(ddd)[3]dsa(sb)", "",
+                               "bcynqiuxtfdsw", "DWevo", "s#80w#7a#10de#3", "F5,2", "<e#3;0=i;1,2=s;*=(dd)>",
+                               "<c;-1=y>a<b;1=v>", "?{a valuetype}");
     CHECK(to_signature(parse_signature(text)) == text);
 }
 
@@ -20,7 +22,8 @@ TEST_CASE("the parentheses around a whole message are dropped, however many") {
 
 TEST_CASE("a malformed signature is refused with its text and the place") {
     const auto text = GENERATE(as<std::string>{}, "z", "()", "a[4]()", "a", "(d", "d)", "[0]d", "[3d", "[]d",
-                               "[99999999999]d");
+                               "[99999999999]d", "<", "<i>", "<i;0=d", "<d;0=i>", "<i;0,=d>", "<i;x=d>", "F5",
+                               "F3,4", "F0,0", "F32,0", "s#", "s#99999999999", "{name", "{name}", "{name}z");
     CHECK_THROWS_AS(parse_signature(text), SignatureError);
     CHECK_THROWS_WITH(parse_signature(text), Catch::Contains("'" + text + "'"));
 }
@@ -58,7 +61,10 @@ TEST_CASE("what a message takes at most is known unless its type sets no bound")
     CHECK(max_bytes("(uu)d") < 64);
     CHECK(max_bytes("(uu)[1000]d") >= 8008);
     CHECK(max_bytes("[16777216][16777216][16777216]y") > 1e21);
-    for (const char* unbounded : {"ad", "(uu)s", "[3](di(aq))", "w"}) CHECK(std::isinf(max_bytes(unbounded)));
+    CHECK(max_bytes("a#10(ds#20)") < 1000);
+    CHECK(max_bytes("<i;0=d;1=[9]d>F5,2DWw#3") < 200);
+    for (const char* unbounded : {"ad", "(uu)s", "[3](di(aq))", "w", "v", "a#3s"})
+        CHECK(std::isinf(max_bytes(unbounded)));
 }
 
 TEST_CASE("an operation is arguments, colon, result") {
@@ -67,4 +73,89 @@ TEST_CASE("an operation is arguments, colon, result") {
     CHECK(parse_operation_signature("i:") == OperationSignature{"i", ""});
     CHECK_THROWS_AS(parse_operation_signature("i"), SignatureError);
     CHECK_THROWS_AS(parse_operation_signature("i:d:d"), SignatureError);
+}
+
+TEST_CASE("names of members are kept, and are no part of a type") {
+    const std::string text = "{tm}({sec}u{nsec}u){shape}<e#2;0={radius}d;*={side}f>{points}a({x}d{y}d)";
+    const Type type = parse_signature(text);
+    CHECK(to_named_signature(type) == text);
+    CHECK(to_signature(type) == "(uu)<e#2;0=d;*=f>a(dd)");
+    CHECK(type == parse_signature("(uu)<e#2;0=d;*=f>a(dd)"));
+    CHECK(is_timed(type));
+    CHECK(to_named_signature(without_time(type)) == text.substr(text.find("{shape}")));
+}
+
+TEST_CASE("types that only one of the models has fit the type that their bytes are") {
+    const auto fit = [](const char* from, const char* to) {
+        return types_fit(parse_signature(from), parse_signature(to));
+    };
+    for (const auto& [foreign, own] : {std::pair{"e#3", "i"},
+                                       {"e", "u"},
+                                       {"F5,2", "s"},
+                                       {"v", "(say)"},
+                                       {"o", "s"},
+                                       {"a#4d", "ad"},
+                                       {"s#8", "s"},
+                                       {"(ie#2)", "(ii)"},
+                                       {"a(ne)", "a(ni)"}}) {
+        INFO(foreign << " " << own);
+        CHECK(fit(foreign, own));
+        CHECK(fit(own, foreign));
+    }
+    for (const auto& [one, other] : {std::pair{"i", "u"},
+                                     {"e", "x"},
+                                     {"e", "d"},
+                                     {"F5,2", "d"},
+                                     {"v", "s"},
+                                     {"f", "d"},
+                                     {"[3]d", "[4]d"},
+                                     {"<i;0=d>", "<i;1=d>"},
+                                     {"<i;0=d>", "<i;0=f>"},
+                                     {"?{valuetype}", "?{valuetype}"},
+                                     {"c", "y"}}) {
+        INFO(one << " " << other);
+        CHECK_FALSE(fit(one, other));
+    }
+}
+
+TEST_CASE("bytes need a check where the receiver's type allows less than the sender's") {
+    const auto check = [](const char* from, const char* to) {
+        return needs_check(parse_signature(from), parse_signature(to));
+    };
+    CHECK(check("ad", "a#4d"));
+    CHECK(check("a#9d", "a#4d"));
+    CHECK(check("i", "e#3"));
+    CHECK(check("(ss)", "(ss#3)"));
+    CHECK(check("s", "F5,2"));
+    CHECK_FALSE(check("a#4d", "ad"));
+    CHECK_FALSE(check("a#4d", "a#4d"));
+    CHECK_FALSE(check("e#3", "i"));
+    CHECK_FALSE(check("(uu)ad", "(uu)ad"));
+}
+
+TEST_CASE("the first member that differs is named with what to do") {
+    const auto difference = [](const char* here, const char* there, bool sent = true) {
+        return first_difference(parse_signature(here), parse_signature(there), sent);
+    };
+    CHECK(difference("{a}d", "{a}d") == "");
+    CHECK(difference("{velocity}({va}f{vx}d)", "{velocity}({va}d{vx}d)") ==
+          "field 'velocity.va' is float here, double there: ask for widen");
+    CHECK(difference("{a}({x}d{y}d)", "{a}({y}d{x}d)") ==
+          "field 'a.x' stands here where 'y' stands there: ask for reorder");
+    CHECK(difference("{a}({b}d)d", "{a}({b}f)d") ==
+          "field 'a.b' is double here, float there: ask for narrow, or change one of the two");
+    CHECK(difference("f", "d", false) ==
+          "field 1 is float here, double there: ask for narrow, or change one of the two");
+    CHECK(difference("i(sf)", "i(sd)") == "field 2.2 is float here, double there: ask for widen");
+    CHECK(difference("ai", "ad") == "field 1[] is int32 here, double there: ask for widen");
+    CHECK(difference("{a}d{b}d", "{b}d{a}d") ==
+          "field 'a' stands here where 'b' stands there: ask for reorder");
+    CHECK(difference("{a}d", "{a}d{b}s") ==
+          "field 'b' is missing here and string there: ask for 'b: default VALUE'");
+    CHECK(difference("{a}d{b}s#4", "{a}d") ==
+          "field 'b' is string of at most 4 here and missing there: ask for 'drop b'");
+    CHECK(difference("[3]f", "[4]f") ==
+          "field 1 is array of 3 float here, array of 4 float there: change one of the two");
+    CHECK(difference("<i;0=d>", "d") == "field 1 is union here, double there: change one of the two");
+    CHECK(first_unsupported(parse_signature("i({node}?{a valuetype})")) == "field 'node' is a valuetype");
 }

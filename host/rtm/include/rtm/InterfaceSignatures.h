@@ -8,17 +8,15 @@
 
 namespace RTC {
 
-/// Type signatures of IDL structs and operations, by repository id; ours, not part of OpenRTM-aist. A
-/// signature says the structure of a type in the alphabet of the D-Bus type system: b boolean, y octet, n q i
-/// u x t integers of 16, 32 and 64 bits (n, i, x signed), d double, s string, a<T> sequence, (...) struct.
-/// Beyond D-Bus: c char, f float, w wide string, [N]<T> array, ? a type that has no signature (any, union,
-/// object reference, recursive). Filled by the initialisers that tandem_add_rtm_idl() generates, and by ports
-/// for their data types. [any-thread]
+/// Type signatures of IDL structs, unions and operations, by repository id; ours, not part of OpenRTM-aist. A
+/// signature says the structure of a type in the alphabet of the D-Bus type system and more codes, which
+/// docs/wire_format.md lists, with the names of members in braces: `{tm}({sec}u{nsec}u){data}d`. Filled by the
+/// initialisers that tandem_add_rtm_idl() generates, and by ports for their data types. [any-thread]
 class InterfaceSignatures {
   public:
     struct Operation {
         std::string name;
-        std::string arguments; ///< what a request carries, without separators: `dd`
+        std::string arguments; ///< what a request carries, without separators: `{a}d{b}d`
         std::string result;    ///< what a reply carries: return value, then inout and out arguments
     };
     using Operations = std::vector<Operation>;
@@ -35,8 +33,8 @@ class InterfaceSignatures {
     /// Full repository id for the same names, empty when unknown.
     static std::string repositoryId(const std::string& interface_name);
 
-    /// Signature of a data type by repository id, `(uu)d` for IDL:RTC/TimedDouble:1.0 (a message's own
-    /// pair of parentheses is dropped); empty when unknown.
+    /// Signature of a data type by repository id, `{tm}({sec}u{nsec}u){data}d` for IDL:RTC/TimedDouble:1.0 (a
+    /// message's own pair of parentheses is dropped); empty when unknown.
     static std::string type(const std::string& repository_id);
     /// Makes a data type known from its TypeCode; ports do this for what they carry.
     static void addType(const char* repository_id, CORBA::TypeCode_ptr code);

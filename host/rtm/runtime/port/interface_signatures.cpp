@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The signature alphabet is that of the D-Bus type system (D-Bus specification, "Type system"), with three
-// letters and an array of fixed length that CDR needs beyond it: c char, f float, w wide string, [N]<T>.
+// The signature alphabet is that of the D-Bus type system (D-Bus specification, "Type system"), with what CDR needs
+// beyond it: docs/wire_format.md has the whole of it.
 #include <map>
 #include <mutex>
 #include <rtm/InterfaceSignatures.h>
@@ -59,7 +59,26 @@ std::string strip_outer_parentheses(const std::string& signature) {
                                                              : signature;
 }
 
-std::string signature_of(CORBA::TypeCode_ptr code, int depth);
+/// The structures and unions around a type, the innermost first.
+struct Enclosing {
+    std::string id;
+    const Enclosing* outer;
+};
+
+bool is_within_itself(const std::string& id, const Enclosing* outer) {
+    for (; outer != nullptr; outer = outer->outer)
+        if (outer->id == id) return true;
+    return false;
+}
+constexpr const char* recursive = "?{a type that contains itself, whose depth only each value knows}";
+
+std::string signature_of(CORBA::TypeCode_ptr code, const Enclosing* outer);
+
+CORBA::TypeCode_var strip_aliases(CORBA::TypeCode_ptr code) {
+    CORBA::TypeCode_var type = CORBA::TypeCode::_duplicate(code);
+    while (type->kind() == CORBA::tk_alias) type = type->content_type();
+    return type;
+}
 
 struct BasicSignature {
     CORBA::TCKind kind;
@@ -67,37 +86,124 @@ struct BasicSignature {
 };
 // The types that contain no other. Constant, because static initialisers of plugins need them before anything runs.
 constexpr BasicSignature basic_signatures[] = {
-    {CORBA::tk_void, ""},      {CORBA::tk_null, ""},       {CORBA::tk_boolean, "b"}, {CORBA::tk_char, "c"},
-    {CORBA::tk_octet, "y"},    {CORBA::tk_short, "n"},     {CORBA::tk_ushort, "q"},  {CORBA::tk_long, "i"},
-    {CORBA::tk_ulong, "u"},    {CORBA::tk_enum, "u"}, // CDR carries the number of an enumerator
-    {CORBA::tk_longlong, "x"}, {CORBA::tk_ulonglong, "t"}, {CORBA::tk_float, "f"},   {CORBA::tk_double, "d"},
-    {CORBA::tk_string, "s"},   {CORBA::tk_wstring, "w"},
+    {CORBA::tk_void, ""},
+    {CORBA::tk_null, ""},
+    {CORBA::tk_boolean, "b"},
+    {CORBA::tk_char, "c"},
+    {CORBA::tk_octet, "y"},
+    {CORBA::tk_short, "n"},
+    {CORBA::tk_ushort, "q"},
+    {CORBA::tk_long, "i"},
+    {CORBA::tk_ulong, "u"},
+    {CORBA::tk_longlong, "x"},
+    {CORBA::tk_ulonglong, "t"},
+    {CORBA::tk_float, "f"},
+    {CORBA::tk_double, "d"},
+    {CORBA::tk_any, "v"},
+    {CORBA::tk_wchar, "W"},
+    {CORBA::tk_longdouble, "D"},
+    {CORBA::tk_objref, "o"},
+    {CORBA::tk_value, "?{valuetype}"},
+    {CORBA::tk_value_box, "?{valuetype}"},
+    {CORBA::tk_TypeCode, "?{TypeCode}"},
 };
 
+std::string member_signature(const char* name, CORBA::TypeCode_ptr code, const Enclosing* outer) {
+    return "{" + std::string(name) + "}" + signature_of(code, outer);
+}
+
 // The members' signatures in parentheses; the TypeCode has them in the order of the IDL.
-std::string signature_of_struct(CORBA::TypeCode_ptr code, int depth) {
+std::string signature_of_struct(CORBA::TypeCode_ptr code, const Enclosing* outer) {
+    const Enclosing here{code->id(), outer};
+    if (is_within_itself(here.id, outer)) return recursive;
     std::string parts;
     for (CORBA::ULong i = 0; i < code->member_count(); ++i)
-        parts += signature_of(CORBA::TypeCode_var(code->member_type(i)).in(), depth + 1);
+        parts +=
+            member_signature(code->member_name(i), CORBA::TypeCode_var(code->member_type(i)).in(), &here);
     return "(" + parts + ")";
 }
 
-std::string signature_of(CORBA::TypeCode_ptr code, int depth) {
-    if (depth > 64) return "?"; // a type that contains itself would never end
+// A label has the type of the discriminator: an enumerator is written as its number.
+std::string text_of_label(const CORBA::Any& label) {
+    const CORBA::TypeCode_var code = label.type();
+    cdrMemoryStream stream;
+    label.NP_marshalDataOnly(stream);
+    const auto number = [&](auto value) {
+        value <<= stream;
+        return std::to_string(value);
+    };
+    switch (strip_aliases(code.in())->kind()) {
+    case CORBA::tk_boolean:
+        return std::to_string(static_cast<int>(stream.unmarshalBoolean()));
+    case CORBA::tk_char:
+        return std::to_string(static_cast<int>(static_cast<signed char>(stream.unmarshalChar())));
+    case CORBA::tk_short:
+        return number(CORBA::Short());
+    case CORBA::tk_ushort:
+        return number(CORBA::UShort());
+    case CORBA::tk_long:
+        return number(CORBA::Long());
+    case CORBA::tk_longlong:
+        return number(CORBA::LongLong());
+    case CORBA::tk_ulonglong:
+        return number(CORBA::ULongLong());
+    default: // unsigned long, and the number of an enumerator
+        return number(CORBA::ULong());
+    }
+}
+
+// Several labels of one case are several members of that name in the TypeCode.
+std::string signature_of_union(CORBA::TypeCode_ptr code, const Enclosing* outer) {
+    const Enclosing here{code->id(), outer};
+    if (is_within_itself(here.id, outer)) return recursive;
+    std::string text = "<" + signature_of(CORBA::TypeCode_var(code->discriminator_type()).in(), &here);
+    const CORBA::Long default_index = code->default_index();
+    for (CORBA::ULong i = 0; i < code->member_count();) {
+        const std::string name = code->member_name(i);
+        const CORBA::TypeCode_var type = code->member_type(i);
+        std::string labels;
+        bool is_default = false;
+        for (; i < code->member_count() && name == code->member_name(i); ++i) {
+            if (static_cast<CORBA::Long>(i) == default_index) {
+                is_default = true;
+                continue;
+            }
+            const CORBA::Any_var label = code->member_label(i);
+            labels += (labels.empty() ? "" : ",") + text_of_label(label.in());
+        }
+        text += ";" + (is_default ? "*" : labels) + "=" + member_signature(name.c_str(), type.in(), &here);
+    }
+    return text + ">";
+}
+
+std::string bound_text(CORBA::ULong bound) { return bound == 0 ? "" : "#" + std::to_string(bound); }
+
+std::string signature_of(CORBA::TypeCode_ptr code, const Enclosing* outer) {
     for (const auto& basic : basic_signatures)
         if (basic.kind == code->kind()) return basic.signature;
     switch (code->kind()) {
     case CORBA::tk_alias: // a typedef is the type it names
-        return signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
+        return signature_of(CORBA::TypeCode_var(code->content_type()).in(), outer);
+    case CORBA::tk_string:
+        return "s" + bound_text(code->length());
+    case CORBA::tk_wstring:
+        return "w" + bound_text(code->length());
+    case CORBA::tk_enum:
+        return "e" + bound_text(code->member_count());
+    case CORBA::tk_fixed:
+        return "F" + std::to_string(code->fixed_digits()) + "," + std::to_string(code->fixed_scale());
     case CORBA::tk_sequence:
-        return "a" + signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
+        return "a" + bound_text(code->length()) +
+               signature_of(CORBA::TypeCode_var(code->content_type()).in(), outer);
     case CORBA::tk_array:
         return "[" + std::to_string(code->length()) + "]" +
-               signature_of(CORBA::TypeCode_var(code->content_type()).in(), depth + 1);
+               signature_of(CORBA::TypeCode_var(code->content_type()).in(), outer);
     case CORBA::tk_struct:
-        return signature_of_struct(code, depth);
+        return signature_of_struct(code, outer);
+    case CORBA::tk_union:
+        return signature_of_union(code, outer);
     default:
-        return "?";
+        return "?{TypeCode kind " + std::to_string(static_cast<int>(code->kind())) + "}";
     }
 }
 
@@ -141,6 +247,6 @@ void InterfaceSignatures::addType(const char* repository_id, CORBA::TypeCode_ptr
     signatures.types.emplace(repository_id, text);
 }
 
-std::string InterfaceSignatures::signature(CORBA::TypeCode_ptr code) { return signature_of(code, 0); }
+std::string InterfaceSignatures::signature(CORBA::TypeCode_ptr code) { return signature_of(code, nullptr); }
 
 } // namespace RTC

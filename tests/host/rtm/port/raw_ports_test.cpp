@@ -109,12 +109,13 @@ TEST_CASE(
 
 TEST_CASE("Signatures of data types and of service operations are known at run time") {
     using RTC::InterfaceSignatures;
-    CHECK(InterfaceSignatures::type("IDL:RTC/TimedDouble:1.0") == "(uu)d");
-    CHECK(InterfaceSignatures::type("IDL:RTC/TimedDoubleSeq:1.0") == "(uu)ad");
-    CHECK(InterfaceSignatures::type("IDL:RTC/CameraImage:1.0") == "(uu)qqqsday");
+    CHECK(InterfaceSignatures::type("IDL:RTC/TimedDouble:1.0") == "{tm}({sec}u{nsec}u){data}d");
+    CHECK(InterfaceSignatures::type("IDL:RTC/TimedDoubleSeq:1.0") == "{tm}({sec}u{nsec}u){data}ad");
+    CHECK(InterfaceSignatures::type("IDL:RTC/CameraImage:1.0") ==
+          "{tm}({sec}u{nsec}u){width}q{height}q{bpp}q{format}s{fDiv}d{pixels}ay");
     CHECK(InterfaceSignatures::type("IDL:No/Such:1.0").empty());
     CORBA::TypeCode_var code = CORBA_Util::typeCodeOf<RTC::TimedDoubleSeq>();
-    CHECK(InterfaceSignatures::signature(code.in()) == "((uu)ad)");
+    CHECK(InterfaceSignatures::signature(code.in()) == "({tm}({sec}u{nsec}u){data}ad)");
 
     CHECK(InterfaceSignatures::repositoryId("Testing::Calculator") == "IDL:Testing/Calculator:1.0");
     CHECK(InterfaceSignatures::find("alculator") == nullptr);
@@ -122,6 +123,9 @@ TEST_CASE("Signatures of data types and of service operations are known at run t
     REQUIRE(operations != nullptr);
     std::string all;
     for (const auto& o : *operations) all += o.name + " " + o.arguments + ":" + o.result + "\n";
-    CHECK(all == "_get_calls :i\n_get_name :s\n_set_calls i:\ndivide ii:ii\nrange_of ad:(dd)\nset_mode u:\n"
-                 "stamped ((uu)d):((uu)d)\nsum ad:d\n");
+    CHECK(
+        all ==
+        "_get_calls :{value}i\n_get_name :{value}s\n_set_calls {value}i:\n"
+        "divide {dividend}i{divisor}i:i{rest}i\nrange_of {values}ad:({low}d{high}d)\nset_mode {wanted}e#2:\n"
+        "stamped {value}({tm}({sec}u{nsec}u){data}d):({tm}({sec}u{nsec}u){data}d)\nsum {values}ad:d\n");
 }

@@ -22,4 +22,14 @@ inline double parse_positive_number(const char* kind, const std::string& name, c
     return value;
 }
 
+/// Parses a setting that is on or off: 1, true, YES, ... or 0, false, NO, ..., off if the text is empty. Throws as
+/// parse_positive_number().
+inline bool parse_flag(const char* kind, const std::string& name, const std::string& text) {
+    std::string lower;
+    for (const char c : text) lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (lower.empty() || lower == "0" || lower == "false" || lower == "no") return false;
+    if (lower == "1" || lower == "true" || lower == "yes") return true;
+    throw std::runtime_error(fmt::format("{} '{}' is '{}', 0 or 1 was expected", kind, name, text));
+}
+
 } // namespace tandem::link

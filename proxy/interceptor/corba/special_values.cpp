@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/interceptor/corba/special_values.hpp"
+
+#include "proxy/interceptor/corba/transcoder.hpp"
+#include "proxy/interceptor/corba/typecode.hpp"
+#include "proxy/wire/wide_text.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace tandem::interceptor {
+
+using wire::Kind;
+using wire::Type;
+
+namespace {
+
+// An any may hold an any. Another process decides how deep.
+constexpr int max_nested_anys = 8;
+thread_local int nested_anys = 0;
+struct AnyDepth {
+    AnyDepth() {
+        if (++nested_anys > max_nested_anys) {
+            --nested_anys;
+            throw_marshal();
+        }
+    }
+    ~AnyDepth() { --nested_anys; }
+};
+
+void wide_string_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
+    const std::unique_ptr<CORBA::WChar, void (*)(CORBA::WChar*)> text(
+        from.unmarshalWString(static_cast<int>(type.count)), CORBA::wstring_free);
+    std::wstring copy;
+    for (const CORBA::WChar* at = text.get(); *at != 0; ++at) copy += static_cast<wchar_t>(*at);
+    if (!wire::put_wide_string(to, copy)) throw_marshal();
+}
+
+void fixed_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
+    CORBA::Fixed value;
+    value.PR_setLimits(static_cast<CORBA::UShort>(type.count), static_cast<CORBA::UShort>(type.scale));
+    value <<= from;
+    const CORBA::String_var text = value.NP_asString();
+    to.put_string(text.in());
+}
+
+void fixed_from_cdr(const Type& type, wire::CdrReader& from, cdrStream& to) {
+    const std::string text(from.get_string());
+    if (!from.ok()) throw_marshal();
+    CORBA::Fixed value(text.c_str()); // throws for what is no number
+    value.PR_setLimits(static_cast<CORBA::UShort>(type.count), static_cast<CORBA::UShort>(type.scale));
+    value >>= to;
+}
+
+/// An any crosses as its value's signature and the value's CDR, a message of its own.
+void any_to_cdr(cdrStream& from, wire::CdrWriter& to) {
+    const AnyDepth depth;
+    const CORBA::TypeCode_var code = CORBA::TypeCode::unmarshalTypeCode(from);
+    const Type type = type_of(code.in());
+    std::vector<std::byte> value;
+    wire::CdrWriter writer(value);
+    to_cdr(type, from, writer);
+    to.put_string(wire::to_named_signature(type));
+    to.put(static_cast<std::uint32_t>(value.size()));
+    to.put_block(value.data(), value.size(), 1);
+}
+
+void any_from_cdr(wire::CdrReader& from, cdrStream& to) {
+    const AnyDepth depth;
+    const std::string signature(from.get_string());
+    const auto value = from.get_block(from.get_count(1), 1);
+    if (!from.ok()) throw_marshal();
+    try {
+        const Type type = wire::parse_signature(signature);
+        const CORBA::TypeCode_var code = typecode_of(type);
+        CORBA::TypeCode::marshalTypeCode(code, to);
+        wire::CdrReader reader(value);
+        from_cdr(type, reader, to);
+    } catch (const wire::SignatureError&) { // it came from the peer
+        throw_marshal();
+    }
+}
+
+template <class T>
+std::int64_t read_as(cdrStream& from) {
+    T value;
+    value <<= from;
+    return static_cast<std::int64_t>(value);
+}
+
+} // namespace
+
+void throw_marshal() { throw CORBA::MARSHAL(0, CORBA::COMPLETED_NO); }
+
+bool is_special(Kind kind) {
+    switch (kind) {
+    case Kind::wide_character:
+    case Kind::wide_string:
+    case Kind::fixed:
+    case Kind::any:
+    case Kind::object:
+    case Kind::unsupported:
+        return true;
+    default:
+        return false;
+    }
+}
+
+void special_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
+    switch (type.kind) {
+    case Kind::wide_character:
+        if (!wire::put_wide_character(to, static_cast<wchar_t>(from.unmarshalWChar()))) throw_marshal();
+        return;
+    case Kind::wide_string:
+        return wide_string_to_cdr(type, from, to);
+    case Kind::fixed:
+        return fixed_to_cdr(type, from, to);
+    case Kind::any:
+        return any_to_cdr(from, to);
+    default:
+        throw_marshal();
+    }
+}
+
+void special_from_cdr(const Type& type, wire::CdrReader& from, cdrStream& to) {
+    switch (type.kind) {
+    case Kind::wide_character: {
+        const wchar_t character = wire::get_wide_character(from);
+        if (!from.ok()) throw_marshal();
+        return to.marshalWChar(static_cast<CORBA::WChar>(character));
+    }
+    case Kind::wide_string: {
+        std::wstring text;
+        wire::get_wide_string(from, text);
+        if (!from.ok()) throw_marshal();
+        const std::basic_string<CORBA::WChar> copy(text.begin(), text.end());
+        return to.marshalWString(copy.c_str(), static_cast<int>(type.count));
+    }
+    case Kind::fixed:
+        return fixed_from_cdr(type, from, to);
+    case Kind::any:
+        return any_from_cdr(from, to);
+    default:
+        throw_marshal();
+    }
+}
+
+std::int64_t read_integer(Kind kind, cdrStream& from) {
+    switch (kind) {
+    case Kind::boolean:
+        return from.unmarshalBoolean() ? 1 : 0;
+    case Kind::character:
+        return static_cast<signed char>(from.unmarshalChar());
+    case Kind::octet:
+        return from.unmarshalOctet();
+    case Kind::int16:
+        return read_as<CORBA::Short>(from);
+    case Kind::uint16:
+        return read_as<CORBA::UShort>(from);
+    case Kind::int32:
+        return read_as<CORBA::Long>(from);
+    case Kind::int64:
+        return read_as<CORBA::LongLong>(from);
+    case Kind::uint64:
+        return read_as<CORBA::ULongLong>(from);
+    default:
+        return read_as<CORBA::ULong>(from);
+    }
+}
+
+std::int64_t get_integer(Kind kind, wire::CdrReader& from) {
+    switch (kind) {
+    case Kind::boolean:
+        return from.get_bool() ? 1 : 0;
+    case Kind::character:
+        return from.get<signed char>();
+    case Kind::octet:
+        return from.get<std::uint8_t>();
+    case Kind::int16:
+        return from.get<std::int16_t>();
+    case Kind::uint16:
+        return from.get<std::uint16_t>();
+    case Kind::int32:
+        return from.get<std::int32_t>();
+    case Kind::int64:
+        return from.get<std::int64_t>();
+    case Kind::uint64:
+        return static_cast<std::int64_t>(from.get<std::uint64_t>());
+    default:
+        return from.get<std::uint32_t>();
+    }
+}
+
+void put_integer(Kind kind, std::int64_t value, wire::CdrWriter& to) {
+    switch (wire::primitive_size(kind)) {
+    case 1:
+        return to.put(static_cast<std::uint8_t>(value));
+    case 2:
+        return to.put(static_cast<std::uint16_t>(value));
+    case 8:
+        return to.put(static_cast<std::uint64_t>(value));
+    default:
+        return to.put(static_cast<std::uint32_t>(value));
+    }
+}
+
+std::int64_t read_enumerator(const Type& type, cdrStream& from) {
+    const std::int64_t value = read_integer(Kind::uint32, from);
+    if (type.count != 0 && value >= type.count) throw_marshal();
+    return value;
+}
+
+void write_enumerator(const Type& type, std::int64_t value, cdrStream& to) {
+    if (type.count != 0 && value >= type.count) throw_marshal();
+    static_cast<CORBA::ULong>(value) >>= to;
+}
+
+} // namespace tandem::interceptor

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every kind of type between the ORB's streams and the link's CDR, against compiled stubs.
+#include "proxy/interceptor/corba/transcoder.hpp"
+#include "proxy/interceptor/corba/typecode.hpp"
+#include "tests/proxy/interceptor/orb.hpp"
+
+#include "Types.hh"
+
+#include <rtm/InterfaceSignatures.h>
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <functional>
+#include <random>
+#include <vector>
+
+using namespace tandem;
+using interceptor::from_cdr;
+using interceptor::Orb;
+using interceptor::to_cdr;
+
+namespace {
+
+TestTypes::All all_kinds() {
+    TestTypes::All all;
+    all.first = 7;
+    all.precise = 1.0L / 3;
+    all.sign = L'\u00e9';
+    all.title = CORBA::wstring_dup(L"caf\u00e9 \ud55c");
+    all.state = TestTypes::fast;
+    all.states.length(2);
+    all.states[0] = TestTypes::slow;
+    all.states[1] = TestTypes::off;
+    all.order.speed(2.5);
+    all.order._d(TestTypes::fast);
+    all.mail.text("hello");
+    all.mail._d('z');
+    all.cost = TestTypes::Price("-123.45");
+    all.content <<= CORBA::Double(0.25);
+    all.secret.length(3);
+    all.label = CORBA::string_dup("eight ch");
+    for (int i = 0; i < 6; ++i) all.table[i / 3][i % 3] = i;
+    return all;
+}
+
+std::vector<std::byte> crossed(const wire::Type& type, cdrMemoryStream& stream) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter writer(bytes);
+    to_cdr(type, stream, writer);
+    return bytes;
+}
+
+wire::Type type_of_all() { return interceptor::type_of(TestTypes::_tc_All); }
+
+} // namespace
+
+TEST_CASE("a TypeCode's signature names every kind of member, and what contains itself is none") {
+    Orb orb;
+    CHECK(RTC::InterfaceSignatures::signature(TestTypes::_tc_All) ==
+          "({first}y{precise}D{sign}W{title}w#20{state}e#3{states}ae#3{order}<e#3;0={brake}b;1,2={speed}d>{"
+          "mail}<c;"
+          "97={number}i;*={text}s>{cost}F7,2{content}v{secret}a#4y{label}s#8{table}[2][3]d)");
+    CHECK(RTC::InterfaceSignatures::signature(TestTypes::_tc_Node) ==
+          "({value}i{below}a?{a type that contains itself, whose depth only each value knows})");
+}
+
+TEST_CASE("a structure of every kind of type crosses and comes back, also within a sequence") {
+    Orb orb;
+    TestTypes::Alls alls;
+    alls.length(3);
+    for (CORBA::ULong i = 0; i < 3; ++i) alls[i] = all_kinds();
+    alls[1].order.brake(true);
+    alls[1].mail.number(5);
+    alls[2].title = CORBA::wstring_dup(L"");
+    cdrMemoryStream sent;
+    alls >>= sent;
+    const auto type = interceptor::type_of(TestTypes::_tc_Alls);
+    const auto bytes = crossed(type, sent);
+    cdrMemoryStream received;
+    wire::CdrReader reader(bytes);
+    from_cdr(type, reader, received);
+    CHECK(reader.remaining() == 0);
+    TestTypes::Alls back;
+    back <<= received;
+    REQUIRE(back.length() == 3);
+    CHECK(back[0].precise == 1.0L / 3);
+    CHECK(back[0].sign == L'\u00e9');
+    CHECK(std::wstring(back[0].title.in()) == L"caf\u00e9 \ud55c");
+    CHECK(back[0].states[0] == TestTypes::slow);
+    CHECK(back[0].order._d() == TestTypes::fast);
+    CHECK(back[0].order.speed() == 2.5);
+    CHECK(std::string(back[0].mail.text()) == "hello");
+    CHECK(std::string(CORBA::String_var(back[0].cost.NP_asString()).in()) == "-123.45");
+    CORBA::Double content = 0;
+    CHECK((back[0].content >>= content));
+    CHECK(content == 0.25);
+    CHECK(back[0].table[1][2] == 5);
+    CHECK(back[1].order.brake());
+    CHECK(back[1].mail.number() == 5);
+    CHECK(std::wstring(back[2].title.in()).empty());
+    CHECK(back[2].secret.length() == 3);
+}
+
+TEST_CASE("a fixed crosses as its decimal text and an any as signature and value") {
+    Orb orb;
+    TestTypes::All all = all_kinds();
+    TestTypes::Command order;
+    order.speed(4);
+    all.content <<= order;
+    cdrMemoryStream fixed, any;
+    all.cost >>= fixed;
+    all.content >>= any;
+    const auto text = crossed(wire::parse_signature("F7,2"), fixed);
+    CHECK(wire::CdrReader(text).get_string() == "-123.45");
+    const auto value = crossed(wire::parse_signature("v"), any);
+    wire::CdrReader reader(value);
+    CHECK(reader.get_string() == "<e#3;0={brake}b;1,2={speed}d>");
+    CHECK(reader.get_count(1) == 16);
+}
+
+TEST_CASE("an any that the peer makes of a structure is extracted by those who know its type") {
+    Orb orb;
+    std::vector<std::byte> bytes, inner;
+    wire::CdrWriter value(inner);
+    value.put(std::int32_t{-5});
+    value.put_string("text");
+    wire::CdrWriter writer(bytes);
+    writer.put_string("{number}i{text}s");
+    writer.put(static_cast<std::uint32_t>(inner.size()));
+    writer.put_block(inner.data(), inner.size(), 1);
+    cdrMemoryStream stream;
+    wire::CdrReader reader(bytes);
+    from_cdr(wire::parse_signature("v"), reader, stream);
+    CORBA::Any any;
+    any <<= stream;
+    const CORBA::TypeCode_var code = any.type();
+    CHECK(code->kind() == CORBA::tk_struct);
+    CHECK(std::string(code->member_name(1)) == "text");
+}
+
+TEST_CASE("values beyond a bound or without an enumerator are refused in both directions") {
+    Orb orb;
+    const auto refuses = [](const char* signature, const std::function<void(wire::CdrWriter&)>& write) {
+        std::vector<std::byte> bytes;
+        wire::CdrWriter writer(bytes);
+        write(writer);
+        const auto type = wire::parse_signature(signature);
+        cdrMemoryStream stream, same;
+        same.put_octet_array(reinterpret_cast<const _CORBA_Octet*>(bytes.data()),
+                             static_cast<int>(bytes.size()), omni::ALIGN_1);
+        wire::CdrReader reader(bytes);
+        CHECK_THROWS_AS(from_cdr(type, reader, stream), CORBA::SystemException);
+        std::vector<std::byte> out;
+        wire::CdrWriter to(out);
+        CHECK_THROWS_AS(to_cdr(type, same, to), CORBA::SystemException);
+    };
+    refuses("s#3", [](auto& out) { out.put_string("four"); });
+    refuses("a#2y", [](auto& out) {
+        out.template put<std::uint32_t>(3);
+        out.put_block("abc", 3, 1);
+    });
+    refuses("e#3", [](auto& out) { out.template put<std::uint32_t>(3); });
+    refuses("<e#3;0=d>", [](auto& out) { out.template put<std::uint32_t>(7); });
+}
+
+TEST_CASE("bytes that were damaged on the way are an exception or another value, never a crash") {
+    Orb orb;
+    const auto type = type_of_all();
+    cdrMemoryStream sent;
+    all_kinds() >>= sent;
+    const auto whole = crossed(type, sent);
+    std::mt19937 random(1);
+    int refused = 0, accepted = 0;
+    for (int round = 0; round < 3000; ++round) {
+        auto bytes = whole;
+        for (int flips = 1 + static_cast<int>(random() % 4); flips > 0; --flips)
+            bytes[random() % bytes.size()] = static_cast<std::byte>(random());
+        if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+        cdrMemoryStream stream;
+        wire::CdrReader reader(bytes);
+        try {
+            from_cdr(type, reader, stream);
+            ++accepted;
+        } catch (const CORBA::SystemException&) {
+            ++refused;
+        }
+    }
+    CHECK(refused > 0);
+    CHECK(accepted > 0);
+}
