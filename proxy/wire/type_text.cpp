@@ -199,6 +199,18 @@ std::string type_name(const Type& type) {
     return name;
 }
 
+std::string without_names(std::string_view signature) {
+    std::string text;
+    while (!signature.empty()) {
+        const auto begin = signature.find('{'), end = signature.find('}', begin);
+        if (end == std::string_view::npos) return text + std::string(signature);
+        const bool is_reason = begin > 0 && signature[begin - 1] == '?';
+        text += signature.substr(0, is_reason ? end + 1 : begin);
+        signature.remove_prefix(end + 1);
+    }
+    return text;
+}
+
 std::string first_unsupported(const Type& type) {
     if (type.kind == Kind::unsupported) return type.name.empty() ? "it has no signature" : type.name;
     for (const Type& child : type.children)

@@ -4,11 +4,15 @@
 #include "proxy/wire/type.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace tandem::wire {
 
 /// What a message calls a type: `double`, `array of 3 float`, `string of at most 80`.
 std::string type_name(const Type& type);
+
+/// A signature, of a message or an operation, without the names of members, for messages. Throws nothing.
+std::string without_names(std::string_view signature);
 
 /// Why a type cannot cross: the reason of the first Kind::unsupported in it; empty if there is none.
 std::string first_unsupported(const Type& type);

@@ -2,6 +2,7 @@
 #include "apps/tandem/shared_ports/running_host.hpp"
 
 #include "proxy/link/session/link_session.hpp"
+#include "proxy/wire/type_text.hpp"
 #include "shm/inspect/observer.hpp"
 
 namespace tandem::command {
@@ -26,9 +27,10 @@ nlohmann::json describe_mirrors(const link::PortTable& table) {
                  {"kind", link::is_data_port(port.kind) ? "data" : "service"},
                  {"direction", directions[static_cast<std::size_t>(port.kind)]},
                  {"type", nullptr}};
-        if (link::is_data_port(port.kind)) out["signature"] = port.signature;
+        if (link::is_data_port(port.kind)) out["signature"] = wire::without_names(port.signature);
         for (const auto& operation : port.operations)
-            out["methods"].push_back({{"name", operation.name}, {"signature", operation.signature}});
+            out["methods"].push_back(
+                {{"name", operation.name}, {"signature", wire::without_names(operation.signature)}});
         ports.push_back(std::move(out));
     }
     return ports;

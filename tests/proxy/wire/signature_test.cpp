@@ -157,5 +157,7 @@ TEST_CASE("the first member that differs is named with what to do") {
     CHECK(difference("[3]f", "[4]f") ==
           "field 1 is array of 3 float here, array of 4 float there: change one of the two");
     CHECK(difference("<i;0=d>", "d") == "field 1 is union here, double there: change one of the two");
+    CHECK(without_names("{a}i{b}({c}d):?{why}{d}s") == "i(d):?{why}s");
+    CHECK(without_names("i{") == "i{");
     CHECK(first_unsupported(parse_signature("i({node}?{a valuetype})")) == "field 'node' is a valuetype");
 }
