@@ -62,6 +62,15 @@ std::string advice(const std::string& error, const Plugin& plugin, const fs::pat
         for (const auto& file : plugin.sources.left_out) text += " " + file.filename().string();
         text += "; --source names all that are to be built";
     }
+    // The component's own with it, because --source replaces those that are found.
+    const auto symbol = undefined_symbol(error);
+    const auto definitions =
+        symbol.empty() ? std::vector<fs::path>{} : find_definitions(find_checkout(folder), symbol);
+    if (text.find("--source FILE") != std::string::npos && definitions.size() == 1) {
+        text = "a source of this repository defines it:";
+        for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
+        text += " --source " + definitions[0].lexically_proximate(fs::current_path()).string();
+    }
     if (const auto name = dropped_by_opencv(error); plugin.includes.old_opencv && !name.empty())
         text = "OpenCV 4 does not have " + name + " any more; only its C++ API replaces it";
     return text.empty() ? "" : "; " + text;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/remedy.hpp"
+#include "apps/tandem/build/error_directive.hpp"
 #include "apps/tandem/build/first_error.hpp"
 #include "apps/tandem/build/folder/checkout.hpp"
 #include "apps/tandem/build/header_packages.hpp"
 
+#include <map>
 #include <utility>
 
 namespace tandem::command {
@@ -38,30 +40,60 @@ std::string for_symbol(const std::string& symbol) {
     return "name the library that has it with -l NAME, or the source with --source FILE";
 }
 
+// The name that the compiler does not know; "" if the error is another one.
+std::string unknown_name(const std::string& error) {
+    // g++ writes names between these quotes in a locale of UTF-8, otherwise between apostrophes.
+    for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
+        const auto name = between(error, std::string("error: ") + open, close);
+        if (!name.empty() && (error.find(" was not declared") != std::string::npos ||
+                              error.find(" does not name a type") != std::string::npos ||
+                              error.find(" has not been declared") != std::string::npos))
+            return name;
+    }
+    return "";
+}
+
+// What stands in for a name of Windows' headers, as a definition.
+std::string for_name(const std::string& name) {
+    static const std::map<std::string, const char*> names{{"BOOL", "int"},
+                                                          {"BYTE", "'unsigned char'"},
+                                                          {"WORD", "'unsigned short'"},
+                                                          {"DWORD", "'unsigned int'"},
+                                                          {"UINT", "'unsigned int'"},
+                                                          {"TRUE", "1"},
+                                                          {"FALSE", "0"}};
+    const auto known = names.find(name);
+    if (known == names.end()) return "";
+    return name + " is a name of Windows; -D " + name + "=" + known->second + " stands in for it";
+}
+
 } // namespace
 
 std::string find_remedy(const std::string& error, const std::filesystem::path& folder) {
     if (const auto header = missing_header(error); !header.empty()) return for_header(header, folder);
-    if (const auto symbol = between(error, "undefined reference to `", "'"); !symbol.empty())
-        return for_symbol(symbol);
+    if (const auto symbol = undefined_symbol(error); !symbol.empty()) return for_symbol(symbol);
     if (const auto library = between(error + ":", "cannot find -l", ":"); !library.empty()) {
         if (const auto* package = find_package_of_library(library)) return install(*package);
         return "the folder of lib" + library + ".so can be named with -l /FOLDER/lib" + library + ".so";
     }
-    if (error.find("error: #error") != std::string::npos)
-        return "-D NAME or -D NAME=VALUE defines what it asks for";
+    std::string definitions;
+    for (const auto& macro : macros_that_avoid(error))
+        definitions += (definitions.empty() ? "-D " : ", or -D ") + macro;
+    if (!definitions.empty()) return definitions;
+    if (const auto text = for_name(unknown_name(error)); !text.empty()) return text;
     if (error.find("required packages were not found") != std::string::npos)
         return "install the Debian package that has the module's .pc file, or leave --pkg-config out";
     return "";
 }
 
+std::string undefined_symbol(const std::string& error) {
+    return between(error, "undefined reference to `", "'");
+}
+
 std::string dropped_by_opencv(const std::string& error) {
-    // g++ writes names between these quotes in a locale of UTF-8, otherwise between apostrophes.
-    for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
-        auto name = between(error, std::string("error: ") + open, close);
-        for (const char* prefix : {"cv", "Cv", "CV_", "Ipl", "IPL_"})
-            if (name.rfind(prefix, 0) == 0 && name.find(':') == std::string::npos) return name;
-    }
+    const auto name = unknown_name(error);
+    for (const char* prefix : {"cv", "Cv", "CV_", "Ipl", "IPL_"})
+        if (name.rfind(prefix, 0) == 0 && name.find(':') == std::string::npos) return name;
     return "";
 }
 

@@ -4,7 +4,6 @@
 #include "apps/tandem/build/folder/source_text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fnmatch.h>
 #include <set>
 #include <stdexcept>
@@ -15,29 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-// Whether the text defines the function: its name, parameters without a ';', and a body. A source with a main() is a
-// program of its own and does not count.
-bool defines(const std::string& text, const std::string& function) {
-    bool found = false;
-    for (std::size_t at = 0; !found && (at = text.find(function, at)) != std::string::npos;
-         at += function.size()) {
-        if (at > 0 && is_word(text[at - 1])) continue;
-        const auto open = text.find_first_not_of(" \t\r\n", at + function.size());
-        if (open == std::string::npos || text[open] != '(') continue;
-        const auto close = text.find(')', open);
-        const auto body = text.find_first_not_of(" \t\r\n", close == std::string::npos ? close : close + 1);
-        found = close != std::string::npos && body != std::string::npos && text[body] == '{';
-    }
-    return found && text.find("int main(") == std::string::npos &&
-           text.find("int main (") == std::string::npos;
-}
-
 Paths filter(const Paths& files, const std::string& function) {
     Paths found;
     for (const auto& file : files)
-        if (is_source(file) && defines(strip_comments(read_text(file)), function)) found.push_back(file);
+        if (is_source(file) && defines_function(read_text(file), function)) found.push_back(file);
     return found;
 }
 

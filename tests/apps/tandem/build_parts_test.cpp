@@ -82,7 +82,7 @@ TEST_CASE("what the folder's makefile, CMakeLists.txt or Visual C++ project leav
                  "ExcludedFromBuild=\"true\"/></File></Files></VisualStudioProject>\n");
     CHECK(selected(old) == listed);
     // A makefile is for this platform, a project of Visual C++ has files for Windows, too.
-    folder.write("Old/Makefile", "OBJS = Old.o\n");
+    folder.write("Old/Makefile.INOld", "OBJS = Old.o\n");
     CHECK(selected(old) == Names{"Old.cpp"});
 }
 
@@ -182,6 +182,11 @@ TEST_CASE("a header is looked for in the whole checkout by as much of its path a
     CHECK(found("../One/Device.h") == Names{"One_V1.0/Device.h"});
     CHECK(found("gain.h").empty());
     CHECK(found("Archive.h").empty());
+    folder.write("lib/Port.cpp", "namespace robot {\nvoid addPort(const char* name) {\n}\n}\n");
+    folder.write("lib/Port.h", "namespace robot { void addPort(const char* name); }\n");
+    CHECK(find_definitions(checkout, "robot::addPort(char const*)") ==
+          std::vector<fs::path>{checkout / "lib/Port.cpp"});
+    CHECK(find_definitions(checkout, "robot::removePort(char const*)").empty());
     // The compiler looks for a name with "../" beside the folder that it searches.
     const auto forwards = write_forwards(
         {{"../One/Device.h", "/there/Device.h"}, {"../../../../../x.h", "/x"}}, folder.path() / "forwards");
@@ -223,8 +228,21 @@ TEST_CASE("an error about a header or a library is followed by what to do about 
     CHECK(remedy("Old.cpp:9: undefined reference to `boost::thread::join()'") == "-l boost_thread");
     CHECK_THAT(remedy("Old.cpp:9: undefined reference to `nowhere()'"), Catch::Contains("--source FILE"));
     CHECK(remedy("/usr/bin/ld: cannot find -lode: No such file or directory") == "apt install libode-dev");
-    CHECK(remedy("Old.h:1:2: error: #error define FIXED or FLOATING") ==
-          "-D NAME or -D NAME=VALUE defines what it asks for");
+    const auto header =
+        folder
+            .write("Old/arch.h", "#ifndef ARCH_H\n#define ARCH_H\n#ifdef FIXED\n#ifdef SSE\n"
+                                 "#error not with SSE\n#endif\n#elif defined( FAST ) // quick\n"
+                                 "#else\n#ifdef LOG\n#endif\n#error neither\n#endif\n"
+                                 "#ifndef SIZE\n#error no SIZE\n#endif\n#endif\n")
+            .string();
+    CHECK(remedy(header + ":5:2: error: #error not with SSE").empty());
+    CHECK(remedy(header + ":11:2: error: #error neither") == "-D FIXED, or -D FAST");
+    CHECK(remedy(header + ":14:2: error: #error no SIZE") == "-D SIZE");
+    CHECK(remedy("Old.h:1:2: error: 'DWORD' does not name a type") ==
+          "DWORD is a name of Windows; -D DWORD='unsigned int' stands in for it");
+    CHECK(remedy("Old.h:1:2: error: \u2018TRUE\u2019 was not declared in this scope; did you mean "
+                 "\u2018true\u2019?") == "TRUE is a name of Windows; -D TRUE=1 stands in for it");
+    CHECK(remedy("Old.h:1:2: error: 'MINE' does not name a type").empty());
     CHECK(remedy("Old.cpp:9:3: error: expected ';' before '}' token").empty());
     CHECK(dropped_by_opencv("a.cpp:1:2: error: \u2018cvHaarDetectObjects\u2019 was not declared") ==
           "cvHaarDetectObjects");

@@ -208,6 +208,14 @@ TEST_CASE(
                                  Catch::Contains("neighbour/Gain.h\n") &&
                                  Catch::Contains("Device_V1.0/Device.h\n"));
     CHECK(std::count(built.errors.begin(), built.errors.end(), '\n') == 2);
+    folder.write("neighbour/Gain.h", "double gain();\n");
+    folder.write("neighbour/Gain.cpp", "#include \"Gain.h\"\ndouble gain() { return 3; }\n");
+    const auto unlinked = build({folder.path() / "Old"}).errors;
+    const auto options = unlinked.find("--source Helper.cpp --source Old.cpp --source ");
+    INFO(unlinked);
+    REQUIRE(options != std::string::npos);
+    CHECK_THAT(unlinked, Catch::Contains("a source of this repository defines it:") &&
+                             Catch::Contains("neighbour/Gain.cpp (the compiler's output is above)"));
     folder.write("other/Gain.h", "inline double gain() { return 4; }\n");
     const auto top = fs::canonical(folder.path()).string();
     CHECK_THAT(build({folder.path() / "Old"}).errors,

@@ -75,6 +75,17 @@ Paths find_in_checkout(const fs::path& checkout, const std::string& name) {
     return {};
 }
 
+Paths find_definitions(const fs::path& checkout, const std::string& symbol) {
+    const std::string qualified = symbol.substr(0, symbol.find('('));
+    const auto colon = qualified.rfind(':');
+    const std::string name = colon == std::string::npos ? qualified : qualified.substr(colon + 1);
+    Paths found;
+    if (checkout.empty() || name.empty()) return found;
+    for (const auto& file : list_files_below(checkout))
+        if (is_source(file) && defines_function(read_text(file), name)) found.push_back(file);
+    return distinct(found);
+}
+
 Paths folders_with(const fs::path& component_folder, const std::string& header) {
     std::error_code ignored;
     Paths possible;

@@ -22,6 +22,11 @@ bool has_upstream_api(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> find_in_checkout(const std::filesystem::path& checkout,
                                                     const std::string& name);
 
+/// The sources in the checkout that define a function, by its name as the linker writes it: with namespaces and
+/// parameters.
+std::vector<std::filesystem::path> find_definitions(const std::filesystem::path& checkout,
+                                                    const std::string& symbol);
+
 /// The folders that the compiler would find the header in, were they named with -I: in the checkout, else beside the
 /// component's folder.
 std::vector<std::filesystem::path> folders_with(const std::filesystem::path& component_folder,

@@ -63,7 +63,7 @@ Variables read_make_variables(const fs::path& file) {
 
 bool is_makefile(const fs::path& file) {
     const auto name = to_lower(file.filename().string());
-    return name.rfind("makefile", 0) == 0 && name.find(".in") == std::string::npos;
+    return name.rfind("makefile", 0) == 0 && !name.ends_with(".in");
 }
 
 // Whether a file is left out of all configurations of a Visual C++ project.

@@ -2,6 +2,7 @@
 #include "apps/tandem/build/folder/source_text.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <set>
@@ -19,6 +20,8 @@ bool is_passed_over(const fs::path& folder) {
     return name.empty() || name[0] == '.' || name == "mfc" || name == "debug" || name == "release" ||
            name.rfind("build", 0) == 0 || name.rfind("cmake", 0) == 0;
 }
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 } // namespace
 
@@ -50,6 +53,22 @@ std::string strip_comments(std::string text) {
         if (text[i] != '\n') text[i] = ' ';
     }
     return text;
+}
+
+bool defines_function(const std::string& source, const std::string& function) {
+    const std::string text = strip_comments(source);
+    bool found = false;
+    for (std::size_t at = 0; !found && (at = text.find(function, at)) != std::string::npos;
+         at += function.size()) {
+        if (at > 0 && is_word(text[at - 1])) continue;
+        const auto open = text.find_first_not_of(" \t\r\n", at + function.size());
+        if (open == std::string::npos || text[open] != '(') continue;
+        const auto close = text.find(')', open);
+        const auto body = text.find_first_not_of(" \t\r\n", close == std::string::npos ? close : close + 1);
+        found = close != std::string::npos && body != std::string::npos && text[body] == '{';
+    }
+    return found && text.find("int main(") == std::string::npos &&
+           text.find("int main (") == std::string::npos;
 }
 
 std::string to_posix_path(std::string text) {

@@ -14,6 +14,10 @@ std::string read_text(const std::filesystem::path& file);
 /// The text of a C++ source with blanks in place of comments. Lines stay where they are.
 std::string strip_comments(std::string text);
 
+/// Whether the text of a source defines the function: its name, parameters without a ';', and a body. A source with a
+/// main() is a program of its own and does not count.
+bool defines_function(const std::string& source, const std::string& function);
+
 /// With '/' for each '\': project files and includes are often written on Windows.
 std::string to_posix_path(std::string text);
 
