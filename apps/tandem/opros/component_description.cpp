@@ -27,7 +27,7 @@ json describe_methods(ServicePortInterface& port) {
 // Null for a type that cannot cross a link, or whose own load() refuses the values of a trial.
 json signature_of(const opros_any& sample) {
     try {
-        return adaptor::value_signature(sample);
+        return wire::to_signature(adaptor::type_of(sample, {}));
     } catch (const std::exception&) {
         return nullptr;
     }
