@@ -254,10 +254,12 @@ MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
 /// from its onActivated: so it gets the time of several calls. A transition waits for a callback of the RTC, which
 /// the peer limits itself; it has a second more for its answer.
 std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) const {
+    const auto rtcs =
+        static_cast<int>(std::max<std::size_t>(peer_ports_.components.size(), 1)); // one after the other
     if (command == control::activate)
-        return std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
+        return rtcs * std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
     if (command == control::deactivate || command == control::reset)
-        return std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
+        return rtcs * std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
     return settings_.call_timeout;
 }
 

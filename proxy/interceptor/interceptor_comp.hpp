@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/manage/built_in_service.hpp"
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
-#include "proxy/interceptor/rtc_driver.hpp"
+#include "proxy/interceptor/rtc_group.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
 #include "proxy/interceptor/service/mirror_provided_port.hpp"
 #include "proxy/interceptor/service/mirror_required_port.hpp"
@@ -17,15 +18,17 @@
 #include <atomic>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace tandem::interceptor {
 
-/// The RTM side of the proxy: an ordinary RTC that shares the ports of another RTC of its manager with
-/// AdaptorComp, and activates, deactivates and resets that RTC when AdaptorComp asks for it. Its OutPort
+/// The RTM side of the proxy: an ordinary RTC that shares the ports of other RTCs of its manager with
+/// AdaptorComp, and activates, deactivates and resets these RTCs when AdaptorComp asks for it. Its OutPort
 /// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
-/// goes down. If the peer dies, the RTC is deactivated. The OPRoS components that AdaptorComp shares are RTCs of this
+/// goes down. If the peer dies, the RTCs are deactivated. The OPRoS components that AdaptorComp shares are RTCs of this
 /// manager while this component is there.
 class InterceptorComp final : public RTC::DataFlowComponentBase, private link::LinkHandler {
   public:
@@ -43,7 +46,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void create_mirror_ports(const std::vector<RtcPort>& ports);
     void create_data_mirror(const RtcPort&);
     void create_service_mirror(const RtcPort&);
-    void connect(RTC::PortBase& mirror, RTC::PortService_ptr rtc_port, const std::string& channel_key);
+    void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& channel_key);
+    void drive(RTC::RTObject_impl& rtc);
     void leave_out(const std::string& reason);
     void disconnect_all();
 
@@ -62,21 +66,25 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::string listen(std::span<const std::byte> arguments);
 
     void deactivate_if_activated_by_link();
-    void report_rtc_error();
+    void report_rtc_errors();
+    link::LinkOptions link_options() const;
     std::string channel_key(const std::string& port) const;
 
     Settings settings_;
     std::unique_ptr<link::Link> link_;
     std::unique_ptr<OprosRtcs> opros_rtcs_;
-    std::unique_ptr<RtcDriver> rtc_driver_, own_driver_; ///< rtc_driver_: nullptr without an RTC to share
+    std::unique_ptr<RtcGroup> rtcs_;
+    std::unique_ptr<RtcDriver> own_driver_;
     std::atomic<bool> activated_by_link_{false}; ///< then a peer that goes leaves it to be deactivated
-    std::atomic<bool> unreported_error_{false};  ///< the RTC went to ERROR and the peer does not know yet
+    std::mutex errors_mutex_;
+    std::set<std::string> unreported_errors_; ///< RTCs that went to ERROR of which the peer does not know yet
 
     // The mirrors: created by share_rtc_ports(), then constant until disconnect_all().
     std::vector<std::unique_ptr<RTC::PortBase>> data_ports_;
     std::map<std::string, std::unique_ptr<RTC::CorbaPort>> service_ports_;
     std::vector<std::unique_ptr<MirrorRequiredPort>> required_;
     std::vector<std::unique_ptr<MirrorProvidedPort>> provided_;
+    std::vector<BuiltInService> built_in_services_;
     std::vector<std::string> channel_keys_;  ///< registered with LinkBuffer
     std::vector<std::string> written_ports_; ///< data ports whose messages go to the peer
 

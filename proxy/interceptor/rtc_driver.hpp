@@ -25,6 +25,7 @@ class RtcDriver {
     std::string activate();
     std::string deactivate();
     std::string reset();
+    bool is_active() const { return state() == RTC::ACTIVE_STATE; }
 
   private:
     class CallbackListener;

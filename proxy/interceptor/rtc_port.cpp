@@ -6,6 +6,10 @@
 #include <rtm/InterfaceSignatures.h>
 #include <rtm/NVUtil.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
 #include <set>
 
 namespace tandem::interceptor {
@@ -69,6 +73,21 @@ link::Port service_port(const RTC::PortProfile& profile, const RTC::PortInterfac
     return port;
 }
 
+/// Puts the name of the RTC and a dot in front of each port whose name ports of several RTCs have.
+void make_names_unique(std::vector<RtcPort>& ports) {
+    const auto own_name = [](const RtcPort& port) {
+        return port.service_port.empty() ? port.entry.name : port.service_port;
+    };
+    std::map<std::string, std::set<std::string>> components; // that have a port of that name
+    for (const auto& port : ports) components[own_name(port)].insert(port.entry.component);
+    for (auto& port : ports) {
+        if (components.at(own_name(port)).size() < 2) continue;
+        const std::string prefix = port.entry.component + ".";
+        port.entry.name = prefix + port.entry.name;
+        if (!port.service_port.empty()) port.service_port = prefix + port.service_port;
+    }
+}
+
 } // namespace
 
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
@@ -89,7 +108,26 @@ std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
                 ports.push_back(
                     {service_port(profile, profile->interfaces[j]), short_name(profile), reference});
     }
+    for (auto& port : ports) port.entry.component = rtc.getInstanceName();
     return ports;
+}
+
+SharedRtcs enumerate_shared_ports(RTC::Manager& manager, std::string names) {
+    SharedRtcs shared;
+    std::replace(names.begin(), names.end(), ';', ',');
+    for (const auto& name : coil::split(names, ",", true)) {
+        auto* rtc = manager.getComponent(name.c_str());
+        if (!rtc)
+            throw std::runtime_error(
+                fmt::format("parameter 'rtc' names '{}', but there is no such RTC; create it before "
+                            "this one in manager.components.precreate",
+                            name));
+        shared.table.components.push_back({name, rtc->getTypeName()});
+        for (auto& port : enumerate_ports(*rtc)) shared.ports.push_back(std::move(port));
+    }
+    make_names_unique(shared.ports);
+    for (const auto& port : shared.ports) shared.table.ports.push_back(port.entry);
+    return shared;
 }
 
 } // namespace tandem::interceptor

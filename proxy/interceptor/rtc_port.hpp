@@ -3,9 +3,11 @@
 
 #include "proxy/link/protocol/port_table.hpp"
 
+#include <rtm/Manager.h>
 #include <rtm/RTObject.h>
 
 #include <string>
+#include <vector>
 
 namespace tandem::interceptor {
 
@@ -22,5 +24,15 @@ struct RtcPort {
 /// A data port whose type cannot cross has link::no_signature in its entry. Throws CORBA::Exception if the RTC does
 /// not answer.
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc);
+
+/// What a link shares of several RTCs.
+struct SharedRtcs {
+    std::vector<RtcPort> ports;
+    link::PortTable table; ///< of these ports
+};
+/// The ports of the RTCs of these names, which commas or, since those separate components in rtc.conf, semicolons
+/// separate. A port whose name ports of several RTCs have is called RTC.PORT. Throws as
+/// enumerate_ports(), and for a name that no RTC has.
+SharedRtcs enumerate_shared_ports(RTC::Manager& manager, std::string names);
 
 } // namespace tandem::interceptor

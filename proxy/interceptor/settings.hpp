@@ -12,7 +12,9 @@ namespace tandem::interceptor {
 /// the project describes them for users.
 struct Settings {
     std::string link; ///< `link`: the name of the link, the same as AdaptorComp's
-    std::string rtc;  ///< `rtc`: instance name of the RTC whose ports are shared; empty: none
+    std::string
+        rtc; ///< `rtc`: instance names of the RTCs whose ports are shared, see enumerate_shared_ports()
+    bool manage = false; ///< `manage`: whether the peer may use RtcManager and RtcConnector
     std::chrono::milliseconds call_timeout{1'000};    ///< `call_timeout` [ms]: of each call across the link
     std::size_t ring_bytes = std::size_t{256} * 1024; ///< `ring_kib`: of each data port
     std::size_t large_bytes = 0;                      ///< `large_kib`: longest message of a port, see README

@@ -65,6 +65,7 @@ ALLOWED = {
     "proxy/interceptor/corba": ["proxy/wire"],
     "proxy/interceptor/data": ["proxy/interceptor/corba", "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/interceptor/service": ["proxy/interceptor/corba", "proxy/link/*", "proxy/wire", "host/process"],
+    "proxy/interceptor/manage": ["proxy/link/*", "proxy/wire"],
     "proxy/interceptor/opros": ["proxy/interceptor/data", "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/interceptor": ["proxy/interceptor/*", "proxy/link/*", "proxy/wire", "host/process"],
     "plugins": [],

@@ -5,26 +5,9 @@
 
 #include <catch2/catch.hpp>
 
-#include <arpa/inet.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 using tandem::test::Result;
 
 namespace {
-
-/// A port of 127.0.0.1 that nobody listens at.
-std::string unused_port() {
-    const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    REQUIRE(bind(fd, reinterpret_cast<sockaddr*>(&address), size) == 0);
-    getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-    close(fd);
-    return std::to_string(ntohs(address.sin_port));
-}
 
 /// Two hosts, of which the OPRoS host shares its components, and `tandem rtm` for the RTM host.
 struct Shared : TwoHosts {

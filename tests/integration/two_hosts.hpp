@@ -10,12 +10,30 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include <arpa/inet.h>
 #include <fcntl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
+#include <unistd.h>
+
+/// A port of 127.0.0.1 that nobody listens at.
+inline std::string unused_port() {
+    const int fd = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    if (bind(fd, reinterpret_cast<sockaddr*>(&address), size) != 0)
+        throw std::runtime_error("no port is free");
+    getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+    close(fd);
+    return std::to_string(ntohs(address.sin_port));
+}
 
 /// The files of a bridge between TalkerComp and EchoRtc0; texts may be changed before they are used.
 class TwoHosts {
@@ -81,6 +99,18 @@ class TwoHosts {
         connections_.clear();
         interceptor_.clear();
     }
+    /// One more RTC, created after the others.
+    void add_rtc(const std::string& type) {
+        rtc_properties_ += ", " + type;
+        if (type != rtc_) modules_ += type + ".so, ";
+    }
+    /// A third host, with an rtc.conf of these lines.
+    void start_another_rtm(const std::string& port, const std::string& lines) {
+        std::ofstream(folder_ / "other.conf")
+            << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\n"
+            << lines;
+        start("other", {RTM_HOST, "-f", (folder_ / "other.conf").string(), "-p", port});
+    }
     /// rtm_host's manager is at this port of 127.0.0.1.
     void set_manager_port(const std::string& port) { manager_port_ = port; }
     /// More arguments of both hosts.
@@ -127,7 +157,7 @@ class TwoHosts {
         std::ofstream(folder_ / "rtc.conf")
             << "naming.enable: NO\nlogger.enable: NO\nmanager.shutdown_auto: NO\nexec_cxt.periodic.rate: "
                "100\n"
-            << "manager.modules.preload: " << rtc_ << ".so, InterceptorComp.so\n"
+            << "manager.modules.preload: " << rtc_ << ".so, " << modules_ << "InterceptorComp.so\n"
             << "manager.components.precreate: " << (has_rtc ? rtc_ + rtc_properties_ + ", " : "")
             << "InterceptorComp?link=" << link_ << (has_rtc ? "&" + interceptor_ : "") << "\n"
             << rtc_conf_more_;
@@ -193,7 +223,7 @@ class TwoHosts {
     std::filesystem::path folder_;
     std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
                                      interceptor_ = "rtc=EchoRtc0", rtc_conf_more_, rtc_properties_,
-                                     components_, adaptor_properties_, manager_port_;
+                                     components_, adaptor_properties_, manager_port_, modules_;
     bool strict_ = true;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::process::ChildProcess> hosts_;

@@ -75,14 +75,12 @@ std::vector<Sharing> take_sharings(coil::Properties& config) {
 }
 
 link::PortTable shared_table(RTC::Manager& manager, const Sharing& sharing) {
-    if (sharing.rtc.empty()) return {}; // it only shows OPRoS components
-    auto* rtc = manager.getComponent(sharing.rtc.c_str());
-    if (!rtc)
-        throw RTC::ManagerError("manager.components.precreate: InterceptorComp's 'rtc' names '" +
-                                sharing.rtc + "', but no such RTC is created before it");
-    link::PortTable table{{{sharing.rtc}}, {}};
-    for (auto& port : interceptor::enumerate_ports(*rtc)) table.ports.push_back(std::move(port.entry));
-    return table;
+    try {
+        return interceptor::enumerate_shared_ports(manager, sharing.rtc).table;
+    } catch (const std::runtime_error& error) {
+        throw RTC::ManagerError(std::string("manager.components.precreate: InterceptorComp's ") +
+                                error.what());
+    }
 }
 
 void serve_conf(const plugin::ProbeTask& task, plugin::ProbeReport& report) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef TANDEM_RTCCONNECTORREQUIRED_H_
+#define TANDEM_RTCCONNECTORREQUIRED_H_
+
+#include <RequiredMethod.h>
+#include <RequiredServicePort.h>
+
+#include <string>
+#include <vector>
+
+/// The service RtcConnector of an AdaptorComp, whose InterceptorComp has `manage=yes`. A port is an RTC as in
+/// RtcManagerRequired.h, a dot and the port's name. Each method throws MethodInvokeException when it was not done.
+class RtcConnectorRequired : public RequiredServicePort {
+  public:
+    typedef std::vector<std::string> Names;
+
+    RtcConnectorRequired() {
+        m_connect = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcConnectorRequired::connect, "connect")));
+        m_disconnect = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcConnectorRequired::disconnect, "disconnect")));
+        m_connections = reinterpret_cast<RequiredMethod<Names>*>(
+            add(makeRequiredMethod(&RtcConnectorRequired::connections, "connections")));
+    }
+
+    /// `properties`: KEY=VALUE each, as `subscription_type=new`.
+    void connect(std::string from, std::string to, Names properties) { (*m_connect)(from, to, properties); }
+    /// Ends all connections between the two ports.
+    void disconnect(std::string from, std::string to) { (*m_disconnect)(from, to); }
+    /// The names of the ports that it is connected with.
+    Names connections(std::string port) { return (*m_connections)(port); }
+
+  private:
+    Method* add(Method* method) {
+        addMethod(method->getName(), method);
+        return method;
+    }
+    RequiredMethod<void>* m_connect;
+    RequiredMethod<void>* m_disconnect;
+    RequiredMethod<Names>* m_connections;
+};
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef TANDEM_RTCMANAGERREQUIRED_H_
+#define TANDEM_RTCMANAGERREQUIRED_H_
+
+#include <RequiredMethod.h>
+#include <RequiredServicePort.h>
+
+#include <string>
+#include <vector>
+
+/// The service RtcManager of an AdaptorComp, whose InterceptorComp has `manage=yes`. A manager is an empty text, for the
+/// one of the RTM host behind the link, or HOST:PORT. An RTC is `Name0` there, rtcname://HOST:PORT/CONTEXT/Name0.rtc or
+/// rtcloc://HOST:PORT/Name0. Each method throws MethodInvokeException, one line, when it was not done.
+class RtcManagerRequired : public RequiredServicePort {
+  public:
+    typedef std::vector<std::string> Names;
+
+    RtcManagerRequired() {
+        m_load = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::load, "load")));
+        m_create = reinterpret_cast<RequiredMethod<std::string>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::create, "create")));
+        m_list = reinterpret_cast<RequiredMethod<Names>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::list, "list")));
+        m_configure = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::configure, "configure")));
+        m_activate = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::activate, "activate")));
+        m_deactivate = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::deactivate, "deactivate")));
+        m_reset = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::reset, "reset")));
+        m_state = reinterpret_cast<RequiredMethod<std::string>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::state, "state")));
+        m_exit = reinterpret_cast<RequiredMethod<void>*>(
+            add(makeRequiredMethod(&RtcManagerRequired::exit, "exit")));
+    }
+
+    /// Loads a module (a library) with component types.
+    void load(std::string manager, std::string module) { (*m_load)(manager, module); }
+    /// Creates an RTC, `Type` or `Type?key=value&...`. Returns the name by which the methods below know it.
+    std::string create(std::string manager, std::string type) { return (*m_create)(manager, type); }
+    /// The names of the manager's RTCs.
+    Names list(std::string manager) { return (*m_list)(manager); }
+    /// Sets a parameter of the active configuration set.
+    void configure(std::string rtc, std::string parameter, std::string value) {
+        (*m_configure)(rtc, parameter, value);
+    }
+    void activate(std::string rtc) { (*m_activate)(rtc); }
+    void deactivate(std::string rtc) { (*m_deactivate)(rtc); }
+    void reset(std::string rtc) { (*m_reset)(rtc); }
+    /// INACTIVE, ACTIVE or ERROR, in the first execution context.
+    std::string state(std::string rtc) { return (*m_state)(rtc); }
+    void exit(std::string rtc) { (*m_exit)(rtc); }
+
+  private:
+    Method* add(Method* method) {
+        addMethod(method->getName(), method);
+        return method;
+    }
+    RequiredMethod<void>* m_load;
+    RequiredMethod<std::string>* m_create;
+    RequiredMethod<Names>* m_list;
+    RequiredMethod<void>* m_configure;
+    RequiredMethod<void>* m_activate;
+    RequiredMethod<void>* m_deactivate;
+    RequiredMethod<void>* m_reset;
+    RequiredMethod<std::string>* m_state;
+    RequiredMethod<void>* m_exit;
+};
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// InterceptorComp: what it does when the peer connects, disconnects and calls.
+#include "proxy/interceptor/interceptor_comp.hpp"
+#include "proxy/link/protocol/control.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace tandem::interceptor {
+namespace control = link::control;
+using link::CallStatus;
+using link::Reply;
+
+namespace {
+
+// What the other process shares costs memory and names in this one.
+constexpr std::size_t max_shown_components = 256;
+
+} // namespace
+
+/// Refuses a table that has a port of the same name, because the channels of both share one segment.
+std::string InterceptorComp::check_peer_ports(link::PortTable& peer) {
+    for (const auto& port : peer.ports)
+        if (std::find(channel_keys_.begin(), channel_keys_.end(), channel_key(port.name)) !=
+            channel_keys_.end())
+            return fmt::format(
+                "link '{}': both sides share a port '{}'; rename the OPRoS component or the RTC",
+                settings_.link, port.name);
+    if (peer.components.size() > max_shown_components)
+        return fmt::format("link '{}': the peer shares {} components, at most {} are shown as RTCs",
+                           settings_.link, peer.components.size(), max_shown_components);
+    opros_rtcs_->set_peer_table(peer);
+    return "";
+}
+
+void InterceptorComp::link_state_changed(bool up) {
+    if (up) spdlog::info("{}: link '{}' is up", getInstanceName(), settings_.link);
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    link_state_.tm.sec = static_cast<CORBA::ULong>(now.tv_sec);
+    link_state_.tm.nsec = static_cast<CORBA::ULong>(now.tv_nsec);
+    // Both sides stamp with CLOCK_MONOTONIC, which all processes of a machine share: the times can be compared.
+    link_state_.data.length(3);
+    link_state_.data[0] = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    link_state_.data[1] = static_cast<double>(++link_state_sequence_);
+    link_state_.data[2] = up ? 1.0 : 0.0;
+    link_state_out_.write();
+}
+
+void InterceptorComp::peer_disconnected() {
+    opros_rtcs_->peer_lost();
+    deactivate_if_activated_by_link();
+}
+
+void InterceptorComp::deactivate_if_activated_by_link() {
+    // An RTC that somebody else has activated keeps running: it does not depend on the link.
+    if (!activated_by_link_.exchange(false)) return;
+    const std::string error = rtcs_->deactivate();
+    if (!error.empty()) spdlog::error("{}: {}", getInstanceName(), error);
+}
+
+Reply InterceptorComp::serve(const link::Request& request) {
+    if (request.port.empty()) return execute_command(request);
+    for (auto& port : provided_)
+        if (port->port().name == request.port) return port->serve(request);
+    for (const auto& service : built_in_services_)
+        if (service.port().name == request.port) return service.serve(request);
+    return Reply::failure(CallStatus::no_such_operation, "no such service port");
+}
+
+Reply InterceptorComp::execute_command(const link::Request& request) {
+    std::string error;
+    if (request.operation == control::activate) {
+        error = activate();
+    } else if (request.operation == control::deactivate) {
+        error = rtcs_->deactivate();
+        activated_by_link_ = false;
+    } else if (request.operation == control::reset) {
+        error = rtcs_->reset();
+    } else if (request.operation == control::state) {
+        error = receive_state(request);
+    } else if (request.operation == control::bind) {
+        error = bind(request.arguments);
+    } else if (request.operation == control::listen) {
+        error = listen(request.arguments);
+    } else {
+        return Reply::failure(CallStatus::no_such_operation, "unknown command");
+    }
+    return error.empty() ? Reply{} : Reply::failure(CallStatus::exception, error);
+}
+
+std::string InterceptorComp::activate() {
+    // Set first, so that peer_disconnected() sees it when the peer dies meanwhile.
+    activated_by_link_ = true;
+    // This component before the RTC, which may send and call through the mirrors from its onActivated on.
+    std::string error = own_driver_->activate();
+    if (error.empty()) error = rtcs_->activate();
+    if (!error.empty()) activated_by_link_ = false;
+    // The peer may have gone before the RTC was active: then nobody else deactivates it.
+    if (!link_->is_up()) deactivate_if_activated_by_link();
+    return error;
+}
+
+std::string InterceptorComp::receive_state(const link::Request& request) {
+    try {
+        opros_rtcs_->receive_state(request);
+        return "";
+    } catch (const link::LinkError& error) {
+        return error.what();
+    }
+}
+
+std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
+    try {
+        const auto binding = control::decode_service_binding(arguments);
+        for (auto& port : required_)
+            if (port->port().name == binding.port) return port->bind(binding);
+        return fmt::format("there is no required service port '{}'", binding.port);
+    } catch (const std::runtime_error& error) { // damaged binding, malformed signature
+        return error.what();
+    }
+}
+
+/// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
+std::string InterceptorComp::listen(std::span<const std::byte> arguments) {
+    try {
+        const auto names = control::decode_port_names(arguments);
+        for (const auto& port : written_ports_)
+            link_->writer(port).set_peer_listens(std::find(names.begin(), names.end(), port) != names.end());
+        return "";
+    } catch (const link::LinkError& error) {
+        return error.what();
+    }
+}
+
+void InterceptorComp::peer_connected() {
+    opros_rtcs_->peer_connected();
+    report_rtc_errors(); // there may have been no peer when an RTC went to ERROR
+}
+
+/// What the peer has not been told, peer_connected() tries again. [task-thread]
+void InterceptorComp::report_rtc_errors() {
+    std::set<std::string> names;
+    {
+        const std::lock_guard lock(errors_mutex_);
+        names.swap(unreported_errors_);
+    }
+    for (const auto& name : names) {
+        const auto text = control::encode_string(fmt::format("RTC '{}' went to ERROR", name));
+        if (link_->call({"", control::failed, "", text}, settings_.call_timeout).status == CallStatus::ok)
+            continue;
+        const std::lock_guard lock(errors_mutex_);
+        unreported_errors_.insert(name);
+    }
+}
+
+} // namespace tandem::interceptor

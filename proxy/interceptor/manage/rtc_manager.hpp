@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/interceptor/manage/built_in_service.hpp"
+
+#include <rtm/Manager.h>
+
+namespace tandem::interceptor {
+
+/// The service RtcManager: load, create, list, configure, activate, deactivate, reset, exit, state. `manager` must
+/// outlive it.
+BuiltInService make_rtc_manager(RTC::Manager& manager);
+
+} // namespace tandem::interceptor

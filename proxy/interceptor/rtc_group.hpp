@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/interceptor/rtc_driver.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tandem::interceptor {
+
+/// The RTCs behind one link, driven together, in the order in which they were added, and deactivated in the reverse
+/// order. Each function but add() returns an empty string or an error of one line. [any-thread] but add()
+class RtcGroup {
+  public:
+    /// `on_error` as for RtcDriver. Throws std::runtime_error.
+    void add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, std::function<void()> on_error);
+    /// If one cannot be activated, those that this call has activated are deactivated again.
+    std::string activate();
+    std::string deactivate();
+    /// Resets those that are in ERROR.
+    std::string reset();
+
+  private:
+    std::vector<std::unique_ptr<RtcDriver>> drivers_;
+};
+
+} // namespace tandem::interceptor

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Several RTCs behind one link.
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+TEST_CASE("ports of several RTCs have the name of their RTC in front where names clash") {
+    TwoHosts hosts;
+    hosts.add_rtc("EchoRtc");
+    hosts.add_rtc("ServoRtc");
+    hosts.set_interceptor("rtc=EchoRtc0;EchoRtc1;ServoRtc0");
+    hosts.set_connections(
+        TwoHosts::connection("data", "Talker", "word", "Adaptor", "EchoRtc1.word") +
+        TwoHosts::connection("data", "Adaptor", "EchoRtc1.reply", "Talker", "reply") +
+        TwoHosts::connection("service", "Talker", "dictionary", "Adaptor", "EchoRtc0.dictionary") +
+        TwoHosts::connection("data", "Adaptor", "out", "Motor", "speed"));
+    hosts.add_component("Motor", "MotorComp");
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("rtm", "sharing 14 ports of EchoRtc0, EchoRtc1, ServoRtc0 on link"));
+    CHECK(hosts.says("opros", "reply: hello 5 "));
+    CHECK(hosts.says("opros", "pages: 2 last 5"));
+    CHECK(hosts.says("opros", "Motor torque 2.")); // the port of the only RTC that has one of this name
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("an error of one of several RTCs is named") {
+    TwoHosts hosts;
+    hosts.set_rtc("ServoRtc");
+    hosts.add_rtc("ServoRtc");
+    hosts.append_to_rtc_conf("test.ServoRtc1.conf.default.fails: 1\n");
+    hosts.set_interceptor("rtc=ServoRtc0;ServoRtc1");
+    hosts.set_connections("");
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "Adaptor: RTC 'ServoRtc1' went to ERROR"));
+    CHECK(hosts.stop("rtm") == 0);
+}
