@@ -91,6 +91,7 @@ int run(const Options& options) {
     const auto results =
         options.acceptance ? check_acceptance(limits, report) : std::vector<AcceptanceResult>{};
     fmt::print("{}", table_text(report));
+    fmt::print("{}", path_text(report, options.path_functions));
     if (options.acceptance) fmt::print("\n{}", acceptance_text(results));
     if (!options.compare.empty()) fmt::print("\n{}", compare_text(before, report));
     if (!options.json.empty()) write_file(options.json, to_json(report));

@@ -28,6 +28,8 @@ Options read_options(int argc, char** argv, int& exit_code) {
     // --bar is the former name of the option; scripts may still use it.
     app.add_flag("--acceptance,--bar", options.acceptance,
                  "Measure the cases with acceptance limits, and print value, limit, pass or FAIL");
+    app.add_flag("--path-functions", options.path_functions,
+                 "With the cases of path: name the functions, with the instructions that each takes");
     app.add_flag("--quiet", options.quiet, "No progress on stderr");
     // CLI11 reports errors and --help by exceptions; exit() prints them.
     exit_code = -1;

@@ -7,7 +7,7 @@ namespace tandem::bench {
 
 struct Options {
     std::string only, json, html, compare;
-    bool list = false, quick = false, acceptance = false, quiet = false;
+    bool list = false, path_functions = false, quick = false, acceptance = false, quiet = false;
     int runs = 0;           ///< 0: one, or five with --acceptance
     std::vector<int> cores; ///< of A and B; empty: the first two that are allowed
 };

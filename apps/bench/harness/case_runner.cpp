@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <mqueue.h>
+#include <sstream>
 #include <sys/mman.h>
 #include <system_error>
 #include <thread>
@@ -129,6 +130,9 @@ Outcome run_case(const Case& bench_case, const Budget& budget, const Cores& core
     for (const char* text : control.failure) // says more than "side A failed"
         if (*text != '\0') outcome.failure = text;
     if (control.has_tick_counts) outcome.tick_counts = control.tick_counts;
+    if (control.has_path_counts) outcome.path_counts = control.path_counts;
+    std::istringstream functions(control.path_functions);
+    for (std::string line; std::getline(functions, line);) outcome.path_functions.push_back(line);
     if (outcome.failure.empty())
         outcome.samples.assign(control.samples(), control.samples() + control.sample_count.load());
     return outcome;

@@ -24,6 +24,9 @@ void add_rtm_cases(Registry& registry);
 void add_stream_cases(Registry& registry);
 void add_wheelchair_cases(Registry& registry);
 
+// path/
+void add_path_cases(Registry& registry);
+
 /// peers/: the cases of the peers that this build has, and the names of the others with the reason.
 void add_peer_cases(Registry& registry);
 

@@ -24,6 +24,9 @@ class ForkedChildren {
         children_.emplace_back(child);
     }
 
+    /// Of the child that was started last.
+    pid_t last_pid() const { return children_.back().pid(); }
+
     /// Waits until all have ended, at most `seconds`. Returns the first failure (an exit code other than 0, a
     /// signal, the timeout, an interrupt) in one line, or an empty string.
     std::string wait(double seconds);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/bench/harness/session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -28,6 +29,17 @@ void Session::add_result(double value) {
     const std::size_t index = control_.sample_count.load(std::memory_order_relaxed);
     control_.samples()[index] = value;
     control_.sample_count.store(index + 1, std::memory_order_release);
+}
+
+void Session::set_path(const PathCounts& counts, const std::vector<std::string>& functions) {
+    std::string listing;
+    for (const std::string& function : functions) {
+        if (listing.size() + function.size() + 2 > Control::listing_bytes) break;
+        listing += function + "\n";
+    }
+    std::copy(listing.begin(), listing.end(), control_.path_functions); // zero behind it
+    control_.path_counts = counts;
+    control_.has_path_counts = true;
 }
 
 } // namespace tandem::bench

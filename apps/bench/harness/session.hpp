@@ -3,12 +3,15 @@
 // where its samples go.
 #pragma once
 #include "apps/bench/harness/case.hpp"
+#include "apps/bench/harness/path_counts.hpp"
 #include "apps/bench/harness/tick_record.hpp"
 #include "apps/bench/machine/clock.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace tandem::bench {
 
@@ -24,13 +27,16 @@ struct Budget {
 
 /// Memory that the driver and both sides share; zero at first. The samples follow it, as many as the budget says.
 struct Control {
-    static constexpr std::size_t text_bytes = 400;
+    static constexpr std::size_t text_bytes = 400, listing_bytes = 32768;
     std::atomic<std::uint32_t> arrivals;       ///< calls of arrive_and_wait() of both sides
     std::atomic<std::uint32_t> stop_requested; ///< 0 or 1
     std::atomic<std::uint64_t> sample_count;
     char failure[2][text_bytes]; ///< of A and of B; empty if it went well
     bool has_tick_counts;
     TickCounts tick_counts;
+    bool has_path_counts;
+    PathCounts path_counts;
+    char path_functions[listing_bytes]; ///< one line each
     double* samples() { return reinterpret_cast<double*>(this + 1); }
 };
 
@@ -80,6 +86,9 @@ class Session {
         control_.tick_counts = counts;
         control_.has_tick_counts = true;
     }
+
+    /// What a message takes, and its functions, one line each; the last ones are left out if there is no room.
+    void set_path(const PathCounts& counts, const std::vector<std::string>& functions);
 
     /// The reader of a stream asks the writer to stop.
     void request_stop() { control_.stop_requested.store(1, std::memory_order_release); }

@@ -59,6 +59,14 @@ Json row_json(const Row& row, const Machine& machine) {
         out["overruns"] = row.tick_counts->overruns;
         out["periods_skipped"] = row.tick_counts->skipped;
     }
+    if (row.path_counts)
+        out["path"] = {{"instructions", row.path_counts->instructions},
+                       {"code_lines", row.path_counts->code_lines},
+                       {"code_pages", row.path_counts->code_pages},
+                       {"allocations", row.path_counts->allocations},
+                       {"locked", row.path_counts->locked},
+                       {"system_calls", row.path_counts->system_calls},
+                       {"functions", row.path_functions}};
     return out;
 }
 
@@ -95,6 +103,12 @@ Row row_from(const Json& in) {
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
     if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
+    if (in.contains("path")) {
+        const Json& path = in.at("path");
+        row.path_counts = {path.at("instructions"), path.at("code_lines"), path.at("code_pages"),
+                           path.at("allocations"),  path.at("locked"),     path.at("system_calls")};
+        row.path_functions = path.at("functions");
+    }
     return row;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report of one measurement: a row for each case, and the machine. It is written and read as JSON.
 #pragma once
+#include "apps/bench/harness/path_counts.hpp"
 #include "apps/bench/harness/summary.hpp"
 #include "apps/bench/harness/tick_record.hpp"
 
@@ -20,8 +21,11 @@ struct Row {
     Summary summary;                       ///< median over the runs
     std::vector<double> runs;              ///< p50 of each run, in order; NaN where that run failed
     std::optional<TickCounts> tick_counts; ///< of cases that tick, over all runs
-    double foreign_cpu_share = 0;          ///< the largest share of the machine that others used in a run
-    std::string skipped;                   ///< why there are no figures; empty if there are
+    std::optional<PathCounts> path_counts; ///< of the last run of a case that counts instructions
+    std::vector<std::string>
+        path_functions;           ///< "118 libc.so.6 malloc": instructions of that run, library, function
+    double foreign_cpu_share = 0; ///< the largest share of the machine that others used in a run
+    std::string skipped;          ///< why there are no figures; empty if there are
 
     bool higher_is_better() const { return unit != "ns" && unit != "count"; }
     /// A paced message counts from when it was due, so that a stall is not hidden.

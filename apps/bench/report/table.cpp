@@ -59,4 +59,22 @@ std::string table_text(const Report& report) {
     return out;
 }
 
+std::string path_text(const Report& report, bool functions) {
+    std::string out;
+    for (const Row& row : report.rows) {
+        if (!row.path_counts) continue;
+        const PathCounts& counts = *row.path_counts;
+        if (out.empty() || functions)
+            out +=
+                fmt::format("\n{:<44} {:>12} {:>10} {:>10} {:>7} {:>6} {:>12}\n", "one warm message or call",
+                            "instructions", "code lines", "code pages", "mallocs", "locked", "system calls");
+        out += fmt::format("{:<44} {:>12} {:>10} {:>10} {:>7} {:>6} {:>12}\n", row.id, counts.instructions,
+                           counts.code_lines, counts.code_pages, counts.allocations, counts.locked,
+                           counts.system_calls);
+        if (functions)
+            for (const std::string& line : row.path_functions) out += "  " + line + "\n";
+    }
+    return out;
+}
+
 } // namespace tandem::bench

@@ -10,4 +10,8 @@ std::string table_text(const Report& report);
 /// Four significant digits, at most three after the point, no exponent.
 std::string figure_text(double value);
 
+/// The rows that count instructions once more, with all that was counted, and the functions if `functions`; empty if
+/// there are none.
+std::string path_text(const Report& report, bool functions);
+
 } // namespace tandem::bench

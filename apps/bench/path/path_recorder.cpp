@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/bench/path/path_recorder.hpp"
+
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace tandem::bench {
+
+namespace {
+
+/// The mark of success of an operation.
+PathMark end_of(PathMark begin) {
+    if (begin == PathMark::send_begin) return PathMark::send_end;
+    return begin == PathMark::receive_begin ? PathMark::receive_end : PathMark::call_end;
+}
+
+void require_end(PathMark reached, PathMark begin) {
+    if (reached != end_of(begin))
+        throw std::runtime_error(fmt::format("the traced operation has failed: mark {} instead of {}; the "
+                                             "link broke off, or a message was lost",
+                                             static_cast<int>(reached), static_cast<int>(end_of(begin))));
+}
+
+} // namespace
+
+PathTrace PathRecorder::best_of(const std::function<PathTrace()>& attempt) const {
+    PathTrace best = attempt();
+    for (int i = 1; i < attempts; ++i) {
+        PathTrace again = attempt();
+        if (again.counts().instructions < best.counts().instructions) best = std::move(again);
+    }
+    return best;
+}
+
+/// Lets a thread do its operation at full speed. True if it succeeded.
+bool PathRecorder::pass(PathMark begin, PathMark end) {
+    const pid_t thread = tracer_.wait_at(begin);
+    tracer_.resume(thread);
+    const bool succeeded = tracer_.wait_for(thread) == end;
+    tracer_.resume(thread);
+    return succeeded;
+}
+
+void PathRecorder::warm_up_data() {
+    for (int received = 0; received < warm_up_rounds;) { // nothing arrives until the link is up
+        pass(PathMark::send_begin, PathMark::send_end);
+        if (pass(PathMark::receive_begin, PathMark::receive_end)) ++received;
+    }
+}
+
+/// Steps the thread that stands at `begin` until its operation has ended, and lets it go on.
+PathTrace PathRecorder::step_to_end(PathMark begin, const std::function<void()>& after_each_step) {
+    const pid_t thread = tracer_.wait_at(begin);
+    PathTrace trace(thread);
+    tracer_.freeze_others(thread, workers_);
+    for (;;) {
+        const user_regs_struct registers = tracer_.registers(thread);
+        tracer_.begin_step(thread);
+        const PathMark reached = tracer_.wait_for(thread);
+        if (reached == PathMark::none) {
+            trace.add(registers);
+            after_each_step();
+        } else if (reached != PathMark::served) { // which a local call passes
+            tracer_.thaw();
+            tracer_.resume(thread);
+            require_end(reached, begin);
+            return trace;
+        }
+    }
+}
+
+PathTrace PathRecorder::record_sender() {
+    warm_up_data();
+    return best_of([this] {
+        PathTrace trace = step_to_end(PathMark::send_begin, [] {});
+        pass(PathMark::receive_begin, PathMark::receive_end);
+        return trace;
+    });
+}
+
+PathTrace PathRecorder::record_receiver() {
+    warm_up_data();
+    return best_of([this] {
+        pass(PathMark::send_begin, PathMark::send_end);
+        return step_to_end(PathMark::receive_begin, [] {});
+    });
+}
+
+/// One call at full speed; remembers who has served it. True if it succeeded.
+bool PathRecorder::call_once() {
+    const pid_t caller = tracer_.wait_at(PathMark::call_begin);
+    tracer_.resume(caller);
+    for (;;) {
+        const pid_t thread = tracer_.wait_for_any();
+        const PathMark reached = tracer_.mark_of(thread);
+        tracer_.resume(thread);
+        if (reached == PathMark::served) workers_.insert(thread);
+        if (thread == caller && reached != PathMark::served) return reached == PathMark::call_end;
+    }
+}
+
+void PathRecorder::warm_up_calls() {
+    for (int answered = 0; answered < warm_up_rounds;)
+        if (call_once()) ++answered;
+}
+
+PathTrace PathRecorder::record_local_call() {
+    warm_up_calls();
+    return best_of([this] { return step_to_end(PathMark::call_begin, [] {}); });
+}
+
+PathTrace PathRecorder::record_caller() {
+    warm_up_calls();
+    tracer_.ignore(PathMark::served);
+    return best_of([this] {
+        tracer_.wait_at(PathMark::call_begin);
+        tracer_.wait_until_asleep(workers_); // the call has to wake one
+        return step_to_end(PathMark::call_begin, [this] { tracer_.wait_until_asleep(workers_); });
+    });
+}
+
+PathTrace PathRecorder::record_worker() {
+    warm_up_calls();
+    return best_of([this] { return step_worker(tracer_.wait_at(PathMark::call_begin)); });
+}
+
+PathTrace PathRecorder::step_worker(pid_t caller) {
+    tracer_.wait_until_asleep(workers_);
+    // Whichever of them is woken: each sleeps in the system call that it steps.
+    std::map<pid_t, PathTrace> traces;
+    for (const pid_t worker : workers_) {
+        tracer_.interrupt(worker);
+        traces.try_emplace(worker, worker);
+        tracer_.begin_step(worker);
+    }
+    tracer_.freeze_others(*workers_.begin(), workers_);
+    tracer_.resume(caller);
+    pid_t server_thread = 0;
+    while (!tracer_.stands_still(caller)) {
+        const pid_t thread = tracer_.wait_for_any();
+        if (thread == caller) break;
+        const PathMark reached = tracer_.mark_of(thread);
+        if (reached == PathMark::served) server_thread = thread;
+        // The caller may find its reply now; the worker's next instruction would be executed after the call.
+        tracer_.wait_until_asleep({caller});
+        if (tracer_.stands_still(caller)) break;
+        const user_regs_struct registers = tracer_.registers(thread);
+        tracer_.begin_step(thread);
+        // A thread that stands at a mark after begin_step() has executed nothing.
+        if (!tracer_.stands_still(thread)) traces.at(thread).add(registers);
+    }
+    const PathMark reached = tracer_.mark_of(caller);
+    tracer_.thaw();
+    for (const pid_t worker : workers_) {
+        tracer_.wait_for(worker);
+        tracer_.resume(worker);
+    }
+    tracer_.resume(caller);
+    require_end(reached, PathMark::call_begin);
+    if (server_thread == 0)
+        throw std::runtime_error("the call was served by a thread that had served none before");
+    return std::move(traces.at(server_thread));
+}
+
+} // namespace tandem::bench

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+#include "apps/bench/path/path_mark.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <sys/types.h>
+#include <sys/user.h>
+
+namespace tandem::bench {
+
+/// [one thread] Stops and steps the threads of other processes by ptrace(2). No wait here has a timeout: the driver
+/// kills the case that takes too long, and the kernel then kills the traced processes.
+class Tracer {
+  public:
+    Tracer() = default;
+    ~Tracer(); ///< kills the traced processes and reaps them
+    Tracer(const Tracer&) = delete;
+    Tracer& operator=(const Tracer&) = delete;
+
+    /// Traces all threads of a child process, and those that they start. Throws std::runtime_error, in one line, where
+    /// that is not permitted.
+    void attach(pid_t process);
+
+    /// From here on threads go on past this mark, instead of stopping there.
+    void ignore(PathMark mark) { ignored_.insert(mark); }
+    /// The thread that stands at the mark; waits for one. Throws std::runtime_error if a traced process ends.
+    pid_t wait_at(PathMark mark);
+    /// Waits until a thread that has been resumed or stepped stands still. Returns its mark, or none.
+    PathMark wait_for(pid_t thread);
+    /// The next thread that stands still.
+    pid_t wait_for_any();
+
+    /// [of a thread that stands still]
+    void resume(pid_t thread);
+    /// Executes the next instruction; if that is a mark, the thread stands at it at once. wait_for() ends when it is done.
+    void begin_step(pid_t thread);
+    user_regs_struct registers(pid_t thread) const;
+    PathMark mark_of(pid_t thread) const { return threads_.at(thread).mark; }
+    bool stands_still(pid_t thread) const { return threads_.at(thread).state == State::still; }
+
+    /// Stops a thread that runs or sleeps in the kernel; a system call that it interrupts is restarted.
+    void interrupt(pid_t thread);
+    /// Stops the other threads of its process, but not `exceptions`, where they sleep in the kernel: none holds a lock
+    /// then. While a thread is stepped it would meet them at locks, as it never does at full speed.
+    void freeze_others(pid_t thread, const std::set<pid_t>& exceptions);
+    /// Lets all threads go on that have been frozen.
+    void thaw();
+    /// Waits until each of these threads sleeps in the kernel or stands still.
+    void wait_until_asleep(const std::set<pid_t>& threads);
+
+  private:
+    enum class State { running, stepping, still, frozen };
+    struct Thread {
+        State state = State::running;
+        PathMark mark = PathMark::none;
+        bool interrupted = false; // interrupt() waits for its stop
+    };
+
+    void attach_thread(pid_t thread);
+    void handle(pid_t thread, int status);
+    void handle_stop(pid_t thread, int status);
+    void handle_trap(pid_t thread);
+    void continue_with(pid_t thread, int signal);
+    void wait_for_event();
+
+    std::set<pid_t> processes_;
+    std::set<PathMark> ignored_;
+    std::map<pid_t, Thread> threads_;
+};
+
+/// Copies up to `bytes` bytes of a traced process's memory. Returns how many could be read.
+std::size_t read_memory(pid_t process, std::uint64_t address, void* buffer, std::size_t bytes);
+
+} // namespace tandem::bench

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// The length of the roads in instructions: counted right, the same each time, and not longer than today.
+#include "apps/bench/harness/forked_children.hpp"
+#include "apps/bench/path/path_recorder.hpp"
+#include "apps/bench/report/report.hpp"
+#include "host/process/run_command.hpp"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace tandem::bench;
+
+namespace {
+
+/// Shared with a forked child.
+struct SharedFlag {
+    SharedFlag()
+        : memory(mmap(nullptr, sizeof(std::atomic<int>), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
+                      -1, 0)) {}
+    ~SharedFlag() { munmap(memory, sizeof(std::atomic<int>)); }
+    std::atomic<int>& value() const { return *static_cast<std::atomic<int>*>(memory); }
+    void* memory;
+};
+
+std::atomic<int> counter;
+void* volatile allocated;
+
+/// One allocation, two locked additions, one system call, as the message that a thread sends to itself.
+[[noreturn]] void run_known_operations(std::atomic<int>& traced) {
+    while (traced.load() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (;;) {
+        mark(PathMark::send_begin);
+        allocated = std::malloc(100);
+        counter.fetch_add(1);
+        counter.fetch_add(1);
+        syscall(SYS_getppid);
+        mark(PathMark::send_end);
+        std::free(allocated);
+        mark(PathMark::receive_begin);
+        mark(PathMark::receive_end);
+    }
+}
+
+/// What tandem-bench reports for the cases with this name. No rows: ptrace is not permitted here.
+std::vector<Row> measured(const std::string& only, const std::string& runs = "1") {
+    const auto file =
+        std::filesystem::temp_directory_path() / ("path-test-" + std::to_string(getpid()) + ".json");
+    const auto result = tandem::process::run_command(
+        {BENCH_PROGRAM, "--only", only, "--quick", "--quiet", "--runs", runs, "--json", file.string()});
+    INFO(result.errors);
+    REQUIRE(result.exit_code() == 0);
+    std::ifstream in(file);
+    auto rows = from_json({std::istreambuf_iterator<char>(in), {}}).rows;
+    std::filesystem::remove(file);
+    std::erase_if(rows, [](const Row& row) {
+        const bool skipped = row.skipped.find("ptrace is not permitted") != std::string::npos;
+        if (skipped) WARN(row.id << " is not checked: " << row.skipped);
+        return skipped || row.subject != "path"; // a peer that is not installed has a row, too
+    });
+    return rows;
+}
+
+} // namespace
+
+TEST_CASE("Allocations, locked instructions and system calls between two marks are counted") {
+    const SharedFlag traced;
+    ForkedChildren children;
+    children.start([&] { run_known_operations(traced.value()); });
+    Tracer tracer;
+    try {
+        tracer.attach(children.last_pid());
+    } catch (const std::runtime_error& failure) {
+        WARN(failure.what());
+        return;
+    }
+    traced.value() = 1;
+    PathTrace trace = PathRecorder(tracer).record_sender();
+    const PathCounts counts = trace.counts();
+    CHECK(counts.allocations == 1);
+    CHECK(counts.locked >= 2); // malloc() has none of its own in a process with one thread
+    CHECK(counts.system_calls == 1);
+    CHECK(counts.code_pages >= 2); // this program and the C library
+    CHECK(counts.code_lines >= counts.code_pages);
+    CHECK(counts.instructions >= counts.code_lines);
+    std::string functions;
+    for (const std::string& line : trace.functions()) functions += line + "\n";
+    CHECK_THAT(functions, Catch::Contains("libc.so.6 malloc") && Catch::Contains(" test_bench ") &&
+                              Catch::Contains(": system call " + std::to_string(SYS_getppid)));
+}
+
+TEST_CASE("A message takes the same instructions in each run") {
+    for (const Row& row : measured("path/minimal-ring,path/opros-to-rtm/48", "2")) {
+        INFO(row.id << ": " << row.skipped);
+        REQUIRE(row.runs.size() == 2);
+        CHECK(row.runs[0] == row.runs[1]);
+        REQUIRE(row.path_counts);
+        CHECK(row.path_counts->instructions == row.runs[1]);
+        if (row.group != "baseline") continue;
+        CHECK((row.path_counts->allocations == 0 && row.path_counts->locked == 0 &&
+               row.path_counts->system_calls == 0));
+    }
+}
+
+// The bounds are those of the optimized build: other presets have more code on each road.
+#ifdef TANDEM_RELEASE
+
+namespace {
+
+struct Bound {
+    const char* id;
+    std::uint32_t instructions, code_lines, code_pages, allocations, locked;
+};
+
+// To be lowered as the roads get shorter: 5 to 10 % above what they take.
+constexpr Bound bounds[] = {
+    {"tandem/path/opros-to-rtm/48/sender", 810, 76, 21, 0, 4},
+    {"tandem/path/opros-to-rtm/48/receiver", 1500, 138, 31, 0, 9},
+    {"tandem/path/opros-to-rtm/8/caller", 4510, 224, 42, 5, 11},
+    {"tandem/path/opros-to-rtm/8/worker", 7800, 462, 75, 9, 23},
+    {"tandem/path/rtm-to-opros/48/sender", 1040, 120, 29, 0, 6},
+    {"tandem/path/rtm-to-opros/48/receiver", 1450, 118, 28, 3, 7},
+    {"tandem/path/rtm-to-opros/8/caller", 6340, 388, 64, 5, 23},
+    {"tandem/path/rtm-to-opros/8/worker", 2470, 220, 44, 2, 16},
+    {"tandem/path/inside-opros/48/sender", 290, 36, 10, 0, 4},
+    {"tandem/path/inside-opros/48/receiver", 770, 64, 18, 3, 2},
+    {"tandem/path/inside-opros/8/caller", 60, 10, 4, 0, 0},
+    {"tandem/path/inside-rtm/48/sender", 440, 44, 11, 0, 6},
+    {"tandem/path/inside-rtm/48/receiver", 670, 56, 15, 0, 8},
+    {"tandem/path/inside-rtm/8/caller", 40, 10, 5, 0, 0},
+};
+
+} // namespace
+
+TEST_CASE("No side of a road has become longer") {
+    const std::vector<Row> rows = measured("tandem/path/");
+    for (const Bound& bound : bounds)
+        for (const Row& row : rows) {
+            if (row.id != bound.id) continue;
+            INFO(row.id << ": " << row.skipped << "; tandem-bench --only " << row.id << " --path-functions");
+            REQUIRE(row.path_counts);
+            CHECK(row.path_counts->instructions <= bound.instructions);
+            CHECK(row.path_counts->code_lines <= bound.code_lines);
+            CHECK(row.path_counts->code_pages <= bound.code_pages);
+            CHECK(row.path_counts->allocations <= bound.allocations);
+            CHECK(row.path_counts->locked <= bound.locked);
+            // Only a call has somebody to wake.
+            CHECK(row.path_counts->system_calls <= (row.bytes == sizeof(double) ? 1 : 0));
+        }
+    if (!rows.empty()) CHECK(rows.size() == std::size(bounds));
+}
+
+#endif
