@@ -38,7 +38,9 @@ class CdrWriter {
     template <CdrPrimitive T>
     void put(T value) {
         align(cdr_alignment<T>);
-        append(&value, sizeof(T));
+        if (vector_ || size_ + sizeof(T) > out_.size()) return append(&value, sizeof(T));
+        std::memcpy(out_.data() + size_, &value, sizeof(T)); // of known length: one store
+        size_ += sizeof(T);
     }
     void put_bool(bool value) { put<std::uint8_t>(value ? 1 : 0); }
 
@@ -56,7 +58,7 @@ class CdrWriter {
     /// Pads with zeros to a multiple of `alignment` (a power of two).
     void align(std::size_t alignment) {
         static constexpr std::byte zeros[8]{};
-        append(zeros, (0 - size_) & (alignment - 1));
+        if (const std::size_t padding = (0 - size_) & (alignment - 1)) append(zeros, padding);
     }
 
     /// False if the message is longer than the span; then size() says how long it is.

@@ -54,7 +54,7 @@ ALLOWED = {
     "proxy/wire": [],
     "proxy/link/protocol": ["proxy/wire", "shm/*"],
     "proxy/link/session": ["proxy/link/protocol", "proxy/wire", "shm/*", "host/process"],
-    "proxy/link/channel": ["proxy/link/session", "proxy/link/protocol", "proxy/wire", "shm/*", "host/process"],
+    "proxy/link/channel": ["proxy/link/session", "proxy/link/protocol", "proxy/wire", "shm/*", "host/process", "host/rt"],
     "proxy/link": ["proxy/link/*", "proxy/wire", "shm/*", "host/process"],
     "proxy/adaptor/archive": ["proxy/link/protocol", "proxy/wire"],
     "proxy/adaptor/data": ["proxy/adaptor/archive", "proxy/link/*", "proxy/wire", "host/process"],

@@ -63,7 +63,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortSour
     std::vector<std::string> refusals_;
 
     /// From next() to done(): the message's memory must not be reused while it is decoded.
-    std::unique_lock<std::mutex> channel_lock_;
+    link::ChannelReader::Lock channel_lock_;
     std::size_t message_bytes_ = 0; ///< of the last message
     process::LogThrottle undecodable_;
     std::optional<CdrIarchive> archive_;

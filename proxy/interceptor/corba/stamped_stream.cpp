@@ -14,13 +14,17 @@ std::size_t distance(const void* from, const void* to) {
     return static_cast<std::size_t>(byte_at(to) - byte_at(from));
 }
 
+// How strings are transmitted: as a memory stream learns it from the ORB. It stays the same as long as the process lives.
+const cdrStream& stream_with_code_sets() {
+    static const cdrMemoryStream stream;
+    return stream;
+}
+
 } // namespace
 
 StampedStream::StampedStream(std::span<std::byte> body) : body_(body) {
-    // Strings need the process's transmission code sets, which a memory stream takes from the ORB.
-    const cdrMemoryStream default_stream;
-    TCS_C(default_stream.TCS_C());
-    TCS_W(default_stream.TCS_W());
+    TCS_C(stream_with_code_sets().TCS_C());
+    TCS_W(stream_with_code_sets().TCS_W());
     // The peer runs on this machine: no bytes are swapped. The subclasses set the pointers of their direction.
     pd_marshal_byte_swap = pd_unmarshal_byte_swap = false;
     pd_inb_mkr = pd_inb_end = pd_outb_mkr = pd_outb_end = nullptr;
@@ -57,6 +61,10 @@ StampedOutStream::StampedOutStream(std::span<std::byte> body, bool timed) : Stam
 
 bool StampedOutStream::is_complete() const {
     return pd_outb_mkr == pd_outb_end && (!in_time_ || body_.empty());
+}
+
+std::size_t StampedOutStream::body_bytes() const {
+    return in_time_ ? 0 : distance(body_.data(), pd_outb_mkr);
 }
 
 std::uint64_t StampedOutStream::packed_time() const {

@@ -42,12 +42,14 @@ class StampedStream : public cdrStream {
     bool in_time_ = false; ///< the current position is in time_, not yet in body_
 };
 
-/// Marshals a message into `body`, whose size must be the message's exact length (without a time).
+/// Marshals a message into `body`, whose size is at least the message's length (without a time).
 class StampedOutStream final : public StampedStream {
   public:
     StampedOutStream(std::span<std::byte> body, bool timed);
     /// True if exactly as many bytes were written as there is room for.
     bool is_complete() const;
+    /// How much of the body was written.
+    std::size_t body_bytes() const;
     /// The time of a timed message, as wire::pack_time() packs it.
     std::uint64_t packed_time() const;
 

@@ -96,21 +96,42 @@ BufferStatus LinkBuffer::write_status(bool written) const {
 
 BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
+    if (!last_was_long_)
+        if (const auto status = write_short(marshal)) return *status;
+    return write_long(marshal);
+}
+
+// Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
+std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
+    std::uint64_t stamp = 0;
+    bool fits = true;
+    const bool written =
+        channel_.writer->write_record(stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
+            StampedOutStream out(room, channel_.timed);
+            fits = marshal(out);
+            if (!fits) return std::nullopt;
+            stamp = channel_.timed ? out.packed_time() : wire::wall_clock_stamp();
+            return out.body_bytes();
+        });
+    if (!fits) return std::nullopt;
+    return write_status(written);
+}
+
+// Marshals twice, the first time only for the length, to reserve exactly that in shared memory.
+BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     const cdrMemoryStream default_stream; // for its code sets, which every serializer uses
     cdrCountingStream counter(default_stream.TCS_C(), default_stream.TCS_W());
-    // First pass: only the length, to reserve exactly that.
     if (!marshal(counter)) return BufferStatus::NOT_SUPPORTED;
-    const std::size_t head = channel_.timed ? time_bytes : 0;
-    if (counter.total() < head + minInPlaceLength()) return BufferStatus::NOT_SUPPORTED;
+    const std::size_t body_bytes = counter.total() - (channel_.timed ? time_bytes : 0);
+    last_was_long_ = body_bytes > channel_.writer->longest_record();
     std::uint64_t stamp = wire::wall_clock_stamp(); // of a timed message: replaced by its own time below
     bool complete = true;
-    const bool written =
-        channel_.writer->write_sized(counter.total() - head, stamp, [&](std::span<std::byte> room) {
-            StampedOutStream out(room, channel_.timed);
-            complete = marshal(out) && out.is_complete();
-            if (channel_.timed) stamp = out.packed_time();
-            return complete;
-        });
+    const bool written = channel_.writer->write_sized(body_bytes, stamp, [&](std::span<std::byte> room) {
+        StampedOutStream out(room, channel_.timed);
+        complete = marshal(out) && out.is_complete();
+        if (channel_.timed) stamp = out.packed_time();
+        return complete;
+    });
     return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;
 }
 
@@ -127,7 +148,7 @@ BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& rea
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     BufferStatus status = BufferStatus::OK;
     const bool found = channel_.reader->read(false, [&](const shm::Record& record) {
-        read_in_place = record.bytes.size() >= minInPlaceLength();
+        read_in_place = channel_.transcoded == nullptr;
         if (!read_in_place) {
             status = copy_message(record, message);
             return;

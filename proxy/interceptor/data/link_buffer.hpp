@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,10 +43,9 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     // EMPTY at once.
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
-    // Long messages are marshalled directly into the chunk of shared memory in which they travel, and
-    // unmarshalled from there.
+    // Messages are marshalled where they travel, and unmarshalled from there, unless they cross in another form.
     std::size_t minInPlaceLength() const override {
-        return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : link::large_message_bytes;
+        return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : 0;
     }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
     RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
@@ -68,12 +68,15 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     bool full() const override { return false; }
 
   private:
+    std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal);
+    RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);
     std::span<const std::byte> transcode_to_link(std::span<const std::byte> body);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
     RTC::BufferStatus write_status(bool written) const;
 
     LinkChannel channel_;
+    bool last_was_long_ = false;        ///< the last message did not fit into a record of the ring
     RTC::ByteData last_;                ///< what get() returned last
     std::vector<std::byte> transcoded_; ///< kept for its memory
     process::LogThrottle undecodable_;

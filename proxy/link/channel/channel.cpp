@@ -51,6 +51,11 @@ bool ChannelWriter::is_bound() const {
     return bound_.has_value();
 }
 
+std::size_t ChannelWriter::longest_record() const {
+    const std::lock_guard lock(mutex_);
+    return bound_ ? bound_->ring.max_record() : 0;
+}
+
 bool ChannelWriter::corrupt() const {
     const std::lock_guard lock(mutex_);
     return bound_ && bound_->ring.corrupt();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
+#include "host/rt/short_mutex.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "shm/segment.hpp"
 
@@ -68,10 +69,26 @@ class ChannelWriter {
         return false;
     }
 
+    /// The same for a message whose length shows when it is encoded: `fill(room)` returns it, or nothing if a record
+    /// of the ring is too short for it.
+    template <class Fill>
+    bool write_record(const std::uint64_t& stamp, Fill&& fill) {
+        const std::lock_guard lock(mutex_);
+        if (!bound_) return false;
+        const std::size_t longest = bound_->ring.max_record();
+        const auto room = bound_->ring.reserve(longest);
+        if (room.data() == nullptr) return report_refusal(longest);
+        if (const std::optional<std::size_t> bytes = fill(room)) return publish(*bytes, stamp);
+        bound_->ring.cancel_reservation();
+        return false;
+    }
+
     /// Counts a message that cannot cross, as sent and dropped, and logs `why`, one line, not too often.
     void refuse(std::string_view why);
 
     bool is_bound() const;
+    /// What fits into a record of the ring, in bytes; 0 while there is none.
+    std::size_t longest_record() const;
     /// True if the ring was damaged by another process; nothing more is sent through it.
     bool corrupt() const;
 
@@ -86,7 +103,7 @@ class ChannelWriter {
     bool publish(std::size_t bytes, std::uint64_t stamp);
     bool report_refusal(std::size_t bytes);
 
-    mutable std::mutex mutex_;
+    mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingWriter>> bound_;
     const std::string port_;
     std::atomic<bool> peer_listens_{false};
@@ -117,7 +134,8 @@ class ChannelReader {
 
     /// For readers that cannot use read() because they decode the message in several calls: lock(), then
     /// read_locked(), decode, and release the lock. The record is valid as long as the lock is held.
-    std::unique_lock<std::mutex> lock() { return std::unique_lock(mutex_); }
+    using Lock = std::unique_lock<rt::ShortMutex>;
+    Lock lock() { return Lock(mutex_); }
     std::optional<shm::Record> read_locked() { return bound_ ? bound_->ring.read() : std::nullopt; }
 
     shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
@@ -126,7 +144,7 @@ class ChannelReader {
     void unbind();
 
   private:
-    mutable std::mutex mutex_;
+    mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;
 };
 

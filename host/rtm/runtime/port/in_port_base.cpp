@@ -169,7 +169,9 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
 
 InPortConnector* InPortBase::findReadable() {
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
-    return findReadableLocked("", false);
+    for (auto* connector : m_connectors)
+        if (connector->readableCount() > 0) return connector;
+    return nullptr;
 }
 
 InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {
