@@ -151,6 +151,10 @@ ReturnType AdaptorComp::onDestroy() {
 
 void AdaptorComp::create_mirror_ports() {
     const std::lock_guard lock(mutex_);
+    for (const auto& name : settings_.event_ports)
+        if (const auto* port = peer_ports_.find(name); !port || !link::is_data_port(port->kind))
+            spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}", getId(), name,
+                          peer_ports_.component_names());
     for (const auto& port : peer_ports_.ports) create_mirror_port(port);
     mirrors_created_ = true;
     if (link_->is_up())
@@ -159,6 +163,9 @@ void AdaptorComp::create_mirror_ports() {
 }
 
 void AdaptorComp::create_mirror_port(const link::Port& port) {
+    const auto& events = settings_.event_ports;
+    if (link::is_data_port(port.kind) && std::find(events.begin(), events.end(), port.name) != events.end())
+        return create_event_mirror(port);
     switch (port.kind) {
     case PortKind::data_in:
         inputs_.push_back(std::make_unique<MirrorInPort>(port, link_->writer(port.name)));
@@ -180,6 +187,20 @@ void AdaptorComp::create_mirror_port(const link::Port& port) {
         addPort(port.name, required_.back());
         break;
     }
+}
+
+void AdaptorComp::create_event_mirror(const link::Port& port) {
+    if (port.kind == PortKind::data_in) {
+        event_inputs_.push_back(std::make_unique<MirrorEventInPort>(port, link_->writer(port.name)));
+        addPort(port.name, event_inputs_.back().get());
+        return;
+    }
+    const auto set_listener = [this, name = port.name](DataPortListener* listener) {
+        listen_to(name, listener);
+    };
+    event_outputs_.push_back(
+        std::make_unique<MirrorEventOutPort>(port, link_->reader(port.name), set_listener));
+    addPort(port.name, event_outputs_.back().get());
 }
 
 /// Before the mirrors are created, any table is accepted; of two ports of one name the first counts. Afterwards the
@@ -321,7 +342,7 @@ void AdaptorComp::publish_listened_ports() {
     }
     if (!link_->is_up()) return; // peer_connected() comes here again
     const auto reply = send_command(control::listen, control::encode(ports));
-    if (reply.status != CallStatus::ok && link_->is_up())
+    if (reply.status != CallStatus::ok && !peer_has_gone(reply.status) && link_->is_up())
         spdlog::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
                      settings_.link, describe_failure(reply, settings_.call_timeout));
 }

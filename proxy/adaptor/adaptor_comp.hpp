@@ -3,6 +3,8 @@
 
 #include "proxy/adaptor/data/mirror_in_port.hpp"
 #include "proxy/adaptor/data/mirror_out_port.hpp"
+#include "proxy/adaptor/event/mirror_event_in_port.hpp"
+#include "proxy/adaptor/event/mirror_event_out_port.hpp"
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 #include "proxy/adaptor/settings.hpp"
@@ -60,6 +62,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     std::string first_refusal() const;
     void create_mirror_ports();
     void create_mirror_port(const link::Port&);
+    void create_event_mirror(const link::Port&);
     MirrorRequiredPort* find_required_port(std::string_view name);
 
     ReturnType drive_rtc(std::string_view command);
@@ -86,6 +89,8 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
 
     std::vector<std::unique_ptr<MirrorInPort>> inputs_;
     std::vector<std::unique_ptr<MirrorOutPort>> outputs_;
+    std::vector<std::unique_ptr<MirrorEventInPort>> event_inputs_;
+    std::vector<std::unique_ptr<MirrorEventOutPort>> event_outputs_;
     std::vector<MirrorRequiredPort*> required_; ///< service ports belong to the component, which deletes them
     std::mutex link_state_mutex_;               ///< the members below
     OutputDataPort<std::vector<double>> link_state_;

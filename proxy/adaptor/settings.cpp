@@ -53,6 +53,8 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
         settings.share = split_names(share->second);
     if (const auto strict = properties.find("strict"); strict != properties.end())
         settings.strict = link::parse_flag("property", "strict", strict->second);
+    if (const auto events = properties.find("event_ports"); events != properties.end())
+        settings.event_ports = split_names(events->second);
     if (const auto table = properties.find("port_table"); table != properties.end())
         settings.port_table = table->second;
     return settings;

@@ -17,6 +17,8 @@ struct Settings {
     std::size_t large_bytes = 0;                   ///< `large_kib`: longest message of a port, see README
     std::size_t segment_bytes =
         std::size_t{4} * 1024 * 1024; ///< `segment_mib`: for the objects of each side, without chunks
+    std::vector<std::string>
+        event_ports; ///< `event_ports`: data ports of the RTC that are mirrored as event ports
     /// `port_table`, for tools: the ports to mirror (link::encode_as_text()). No link is opened then.
     std::string port_table;
     std::vector<std::string> share; ///< `share`: names of the OPRoS components that are shown as RTCs

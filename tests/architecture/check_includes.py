@@ -58,6 +58,7 @@ ALLOWED = {
     "proxy/link": ["proxy/link/*", "proxy/wire", "shm/*", "host/process"],
     "proxy/adaptor/archive": ["proxy/link/protocol", "proxy/wire"],
     "proxy/adaptor/data": ["proxy/adaptor/archive", "proxy/link/*", "proxy/wire", "host/process"],
+    "proxy/adaptor/event": ["proxy/adaptor/archive", "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/adaptor/service": ["proxy/adaptor/archive", "proxy/link/*", "proxy/wire", "host/process"],
     "proxy/adaptor/share": ["proxy/adaptor/archive", "proxy/adaptor/data", "proxy/adaptor/service", "proxy/link/*",
                             "proxy/wire", "host/process"],

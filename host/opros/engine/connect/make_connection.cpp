@@ -67,6 +67,13 @@ void check_types(const ConnectionProfile& connection, Source& source, Target& ta
     throw SetupError(connection.location, text);
 }
 
+/// The port of a bridge learns the other one's type only when it is asked itself. Of other ports the source has decided.
+void check_event_target(const ConnectionProfile& connection, EventPort& source, EventPort& target) {
+    if (!target.checkType(&source) && !target.typeError().empty())
+        throw SetupError(connection.location, "type mismatch: output " + connection.source.text() + " is " +
+                                                  type_name(source) + "; " + target.typeError());
+}
+
 std::unique_ptr<Connection> connect_services(const ConnectionProfile& connection,
                                              RequiredServicePort& required, ProvidedServicePort& provided,
                                              ComponentHost& provider) {
@@ -95,6 +102,7 @@ std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection,
         auto& out = from.port<OutputEventPortInterface>("an output");
         auto& in = to.port<InputEventPortInterface>("an input");
         check_types(connection, out, static_cast<EventPort&>(in));
+        check_event_target(connection, out, in);
         return std::make_unique<EventConnection>(out, in, target);
     }
     auto& required = from.port<RequiredServicePort>("a required");

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/protocol/port_table.hpp"
+
+#include <OPRoSTypes.h>
+
+#include <string>
+
+namespace tandem::adaptor {
+
+/// Compares events whose content is of the sample's type with the peer's message: an id (string) and the content, as a
+/// structure or as its members, after RTM's time or without. Returns an empty string, or one line with both signatures.
+std::string check_event_type(const opros_any& sample, const link::Port& peer);
+
+} // namespace tandem::adaptor

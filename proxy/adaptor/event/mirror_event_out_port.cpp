@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/event/mirror_event_out_port.hpp"
+
+#include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/event/event_type.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace tandem::adaptor {
+
+MirrorEventOutPort::MirrorEventOutPort(link::Port peer, link::ChannelReader& channel,
+                                       SetListener set_listener)
+    : peer_(std::move(peer)), channel_(channel), set_listener_(std::move(set_listener)) {}
+
+bool MirrorEventOutPort::checkType(EventPort* target) {
+    const opros_any sample = target->sample();
+    type_error_ = check_event_type(sample, peer_);
+    if (type_error_.empty() && !connections_.empty() && sample.type() != content_.type())
+        type_error_ = fmt::format("port '{}': it is connected already, with events of content {}", peer_.name,
+                                  content_.type());
+    if (type_error_.empty() && connections_.empty()) content_ = sample;
+    return type_error_.empty();
+}
+
+bool MirrorEventOutPort::checkType(Event* event) {
+    if (connections_.empty()) prototype_.reset(event->clone());
+    return true;
+}
+
+void MirrorEventOutPort::addConnection(IEventPortLink* connection) {
+    OutputEventPortInterface::addConnection(connection);
+    if (connections_.insert(connection).second && connections_.size() == 1) set_listener_(this);
+}
+
+void MirrorEventOutPort::removeConnection(IEventPortLink* connection) {
+    if (connections_.erase(connection) != 0 && connections_.empty()) set_listener_(nullptr);
+    OutputEventPortInterface::removeConnection(connection);
+}
+
+void MirrorEventOutPort::arrived() {
+    while (channel_.read(false, [this](const shm::Record& record) { send(record); })) continue;
+}
+
+void MirrorEventOutPort::send(const shm::Record& record) {
+    try {
+        CdrIarchive archive{wire::CdrReader(record.bytes)};
+        archive.load(prototype_->getId());
+        content_.decode(archive);
+        prototype_->setContent(content_);
+        push_event(prototype_.get()); // every connection makes a copy
+    } catch (const std::exception& error) {
+        if (undecodable_.should_log())
+            spdlog::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far",
+                          peer_.name, record.bytes.size(), error.what(), undecodable_.count());
+    }
+}
+
+} // namespace tandem::adaptor

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/process/log_throttle.hpp"
+#include "proxy/link/channel/channel.hpp"
+#include "proxy/link/protocol/port_table.hpp"
+
+#include <DataPortListener.h>
+#include <OutputEventPortInterface.h>
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace tandem::adaptor {
+
+/// Mirrors an output data port of the peer as an event port: each message becomes an event for all connected ports,
+/// in the link's notifier thread, which hands it to the receivers' queues.
+class MirrorEventOutPort final : public OutputEventPortInterface, private DataPortListener {
+  public:
+    /// Sets who is told of arrived messages, or nobody with nullptr. On return the last one is not in use.
+    using SetListener = std::function<void(DataPortListener*)>;
+
+    /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
+    MirrorEventOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener);
+
+    // Events come from the link only.
+    ReturnType push(Event*) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType marshal(Event*, std::string&) override { return OPROS_UNSUPPORTED_METHOD; }
+
+    /// Called when the host connects this port: compares the target's type with the peer's signature. All targets of
+    /// one port have the same type.
+    bool checkType(EventPort* target) override;
+    /// Called by the target with an event of its type, of which later events are copies.
+    bool checkType(Event* event) override;
+    std::string typeError() const override { return type_error_; }
+
+    // Messages are taken while something is connected.
+    void addConnection(IEventPortLink* connection) override;
+    void removeConnection(IEventPortLink* connection) override;
+
+  private:
+    void arrived() override;
+    void send(const shm::Record& record);
+
+    const link::Port peer_;
+    link::ChannelReader& channel_;
+    const SetListener set_listener_;
+    opros_any content_;                ///< a value of the content's type
+    std::unique_ptr<Event> prototype_; ///< an event of that type
+    std::set<IEventPortLink*> connections_;
+    std::string type_error_;
+    process::LogThrottle undecodable_;
+};
+
+} // namespace tandem::adaptor

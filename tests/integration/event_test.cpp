@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// OPRoS events and an RTC's data ports of id and content.
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+using Catch::Contains;
+
+namespace {
+
+/// AlarmComp and AlarmRtc, joined by these connections.
+struct AlarmHosts : TwoHosts {
+    explicit AlarmHosts(const std::string& connections, const std::string& event_ports = "raised, answer") {
+        set_talker("AlarmComp");
+        set_rtc("AlarmRtc");
+        set_adaptor_properties("<property name=\"event_ports\">" + event_ports + "</property>");
+        set_connections(connections);
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "an OPRoS event reaches the RTC as a structure of id and content, and the RTC's answer is an event") {
+    AlarmHosts hosts(TwoHosts::connection("event", "Talker", "alarm", "Adaptor", "raised") +
+                     TwoHosts::connection("event", "Adaptor", "answer", "Talker", "notice"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "event: answer to hot 1 at a time, 0\n"));
+    CHECK(hosts.says("opros", "event: answer to hot 2 at a time, 5\n"));
+    CHECK(hosts.says("opros", "event: answer to hot 9 at a time, 19\n"));
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("events come again after the RTM host was killed and started again") {
+    AlarmHosts hosts(TwoHosts::connection("event", "Talker", "alarm", "Adaptor", "raised") +
+                     TwoHosts::connection("event", "Adaptor", "answer", "Talker", "notice"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "event: answer to hot 3"));
+    hosts.kill("rtm");
+    REQUIRE(hosts.says("opros", "is down"));
+    const std::size_t killed = hosts.output("opros").size();
+    hosts.start_rtm();
+    CHECK(hosts.says("opros", "event: answer to hot ", killed));
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("events of another content than the RTC's structure are refused with both signatures") {
+    AlarmHosts hosts(TwoHosts::connection("event", "Talker", "number", "Adaptor", "raised"));
+    hosts.start_rtm();
+    REQUIRE(hosts.says("rtm", "ready"));
+    hosts.start_opros();
+    CHECK(hosts.exit_code("opros") == 1); // --strict
+    CHECK_THAT(
+        hosts.output("opros"),
+        Contains("port 'raised': an event with content int is 'si' (its id and the content), the peer's type "
+                 "IDL:TestAlarm/TimedAlarm:1.0 is '(uu)sd'; use a structure of a string and the content"));
+}
+
+TEST_CASE("a name in event_ports that is no data port of the RTC is told") {
+    AlarmHosts hosts("", "siren");
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "property 'event_ports' names 'siren', which is no data port of AlarmRtc0"));
+    CHECK(hosts.says("opros", "ready"));
+    CHECK(hosts.stop_both());
+}
