@@ -2,6 +2,7 @@
 // The cases of the minimal ring (index_ring.hpp): one way, as a pair of rings for calls, and streams.
 #include "apps/bench/baseline/index_ring.hpp"
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/cold.hpp"
 #include "apps/bench/harness/ring_cases.hpp"
 
 #include <cstring>
@@ -88,6 +89,67 @@ void measure_in_8_regions(Session& session) {
     measure_round_trips_in_regions<RingEndpoint<64, wake>>(session, 8);
 }
 
+/// A sleeps for the interval, stamps 48 bytes and writes them; B reads the clock when it has them. Both cores read the same
+/// clock, as in the cases of the bridge.
+template <Wake wake>
+void measure_cold(Session& session) {
+    using Ring = IndexRing<64, 1024, wake>;
+    Ring ring(session.memory().data());
+    const int interval_ms = cold_interval_ms(session.bench_case());
+    const std::size_t messages = cold_warm_up + cold_messages(session.budget(), interval_ms);
+    std::uint64_t message[6] = {};
+    request_priority();
+    session.arrive_and_wait();
+    if (session.is_side_a()) {
+        ColdPacer pacer(interval_ms);
+        for (std::size_t i = 0; i < messages; ++i) {
+            pacer.sleep();
+            message[0] = ticks();
+            std::memcpy(ring.claim(), message, sizeof message);
+            ring.publish();
+        }
+        return;
+    }
+    for (std::size_t i = 0; i < messages; ++i) {
+        std::memcpy(message, ring.wait_for_slot(), sizeof message);
+        const std::uint64_t now = ticks();
+        ring.release();
+        if (i >= cold_warm_up) session.add_result(to_ns(now - message[0]));
+    }
+}
+
+/// What the machine adds: the same loop with an empty body, two readings of the clock after the sleep.
+void measure_empty_loop(Session& session) {
+    const int interval_ms = cold_interval_ms(session.bench_case());
+    request_priority();
+    ColdPacer pacer(interval_ms);
+    for (std::size_t i = cold_messages(session.budget(), interval_ms); i > 0; --i) {
+        pacer.sleep();
+        const std::uint64_t before = ticks();
+        session.add_result(to_ns(ticks() - before));
+    }
+}
+
+void add_cold_cases(Registry& registry) {
+    for (const int interval_ms : cold_intervals_ms) {
+        Case cold{.group = Group::baseline,
+                  .subject = "index-ring",
+                  .operation = cold_operation(interval_ms),
+                  .bytes = 48,
+                  .extra_seconds = 10, // at 100 ms
+                  .run = measure_cold<Wake::spin>};
+        registry.add(cold);
+        cold.wake = Wake::blocking;
+        cold.run = measure_cold<Wake::blocking>;
+        registry.add(cold);
+        cold.subject = "empty-loop";
+        cold.wake = Wake::none;
+        cold.placement = Placement::alone;
+        cold.run = measure_empty_loop;
+        registry.add(cold);
+    }
+}
+
 /// The 64-byte cases of one wake mode.
 template <Wake wake>
 void add_wake_mode(Registry& registry) {
@@ -114,6 +176,7 @@ void add_index_ring_cases(Registry& registry) {
     add_wake_mode<Wake::spin>(registry);
     add_wake_mode<Wake::spin_then_futex>(registry);
     add_wake_mode<Wake::blocking>(registry);
+    add_cold_cases(registry);
     RingCases<RingEndpoint> cases(registry, Group::baseline, "index-ring");
     cases.add_sizes_from_256();
     cases.add_small_stream<SmallStreamEndpoint>();

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Component to component across the bridge: A runs opros_host with BenchPing and AdaptorComp, B runs rtm_host
 // with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way; both components poll.
+// Cold, the sender of the measured direction sleeps before each message.
 #include "apps/bench/harness/cases.hpp"
+#include "apps/bench/harness/cold.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/tandem/bench_host.hpp"
@@ -18,14 +20,21 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
+bool is_cold(const Session& session) { return session.bench_case().operation.starts_with("cold-"); }
+
 /// The OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
 void write_application_profile(const Session& session, const fs::path& folder) {
+    const int interval_ms = is_cold(session) ? cold_interval_ms(session.bench_case()) : 0;
+    const std::size_t samples =
+        interval_ms > 0 ? cold_messages(session.budget(), interval_ms) : session.budget().samples;
     const std::string components =
         component_xml("Ping", "BenchPing.xml",
                       {{"file", (folder / "samples").string()},
                        {"direction", session.bench_case().detail},
-                       {"samples", std::to_string(session.budget().samples)},
-                       {"seconds", fmt::format("{:g}", session.budget().seconds)}}) +
+                       {"samples", std::to_string(samples)},
+                       // The number of cold messages counts, and their intervals take what they take.
+                       {"seconds", fmt::format("{:g}", interval_ms > 0 ? 60 : session.budget().seconds)},
+                       {"interval_ms", std::to_string(interval_ms)}}) +
         component_xml("Adaptor", "AdaptorComp.xml", {{"link", session.name()}, {"wait", "30"}});
     std::ofstream(folder / "app.xml")
         << application_xml(components, connection_xml("data", "Ping", "ping", "Adaptor", "ping") +
@@ -35,7 +44,10 @@ void write_application_profile(const Session& session, const fs::path& folder) {
 /// The RTM side: BenchPong, whose ports InterceptorComp shares over the same link.
 void write_rtc_conf(const Session& session, const fs::path& folder) {
     std::ofstream(folder / "rtc.conf")
-        << rtc_conf_head << "manager.modules.preload: BenchPong.so, InterceptorComp.so\n"
+        << rtc_conf_head
+        // As BenchPing and the cold minimal ring; hot, BenchPong never sleeps and needs none.
+        << (is_cold(session) ? "exec_cxt.periodic.priority: 5\n" : "")
+        << "manager.modules.preload: BenchPong.so, InterceptorComp.so\n"
         << "manager.components.precreate: BenchPong, InterceptorComp?link=" << session.name()
         << "&rtc=BenchPong0\n";
 }
@@ -74,6 +86,13 @@ void add_bridge_cases(Registry& registry) {
     for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
         registry.add(
             {.subject = "bridge", .operation = "one-way", .detail = direction, .run = measure_bridge});
+    for (const int interval_ms : cold_intervals_ms)
+        for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
+            registry.add({.subject = "bridge",
+                          .operation = cold_operation(interval_ms),
+                          .extra_seconds = 20,
+                          .detail = direction,
+                          .run = measure_bridge});
 }
 
 } // namespace tandem::bench

@@ -59,6 +59,43 @@ TEST_CASE("A quick run of baselines and rings yields rows and files and names sk
     CHECK_THAT(again.output, Catch::Contains("common rows changed beyond noise"));
 }
 
+TEST_CASE("Cold messages are measured through the minimal ring, beside an empty loop") {
+    const Folder folder;
+    const auto json = folder.file("cold.json");
+    const auto result = bench(
+        {"--only", "baseline/index-ring/cold-1ms,baseline/empty-loop/cold-1ms", "--quick", "--json", json});
+    INFO(result.errors);
+    REQUIRE(result.exit_code() == 0);
+    std::size_t measured = 0;
+    for (const Row& row : from_json(content(json)).rows) {
+        if (row.operation != "cold-1ms") continue;
+        INFO(row.id << ": " << row.skipped);
+        if (!row.skipped.empty()) {
+            CHECK_THAT(row.skipped, Catch::Contains("needs two cores"));
+            continue;
+        }
+        ++measured;
+        CHECK(row.summary.samples == 800); // 0.8 s of intervals
+        CHECK(row.summary.p50 > 0);
+        CHECK(row.summary.p99 >= row.summary.p50);
+    }
+    CHECK(measured == (allowed_cores().size() > 1 ? 3 : 1));
+}
+
+TEST_CASE("Cold messages cross the bridge in both directions") {
+    const Folder folder;
+    const auto json = folder.file("cold.json");
+    const auto result = bench({"--only", "bridge/cold-10ms", "--quick", "--json", json});
+    INFO(result.errors);
+    REQUIRE(result.exit_code() == 0);
+    for (const Row& row : from_json(content(json)).rows) {
+        if (row.operation != "cold-10ms" || allowed_cores().size() < 2) continue;
+        INFO(row.id << ": " << row.skipped);
+        CHECK(row.skipped.empty());
+        CHECK(row.summary.samples == 80);
+    }
+}
+
 TEST_CASE("Wrong options end in one line and a code") {
     for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"--only", "nothing-of-this-name"}, "--list"},

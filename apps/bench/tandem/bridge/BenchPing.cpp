@@ -42,7 +42,8 @@ class BenchPing : public Component {
         Clock::calibrate();
         client_ = std::make_unique<PingClient>(
             getProperty("file"), getProperty("direction") == "opros-to-rtm",
-            std::stoul(getProperty("samples")), std::stod(getProperty("seconds")));
+            std::stoul(getProperty("samples")), std::stod(getProperty("seconds")),
+            std::stod(getProperty("interval_ms")));
         return OPROS_SUCCESS;
     }
     ReturnType onStart() override { return OPROS_SUCCESS; }

@@ -5,17 +5,21 @@
 #pragma once
 #include "apps/bench/machine/clock.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace tandem::bench {
 
 /// [0] the sequence number; [1] BenchPing's clock at sending, [2] BenchPong's at receiving, [3] BenchPong's at
-/// sending, each as the bits of a tick count; the rest is payload.
+/// sending, each as the bits of a tick count; [4] milliseconds that BenchPong sleeps before it sends, [5] how long it
+/// polls from then on before it gives its thread back; the rest is payload.
 using PingMessage = std::array<double, 8>;
 
 inline double as_double(std::uint64_t bits) { return std::bit_cast<double>(bits); }
@@ -24,42 +28,55 @@ inline std::uint64_t as_bits(double value) { return std::bit_cast<std::uint64_t>
 /// How long one onExecute() polls: the host gets its thread back in between, and can stop the component.
 constexpr double slice_ns = 20e6;
 
+/// Bounded: the peer is not trusted.
+inline void sleep_ms(double duration) {
+    if (duration > 0)
+        std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(std::min(duration, 200.0)));
+}
+
 /// [tick-thread] BenchPong's onExecute(). Port: bool receive(PingMessage&), void send(const PingMessage&).
 template <class Port>
 void answer_pings_for_a_slice(Port& port) {
-    const std::uint64_t end = ticks() + to_ticks(slice_ns);
+    std::uint64_t end = ticks() + to_ticks(slice_ns);
     PingMessage message;
     for (std::uint64_t now = ticks(); now < end; now = ticks()) {
         if (!port.receive(message)) continue;
         message[2] = as_double(ticks());
+        end = std::max(end, now + to_ticks(std::clamp(message[5], 0.0, 500.0) * 1e6));
+        sleep_ms(message[4]);
         message[3] = as_double(ticks());
         port.send(message);
     }
 }
 
 /// [tick-thread] BenchPing's measurement: it sends pings until the link is up, warms up, measures, and writes
-/// the samples of one direction as doubles, in ns, into a file.
+/// the samples of one direction as doubles, in ns, into a file. With an interval, the sender of that direction sleeps so
+/// long before each message, and the receiver polls meanwhile.
 class PingClient {
   public:
-    PingClient(std::string file, bool measures_ping, std::size_t samples, double seconds)
-        : file_(std::move(file)), measures_ping_(measures_ping), samples_(samples), seconds_(seconds) {}
+    PingClient(std::string file, bool measures_ping, std::size_t samples, double seconds, double interval_ms)
+        : file_(std::move(file)), measures_ping_(measures_ping), samples_(samples), seconds_(seconds),
+          interval_ms_(interval_ms), warm_up_(interval_ms > 0 ? 5 : 2000) {}
 
     /// BenchPing's onExecute().
     template <class Port>
     void ping_for_a_slice(Port& port) {
-        const std::uint64_t end = ticks() + to_ticks(slice_ns);
+        const std::uint64_t end = ticks() + to_ticks(slice_ns + 2e6 * interval_ms_);
         while (!done_ && ticks() < end)
             if (!ping(port, end)) return; // no answer within the slice: the next one sends a new ping
-        if (!done_ && times_.size() >= warm_up + samples_) write_samples();
+        if (!done_ && times_.size() >= warm_up_ + samples_) write_samples();
     }
 
   private:
-    static constexpr std::size_t warm_up = 2000;
-
     template <class Port>
     bool ping(Port& port, std::uint64_t end) {
         PingMessage message{};
         message[0] = static_cast<double>(++sequence_);
+        if (interval_ms_ > 0) message[5] = 500; // its slices must not end between two messages
+        if (measures_ping_)
+            sleep_ms(interval_ms_);
+        else
+            message[4] = interval_ms_;
         message[1] = as_double(ticks());
         port.send(message);
         PingMessage reply;
@@ -71,22 +88,23 @@ class PingClient {
         if (times_.empty()) deadline_ = now + to_ticks(seconds_ * 1e9);
         times_.push_back(
             to_ns(measures_ping_ ? as_bits(reply[2]) - as_bits(reply[1]) : now - as_bits(reply[3])));
-        if (times_.size() >= warm_up + samples_ || (now >= deadline_ && times_.size() > warm_up))
+        if (times_.size() >= warm_up_ + samples_ || (now >= deadline_ && times_.size() > warm_up_))
             write_samples();
         return !done_;
     }
     void write_samples() {
         done_ = true;
         std::ofstream(file_ + ".part", std::ios::binary)
-            .write(reinterpret_cast<const char*>(times_.data() + warm_up),
-                   static_cast<std::streamsize>((times_.size() - warm_up) * sizeof(double)));
+            .write(reinterpret_cast<const char*>(times_.data() + warm_up_),
+                   static_cast<std::streamsize>((times_.size() - warm_up_) * sizeof(double)));
         std::rename((file_ + ".part").c_str(), file_.c_str()); // the reader finds the whole file or none
     }
 
     std::string file_;
     bool measures_ping_; // otherwise the way back
     std::size_t samples_;
-    double seconds_;
+    double seconds_, interval_ms_; // 0: hot
+    std::size_t warm_up_;
     std::uint64_t sequence_ = 0, deadline_ = 0;
     std::vector<double> times_; // ns
     bool done_ = false;
