@@ -18,9 +18,6 @@ class DataPortSource {
     virtual opros::archive::iarchive* next() = 0;
     /// The value of the last next() has been read or dropped. Each next() that gave an archive is followed by one.
     virtual void done() = 0;
-    /// Whether the value of the last next() is so large that a copy of it costs more than an allocation: the port
-    /// then hands out the decoded object itself.
-    virtual bool large() const { return false; }
     /// Asks for listener->arrived() whenever values come, in whichever thread of the source notices them; NULL ends
     /// that, and on return the last listener is not in use any more. False: this source does not notice, it has to be
     /// polled. Called under the port's lock; must not block.

@@ -48,7 +48,6 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortSour
     // DataPortSource, called by the target under its own lock: one thread at a time.
     opros::archive::iarchive* next() override;
     void done() override;
-    bool large() const override { return message_bytes_ > link::large_message_bytes; }
     bool setListener(DataPortListener* listener) override;
     void undecodable(const std::string& why) override;
     void detach();

@@ -16,10 +16,6 @@
 
 namespace tandem::link {
 
-/// From this length on it pays to encode a message where the peer will read it, even though that takes a
-/// first pass to learn its length: the copy that it saves costs more.
-constexpr std::size_t large_message_bytes = std::size_t{64} * 1024;
-
 /// The bit of a doorbell that says "a message was written". One for all ports: ArrivalNotifier finds out
 /// which port it was by comparing counters, so the two sides need not agree on numbers for ports.
 constexpr unsigned message_bit = 0;

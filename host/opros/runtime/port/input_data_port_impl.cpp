@@ -33,11 +33,8 @@ opros_any* InputDataPortImpl::pop() {
     if (queue_.size() == 0 && consumer_waits_ && queue_.keeps_order()) return pop_from_source();
     poll_sources();
     consumer_waits_ = queue_.size() == 0;
-    if (consumer_waits_) {
-        allocate_spare();
-        return nullptr;
-    }
-    opros_any* value = give_out(queue_.front());
+    if (consumer_waits_) return nullptr;
+    opros_any* value = pool_.lend(queue_.front());
     queue_.pop();
     update_hints();
     return value;
@@ -132,25 +129,9 @@ opros_any* InputDataPortImpl::pop_from_source() {
             if (result == ReadResult::no_value) break;
             if (result == ReadResult::undecodable) continue;
             consumer_waits_ = false;
-            return give_out(decoded_);
+            return pool_.lend(decoded_);
         }
-    allocate_spare();
     return nullptr;
-}
-
-/// While there is nothing else to do: creates the object for the next value, with as much storage as the last one
-/// had. Not for a large value, whose copy would cost more than the allocation that it saves.
-void InputDataPortImpl::allocate_spare() {
-    if (!spare_ && !decoded_.empty() && !last_was_large_) spare_ = std::make_unique<opros_any>(decoded_);
-}
-
-/// An object with the value, for the consumer to delete. Without a spare a small value is copied, so that its
-/// storage stays here for the next one; a large one is moved out instead.
-opros_any* InputDataPortImpl::give_out(opros_any& value) {
-    if (!spare_ && !last_was_large_) return new opros_any(value);
-    if (!spare_) spare_ = std::make_unique<opros_any>();
-    spare_->swap(value); // the spare's storage takes the value's place
-    return spare_.release();
 }
 
 InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource& source) {
@@ -168,7 +149,6 @@ InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource& source
         // value for ever.
         source.undecodable("an exception of unknown type");
     }
-    last_was_large_ = source.large();
     source.done();
     return result;
 }

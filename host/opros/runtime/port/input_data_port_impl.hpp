@@ -2,12 +2,12 @@
 #pragma once
 
 #include "host/opros/runtime/port/data_queue.hpp"
+#include "host/opros/runtime/port/value_pool.hpp"
 #include "host/rt/short_mutex.hpp"
 
 #include <InputDataPortInterface.h>
 
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <vector>
@@ -53,8 +53,6 @@ class InputDataPortImpl {
     void poll_sources();
     ReadResult read_one(DataPortSource& source);
     opros_any* pop_from_source();
-    opros_any* give_out(opros_any& value);
-    void allocate_spare();
 
     InputDataPortInterface& port_;
     tandem::rt::ShortMutex mutex_;
@@ -62,9 +60,8 @@ class InputDataPortImpl {
     std::vector<DataPortSource*> sources_;
     std::set<DataPortSource*> polled_sources_; // those that do not notify the listener
     opros_any decoded_; // where a source's value is decoded: a broken one must not harm the queue
-    std::unique_ptr<opros_any> spare_; // the object for the next value that is given out
-    bool consumer_waits_ = false;      // the last pop() has found nothing
-    bool last_was_large_ = false;      // DataPortSource::large() of the last value
+    opros::ValuePool pool_;
+    bool consumer_waits_ = false; // the last pop() has found nothing
     bool queue_is_default_ = false;
     // Both change with the lock held, and are read without it.
     std::atomic<bool> may_have_values_{false}, has_polled_sources_{false};
