@@ -120,19 +120,19 @@ struct Bound {
 
 // To be lowered as the roads get shorter: 5 to 10 % above what they take.
 constexpr Bound bounds[] = {
-    {"tandem/path/opros-to-rtm/48/sender", 810, 76, 21, 0, 4},
-    {"tandem/path/opros-to-rtm/48/receiver", 1500, 138, 31, 0, 9},
-    {"tandem/path/opros-to-rtm/8/caller", 4510, 224, 42, 5, 11},
-    {"tandem/path/opros-to-rtm/8/worker", 7800, 462, 75, 9, 23},
-    {"tandem/path/rtm-to-opros/48/sender", 1040, 120, 29, 0, 6},
-    {"tandem/path/rtm-to-opros/48/receiver", 1450, 118, 28, 3, 7},
-    {"tandem/path/rtm-to-opros/8/caller", 6340, 388, 64, 5, 23},
-    {"tandem/path/rtm-to-opros/8/worker", 2470, 220, 44, 2, 16},
+    {"tandem/path/opros-to-rtm/48/sender", 670, 68, 19, 0, 4},
+    {"tandem/path/opros-to-rtm/48/receiver", 960, 110, 26, 0, 9},
+    {"tandem/path/opros-to-rtm/8/caller", 4470, 220, 44, 5, 11},
+    {"tandem/path/opros-to-rtm/8/worker", 7800, 460, 75, 9, 23},
+    {"tandem/path/rtm-to-opros/48/sender", 940, 118, 26, 0, 6},
+    {"tandem/path/rtm-to-opros/48/receiver", 1450, 118, 29, 3, 7},
+    {"tandem/path/rtm-to-opros/8/caller", 6360, 388, 63, 5, 23},
+    {"tandem/path/rtm-to-opros/8/worker", 2410, 218, 44, 2, 15},
     {"tandem/path/inside-opros/48/sender", 290, 36, 10, 0, 4},
     {"tandem/path/inside-opros/48/receiver", 770, 64, 18, 3, 2},
     {"tandem/path/inside-opros/8/caller", 60, 10, 4, 0, 0},
     {"tandem/path/inside-rtm/48/sender", 440, 44, 11, 0, 6},
-    {"tandem/path/inside-rtm/48/receiver", 670, 56, 15, 0, 8},
+    {"tandem/path/inside-rtm/48/receiver", 590, 54, 14, 0, 8},
     {"tandem/path/inside-rtm/8/caller", 40, 10, 5, 0, 0},
 };
 
