@@ -137,6 +137,25 @@ TEST_CASE("tandem run ends when a host cannot start, with the host's own line") 
     CHECK_THAT(run.output(), Contains(") exited with 1 before it was ready\n"));
 }
 
+TEST_CASE("tandem run --lockstep gives each component as many cycles as its period, in any run the same") {
+    std::string replies[2];
+    for (auto& reply : replies) {
+        Run run;
+        std::ofstream(run.folder().path() / "joined/rtm/rtc.conf", std::ios::app)
+            << "exec_cxt.periodic.rate: 200\n";
+        run.start({"--lockstep", "--duration", "1"}); // TalkerComp says a word every 10 ms
+        CHECK(run.exit_code() == 0);
+        INFO(run.output());
+        CHECK_THAT(run.output(), Contains("tandem run: lock-step over: 200 ticks, 1 s\n"));
+        for (std::size_t at = 0; (at = run.output().find("reply: ", at)) != std::string::npos; ++at)
+            reply += run.output().substr(at, run.output().find('\n', at) - at + 1);
+        CHECK_FALSE(run.left_in_shared_memory());
+    }
+    CHECK_THAT(replies[0], Contains("reply: hello 1 at a time\n") &&
+                               Contains("reply: hello 99 at a time\n") && !Contains("hello 101"));
+    CHECK(replies[0] == replies[1]);
+}
+
 TEST_CASE("tandem run says what a folder lacks") {
     ScratchFolder folder;
     std::filesystem::create_directories(folder.path() / "empty/opros");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/run/commands.hpp"
+#include "apps/tandem/run/lockstep.hpp"
 #include "apps/tandem/run/run_folder.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <map>
+#include <optional>
 
 namespace tandem::command {
 namespace {
@@ -20,7 +22,8 @@ using hosts::Supervisor;
 /// One run, from the start of the hosts to their end.
 class HostRun {
   public:
-    HostRun(const std::vector<hosts::HostCommand>& commands, const RunOptions& options) : options_(options) {
+    HostRun(const std::vector<hosts::HostCommand>& commands, const RunOptions& options, Lockstep* lockstep)
+        : options_(options), lockstep_(lockstep) {
         for (const auto& command : commands) note_start("started", supervisor_.start(command));
         deadline_ = Clock::now() + seconds(options.wait_s);
     }
@@ -28,8 +31,9 @@ class HostRun {
     /// The exit code.
     int run() {
         while (!ending_) {
-            handle(supervisor_.watch(200ms));
+            handle(supervisor_.watch(is_stepping() ? 0ms : 200ms));
             if (!ending_) check_start();
+            if (!ending_ && is_stepping()) run_ticks();
         }
         const bool in_order = supervisor_.stop_all(
             seconds(options_.grace_s), [this](const Supervisor::Events& events) { handle_end(events); });
@@ -68,6 +72,7 @@ class HostRun {
         if (events.became_ready.empty()) return;
         for (const Host& host : supervisor_.hosts())
             if (!host.ready()) return;
+        all_ready_ = true;
         print_note("all hosts are ready; Ctrl-C ends them");
     }
 
@@ -99,6 +104,26 @@ class HostRun {
                                host.ready() ? "" : " before it was ready"));
     }
 
+    bool is_stepping() const { return lockstep_ && all_ready_; }
+
+    // For as long as nobody would notice that a Ctrl-C waits.
+    void run_ticks() {
+        const auto end = Clock::now() + 20ms;
+        try {
+            while (Clock::now() < end && !ending_) {
+                lockstep_->run_tick();
+                if (options_.duration_s > 0 && lockstep_->simulated_s() >= options_.duration_s) {
+                    print_note(fmt::format("lock-step over: {} ticks, {:g} s", lockstep_->ticks(),
+                                           lockstep_->simulated_s()));
+                    ending_ = true;
+                }
+            }
+        } catch (const std::runtime_error& error) { // the component's own error, or its host has gone
+            print_note(fmt::format("lock-step, tick {}: {}", lockstep_->ticks() + 1, error.what()));
+            failed_ = ending_ = true;
+        }
+    }
+
     void check_start() {
         if (Clock::now() < deadline_) return;
         for (const Host& host : supervisor_.hosts()) {
@@ -113,7 +138,8 @@ class HostRun {
     Supervisor supervisor_;
     Clock::time_point deadline_; ///< for the hosts that are not ready yet
     std::map<std::string, int> restarts_;
-    bool ending_ = false, failed_ = false;
+    Lockstep* const lockstep_; ///< may be NULL
+    bool all_ready_ = false, ending_ = false, failed_ = false;
 };
 
 } // namespace
@@ -122,7 +148,14 @@ int run_hosts(const RunOptions& options) {
     std::signal(SIGPIPE,
                 SIG_IGN); // a closed pipe is an error of a write, so that the hosts are ended in order
     const RunFolder folder = find_run_folder(options.folder);
-    return HostRun(host_commands(folder, options), options).run();
+    auto commands = host_commands(folder, options);
+    std::optional<Lockstep> lockstep;
+    if (options.lockstep) {
+        lockstep.emplace(find_stepped_components(folder, options));
+        for (auto& command : commands)
+            command.command.insert(command.command.end(), {"--lockstep", lockstep->socket(command.name)});
+    }
+    return HostRun(commands, options, lockstep ? &*lockstep : nullptr).run();
 }
 
 } // namespace tandem::command

@@ -32,6 +32,16 @@ void add_run_command(CLI::App& tandem, Action& selected) {
         ->add_option("--grace", options->grace_s, "time limit for the hosts' end; then they are killed (20)")
         ->type_name("SECONDS")
         ->check(CLI::Range(0.1, 3600.));
+    auto* lockstep = command->add_flag(
+        "--lockstep", options->lockstep,
+        "run the cycles of all components one after the other, by their periods, as fast as they go");
+    command
+        ->add_option("--duration", options->duration_s,
+                     "end the lock-step after so much simulated time (until Ctrl-C)")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.001, 1e9))
+        ->needs(lockstep);
+    lockstep->excludes(command->get_option("--restart"));
     command->add_flag("--strict", options->strict, "end when an OPRoS component or a connection fails");
     command
         ->add_option("--host-option", options->host_arguments,

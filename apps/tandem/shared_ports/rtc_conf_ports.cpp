@@ -13,6 +13,7 @@
 #include <rtm/RTObject.h>
 
 #include <chrono>
+#include <cmath>
 #include <span>
 
 namespace tandem::command {
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr char conf_task[] = "describe-rtc-conf";
+constexpr char instances_task[] = "list-rtc-conf";
 constexpr char types_task[] = "describe-rtc-types";
 
 /// One InterceptorComp of the rtc.conf.
@@ -83,12 +85,31 @@ link::PortTable shared_table(RTC::Manager& manager, const Sharing& sharing) {
     }
 }
 
-void serve_conf(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
+// Creates all RTCs of the rtc.conf but InterceptorComps, which are given back.
+RTC::Manager& carry_out(const plugin::ProbeTask& task, plugin::ProbeReport& report,
+                        std::vector<Sharing>& sharings) {
     fs::current_path(fs::path(task.library).parent_path());
     report.begin_stage("the start of the manager");
     RTC::Manager& manager = start_manager(task.library, task, report);
-    const auto sharings = take_sharings(manager.getConfig());
+    sharings = take_sharings(manager.getConfig());
     manager.activateOrThrow();
+    return manager;
+}
+
+void serve_instances(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
+    std::vector<Sharing> sharings;
+    json instances = json::array();
+    for (auto* rtc : carry_out(task, report, sharings).getComponents()) {
+        RTC::ExecutionContextList_var contexts = rtc->get_owned_contexts();
+        const double rate = contexts->length() == 0 ? 0 : contexts[0]->get_rate();
+        instances.push_back({rtc->getInstanceName(), rate > 0 ? std::llround(1e9 / rate) : 0});
+    }
+    report.finish(instances.dump());
+}
+
+void serve_conf(const plugin::ProbeTask& task, plugin::ProbeReport& report) {
+    std::vector<Sharing> sharings;
+    RTC::Manager& manager = carry_out(task, report, sharings);
     report.begin_stage("the ports of its RTCs");
     json tables = json::object();
     for (const auto& each : sharings) tables[each.link] = link::encode_as_text(shared_table(manager, each));
@@ -118,6 +139,14 @@ std::map<std::string, link::PortTable> probe_rtc_conf(const fs::path& conf, cons
     return tables;
 }
 
+std::vector<RtcInstance> probe_rtc_instances(const fs::path& conf, const RtcConfOptions& options) {
+    std::vector<RtcInstance> instances;
+    const json answer = json::parse(run_task(instances_task, "rtc.conf", conf, options));
+    for (const auto& each : answer)
+        instances.push_back({each.at(0), std::chrono::nanoseconds(each.at(1).get<std::int64_t>())});
+    return instances;
+}
+
 std::vector<RtcType> probe_rtc_types(const fs::path& module, const RtcConfOptions& options) {
     std::vector<RtcType> types;
     const json answer = json::parse(run_task(types_task, "module", module, options));
@@ -125,6 +154,8 @@ std::vector<RtcType> probe_rtc_types(const fs::path& module, const RtcConfOption
     return types;
 }
 
-plugin::ProbeTasks rtc_probe_tasks() { return {{conf_task, serve_conf}, {types_task, serve_types}}; }
+plugin::ProbeTasks rtc_probe_tasks() {
+    return {{conf_task, serve_conf}, {instances_task, serve_instances}, {types_task, serve_types}};
+}
 
 } // namespace tandem::command

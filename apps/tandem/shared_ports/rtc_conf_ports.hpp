@@ -6,6 +6,7 @@
 #include "host/plugin/probe_child.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -23,6 +24,15 @@ struct RtcConfOptions {
 /// are relative to its folder. Throws plugin::Error with one line: what rtm_host would say, or where it crashed or hung.
 std::map<std::string, link::PortTable> probe_rtc_conf(const std::filesystem::path& conf,
                                                       const RtcConfOptions& options);
+
+/// An RTC that the rtc.conf creates, InterceptorComps excepted.
+struct RtcInstance {
+    std::string name;
+    std::chrono::nanoseconds period; ///< of its own execution context; 0 without one
+};
+/// In their order of creation. Throws as probe_rtc_conf().
+std::vector<RtcInstance> probe_rtc_instances(const std::filesystem::path& conf,
+                                             const RtcConfOptions& options);
 
 /// A component type that a module registers.
 struct RtcType {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/run/lockstep.hpp"
+
+#include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
+#include "host/opros/engine/load/plugin_dirs.hpp"
+#include "host/opros/engine/profile/flatten_composites.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<SteppedComponent> stepped_opros(const RunFolder& folder, const RunOptions& options) {
+    auto dirs = options.plugin_dirs;
+    for (const auto& dir : engine::default_plugin_dirs()) dirs.push_back(dir);
+    auto application = engine::read_application_profile(folder.application);
+    if (engine::has_composites(application, dirs))
+        application = engine::flatten_composites(application, dirs);
+    std::vector<SteppedComponent> components;
+    for (const auto& entry : application.subcomponents) {
+        const auto profile = engine::read_component_profile(
+            entry.file.empty() ? engine::find_component_profile(application, entry, dirs) : entry.file);
+        if (profile.execution_type != engine::ExecutionType::passive)
+            components.push_back({"opros_host", entry.name, profile.period}); // 0: in every tick
+    }
+    return components;
+}
+
+fs::path socket_folder() {
+    std::string pattern = (fs::temp_directory_path() / "tandem-step-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+        throw std::runtime_error(pattern + " cannot be made: " + std::strerror(errno) +
+                                 "; set TMPDIR to a writable folder");
+    return pattern;
+}
+
+} // namespace
+
+std::vector<SteppedComponent> find_stepped_components(const RunFolder& folder, const RunOptions& options) {
+    std::vector<SteppedComponent> components;
+    if (!folder.application.empty()) components = stepped_opros(folder, options);
+    if (folder.rtc_conf.empty()) return components;
+    for (const auto& rtc : probe_rtc_instances(folder.rtc_conf, {options.plugin_dirs, options.wait_s}))
+        components.push_back({"rtm_host", rtc.name, rtc.period});
+    return components;
+}
+
+Lockstep::Lockstep(std::vector<SteppedComponent> components) : components_(std::move(components)), tick_(0) {
+    for (const auto& each : components_)
+        if (each.period.count() > 0 && (tick_.count() == 0 || each.period < tick_)) tick_ = each.period;
+    if (tick_.count() == 0)
+        throw std::runtime_error("--lockstep: no component has a period, so that there is no tick to run");
+    folder_ = socket_folder();
+}
+
+Lockstep::~Lockstep() {
+    std::error_code ignored; // the sockets are of no use to anybody
+    fs::remove_all(folder_, ignored);
+}
+
+double Lockstep::simulated_s() const {
+    return static_cast<double>(ticks_) * std::chrono::duration<double>(tick_).count();
+}
+
+void Lockstep::run_tick() {
+    // The number of periods that are over after so many ticks.
+    const auto periods = [&](std::uint64_t ticks, std::chrono::nanoseconds period) {
+        return static_cast<std::uint64_t>(tick_.count()) * ticks / static_cast<std::uint64_t>(period.count());
+    };
+    for (const auto& each : components_) {
+        if (each.period.count() > 0 && periods(ticks_ + 1, each.period) == periods(ticks_, each.period))
+            continue;
+        auto& host = hosts_[each.host];
+        if (!host) host = std::make_unique<rt::StepClient>(socket(each.host), std::chrono::seconds(5));
+        host->step(each.name);
+    }
+    ++ticks_;
+}
+
+} // namespace tandem::command

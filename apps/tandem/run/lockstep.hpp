@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "apps/tandem/run/run_folder.hpp"
+#include "host/rt/step_client.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tandem::command {
+
+/// A component that gets its cycles in lock-step.
+struct SteppedComponent {
+    std::string host, name;
+    std::chrono::nanoseconds period;
+};
+
+/// The components of an application in the order of a tick: the OPRoS components as the profile lists them, without the
+/// passive ones, then the RTCs in their order of creation. Periods are those of the profiles and of the RTCs' contexts,
+/// which a child process finds out. Throws std::runtime_error.
+std::vector<SteppedComponent> find_stepped_components(const RunFolder& folder, const RunOptions& options);
+
+/// Runs the cycles of both hosts' components one after the other, always in the same order. A tick is the shortest
+/// period; a component with a longer one gets a cycle in the tick in which its period is over.
+class Lockstep {
+  public:
+    /// Throws std::runtime_error if there is nothing to step.
+    explicit Lockstep(std::vector<SteppedComponent> components);
+    ~Lockstep();
+    Lockstep(const Lockstep&) = delete;
+    Lockstep& operator=(const Lockstep&) = delete;
+
+    /// The path of the socket on which a host is to listen.
+    std::string socket(const std::string& host) const { return (folder_ / host).string(); }
+    /// Throws std::runtime_error if a host does not listen, or with its message if a cycle fails.
+    void run_tick();
+    std::uint64_t ticks() const { return ticks_; }
+    double simulated_s() const;
+
+  private:
+    std::filesystem::path folder_; ///< of the sockets
+    std::vector<SteppedComponent> components_;
+    std::chrono::nanoseconds tick_;
+    std::map<std::string, std::unique_ptr<rt::StepClient>> hosts_; ///< connected in the first tick
+    std::uint64_t ticks_ = 0;
+};
+
+} // namespace tandem::command
