@@ -89,7 +89,7 @@ ReturnType AdaptorComp::onInitialize() {
 
 void AdaptorComp::create_link() {
     shared_ = std::make_unique<SharedComponents>(getId(), settings_.call_timeout);
-    own_ports_ = shared_->find(settings_.share, directory_);
+    own_ports_ = shared_->find(settings_.share, settings_.interfaces, directory_);
     link::LinkOptions options;
     options.name = settings_.link;
     options.rings.large_bytes = settings_.large_bytes;
@@ -258,6 +258,7 @@ Reply AdaptorComp::execute_command(const link::Request& request) {
 Reply AdaptorComp::serve(const link::Request& request) {
     if (request.port.empty()) return execute_command(request);
     if (auto* port = find_required_port(request.port)) return port->serve(request);
+    if (auto* port = shared_->find_service(request.port)) return port->serve(request);
     return Reply::failure(CallStatus::no_such_operation, "no such service port");
 }
 

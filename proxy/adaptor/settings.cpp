@@ -29,6 +29,20 @@ std::vector<std::string> split_names(const std::string& text) {
     return names;
 }
 
+/// `A.p=M::I, B.q=N::J` as a map.
+std::map<std::string, std::string> read_interfaces(const std::string& text) {
+    std::map<std::string, std::string> interfaces;
+    for (const auto& entry : split_names(text)) {
+        const auto equals = entry.find('=');
+        if (equals == std::string::npos || equals == 0 || equals + 1 == entry.size())
+            throw std::runtime_error(fmt::format(
+                "property 'interfaces': '{}' was found, COMPONENT.PORT=MODULE::INTERFACE was expected",
+                entry));
+        interfaces[entry.substr(0, equals)] = entry.substr(equals + 1);
+    }
+    return interfaces;
+}
+
 } // namespace
 
 Settings read_settings(const std::map<std::string, std::string>& properties) {
@@ -55,6 +69,8 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
         settings.strict = link::parse_flag("property", "strict", strict->second);
     if (const auto events = properties.find("event_ports"); events != properties.end())
         settings.event_ports = split_names(events->second);
+    if (const auto interfaces = properties.find("interfaces"); interfaces != properties.end())
+        settings.interfaces = read_interfaces(interfaces->second);
     if (const auto table = properties.find("port_table"); table != properties.end())
         settings.port_table = table->second;
     return settings;

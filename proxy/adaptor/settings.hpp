@@ -22,6 +22,8 @@ struct Settings {
     /// `port_table`, for tools: the ports to mirror (link::encode_as_text()). No link is opened then.
     std::string port_table;
     std::vector<std::string> share; ///< `share`: names of the OPRoS components that are shown as RTCs
+    /// `interfaces`: the IDL interface, `Module::Interface`, of a shared provided service port, by COMPONENT.PORT
+    std::map<std::string, std::string> interfaces;
     bool strict = false; ///< `strict`: a connection that is refused is an error when the component is started
     std::string group;   ///< `group`: may join the link beside the owner; empty: the owner only
 };

@@ -38,3 +38,29 @@ TEST_CASE("an error of one of several RTCs is named") {
     CHECK(hosts.says("opros", "Adaptor: RTC 'ServoRtc1' went to ERROR"));
     CHECK(hosts.stop("rtm") == 0);
 }
+
+TEST_CASE("two pairs of hosts with two links each share their RTCs at the same time") {
+    TwoHosts pairs[2];
+    for (auto& hosts : pairs) {
+        hosts.add_rtc("ServoRtc");
+        hosts.add_link("Second", "ServoRtc0");
+        hosts.add_component("Motor", "MotorComp");
+        hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "word") +
+                              TwoHosts::connection("data", "Adaptor", "reply", "Talker", "reply") +
+                              TwoHosts::connection("data", "Second", "out", "Motor", "speed"));
+        hosts.start_rtm();
+        hosts.start_opros();
+    }
+    for (auto& hosts : pairs) {
+        CHECK(hosts.says("opros", "reply: hello 5 "));
+        CHECK(hosts.says("opros", "Motor torque 2."));
+    }
+    pairs[0].kill("rtm");
+    CHECK(pairs[0].says("opros", "link '" + pairs[0].link() + "' is down"));
+    CHECK(pairs[0].says("opros", "link '" + pairs[0].link() + "-2' is down"));
+    const auto before = pairs[1].output("opros").size();
+    CHECK(pairs[1].says("opros", "Motor torque 2.", before)); // the other pair goes on
+    CHECK(pairs[0].stop("opros") == 0);
+    CHECK(pairs[1].stop_both());
+    for (const auto& hosts : pairs) CHECK_FALSE(hosts.left_in_shared_memory());
+}

@@ -211,3 +211,23 @@ TEST_CASE("a component started through its RTC is stopped when the RTM host is g
     CHECK(hosts.output("opros").find("Pump stopped", before) == std::string::npos);
     CHECK(hosts.stop("opros") == 0);
 }
+
+TEST_CASE("an RTC calls the service of a shared OPRoS component") {
+    Shared hosts("Shelf");
+    hosts.set_rtc("ClerkRtc");
+    hosts.set_interceptor("manage=no"); // it is not behind the link
+    hosts.add_component("Shelf", "ShelfComp");
+    hosts.set_adaptor_properties(
+        TwoHosts::property("share", "Shelf") +
+        TwoHosts::property("interfaces", "Shelf.dictionary=TestDictionary::Dictionary"));
+    hosts.start();
+    REQUIRE(hosts.shows("Shelf", "ACTIVE"));
+    CHECK_THAT(hosts.run({"info", "Shelf"}).output, Catch::Contains("TestDictionary::Dictionary"));
+    CHECK(hosts.good({"connect", "ClerkRtc0:books", "Shelf:dictionary"}));
+    CHECK(hosts.good({"activate", "ClerkRtc0"}));
+    CHECK(hosts.says("rtm", "clerk: 2 pages, the last is 5"));
+    CHECK(hosts.says("rtm", "clerk: UNKNOWN"));
+    CHECK(hosts.says("rtm", "service 'Shelf.dictionary.pages': there is no such word"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+}

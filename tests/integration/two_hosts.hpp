@@ -104,6 +104,13 @@ class TwoHosts {
         rtc_properties_ += ", " + type;
         if (type != rtc_) modules_ += type + ".so, ";
     }
+    /// A second link, with an AdaptorComp of that name, for the RTC of that name.
+    void add_link(const std::string& adaptor, const std::string& rtc) {
+        components_ += "<subcomponent><name>" + adaptor +
+                       "</name><reference>AdaptorComp.xml</reference><properties>" +
+                       property("link", link_ + "-2") + "</properties></subcomponent>\n";
+        more_interceptors_ = ", InterceptorComp?link=" + link_ + "-2&rtc=" + rtc;
+    }
     /// A third host, with an rtc.conf of these lines.
     void start_another_rtm(const std::string& port, const std::string& lines) {
         std::ofstream(folder_ / "other.conf")
@@ -159,7 +166,8 @@ class TwoHosts {
                "100\n"
             << "manager.modules.preload: " << rtc_ << ".so, " << modules_ << "InterceptorComp.so\n"
             << "manager.components.precreate: " << (has_rtc ? rtc_ + rtc_properties_ + ", " : "")
-            << "InterceptorComp?link=" << link_ << (has_rtc ? "&" + interceptor_ : "") << "\n"
+            << "InterceptorComp?link=" << link_ << (has_rtc ? "&" + interceptor_ : "") << more_interceptors_
+            << "\n"
             << rtc_conf_more_;
     }
     void start_rtm() {
@@ -223,7 +231,8 @@ class TwoHosts {
     std::filesystem::path folder_;
     std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
                                      interceptor_ = "rtc=EchoRtc0", rtc_conf_more_, rtc_properties_,
-                                     components_, adaptor_properties_, manager_port_, modules_;
+                                     components_, adaptor_properties_, manager_port_, modules_,
+                                     more_interceptors_;
     bool strict_ = true;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::process::ChildProcess> hosts_;

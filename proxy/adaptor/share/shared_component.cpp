@@ -2,9 +2,11 @@
 #include "proxy/adaptor/share/shared_component.hpp"
 
 #include "proxy/adaptor/archive/type_check.hpp"
+#include "proxy/adaptor/service/method_check.hpp"
 
 #include <InputDataPortInterface.h>
 #include <OutputDataPortInterface.h>
+#include <ProvidedServicePort.h>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -71,13 +73,21 @@ SharedComponent::SharedComponent(std::string name, ComponentDirectory& directory
 
 SharedComponent::~SharedComponent() { disconnect(); }
 
-std::vector<std::string> SharedComponent::describe(link::PortTable& table) const {
+std::vector<std::string>
+SharedComponent::describe(link::PortTable& table,
+                          const std::map<std::string, std::string>& interfaces) const {
     link::SharedComponent entry{name_, directory_.type(name_), {}};
     for (const auto& [name, value] : component_.getPropertyMap())
         if (!is_internal(name)) entry.properties.push_back({name, value});
     table.components.push_back(std::move(entry));
 
     std::vector<std::string> refused;
+    describe_data_ports(table, refused);
+    describe_service_ports(table, interfaces, refused);
+    return refused;
+}
+
+void SharedComponent::describe_data_ports(link::PortTable& table, std::vector<std::string>& refused) const {
     for (const auto& name : component_.getPortNames(OPROS_DATA)) {
         const auto* port = dynamic_cast<DataPort*>(component_.getPort(name));
         if (!port) continue;
@@ -99,7 +109,35 @@ std::vector<std::string> SharedComponent::describe(link::PortTable& table) const
                             shared.name, shared.type, error.what()));
         }
     }
-    return refused;
+}
+
+void SharedComponent::describe_service_ports(link::PortTable& table,
+                                             const std::map<std::string, std::string>& interfaces,
+                                             std::vector<std::string>& refused) const {
+    for (const auto& name : component_.getPortNames(OPROS_SERVICE)) {
+        link::Port shared;
+        shared.kind = PortKind::service_provided;
+        shared.name = name_ + "." + name;
+        shared.component = name_;
+        shared.instance = name;
+        const auto interface = interfaces.find(shared.name);
+        shared.type = interface == interfaces.end() ? name : interface->second;
+        auto* provided = dynamic_cast<ProvidedServicePort*>(component_.getPort(name));
+        if (!provided || provided->isDynamic()) {
+            refused.push_back(
+                fmt::format("port '{}' is not shared: only provided service ports are", shared.name));
+            continue;
+        }
+        for (auto method = provided->getFirst(); method != provided->getEnd(); ++method)
+            if (const auto signature = method_signature(*method->second))
+                shared.operations.push_back({method->first, *signature});
+            else
+                refused.push_back(
+                    fmt::format("method '{}' of port '{}' is not shared: one of its types cannot be "
+                                "serialized",
+                                method->first, shared.name));
+        table.ports.push_back(std::move(shared));
+    }
 }
 
 void SharedComponent::connect(const link::PortTable& table, link::Link& link,
@@ -124,7 +162,18 @@ void SharedComponent::connect_port(const link::Port& port, link::Link& link,
             inputs_.push_back(std::move(mirror));
         else
             spdlog::error("{}", mirror->typeError());
+    } else if (auto* provided = dynamic_cast<ProvidedServicePort*>(own)) {
+        auto mirror = std::make_unique<MirrorRequiredPort>(port);
+        const std::string error = mirror->bindProvided(provided);
+        if (!error.empty()) spdlog::error("{}", error);
+        services_.push_back(std::move(mirror));
     }
+}
+
+MirrorRequiredPort* SharedComponent::find_service(std::string_view name) const {
+    for (const auto& service : services_)
+        if (service->port() == name) return service.get();
+    return nullptr;
 }
 
 void SharedComponent::disconnect() {
@@ -133,6 +182,7 @@ void SharedComponent::disconnect() {
     component_.removeLifecycleListener(this);
     outputs_.clear();
     inputs_.clear();
+    for (const auto& service : services_) service->bindProvided(nullptr); // waits for the calls under way
 }
 
 void SharedComponent::stateChanged(LifecycleState) { state_changed_(); }

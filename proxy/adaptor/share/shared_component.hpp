@@ -3,6 +3,7 @@
 
 #include "proxy/adaptor/data/mirror_in_port.hpp"
 #include "proxy/adaptor/data/mirror_out_port.hpp"
+#include "proxy/adaptor/service/mirror_required_port.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
 
@@ -12,9 +13,11 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tandem::adaptor {
@@ -32,8 +35,10 @@ class SharedComponent final : private LifecycleListener {
     SharedComponent& operator=(const SharedComponent&) = delete;
 
     const std::string& name() const { return name_; }
-    /// Appends the component and those of its ports that can cross. Returns a line for each port that cannot.
-    std::vector<std::string> describe(link::PortTable& table) const;
+    /// Appends the component and those of its ports that can cross. `interfaces` are the IDL interfaces of service
+    /// ports by COMPONENT.PORT. Returns a line for each port and method that cannot.
+    std::vector<std::string> describe(link::PortTable& table,
+                                      const std::map<std::string, std::string>& interfaces) const;
 
     /// Connects the ports of the table that belong to this component with the link. `state_changed` is called after
     /// each change of the component's state; it must not wait. [main-thread]
@@ -46,6 +51,8 @@ class SharedComponent final : private LifecycleListener {
     link::control::StateReport report();
     /// Executes control::activate, deactivate, reset or exit. Returns an empty string or an error of one line.
     std::string execute(std::string_view command); // [worker-thread]
+    /// The provided service port of that channel name; nullptr when there is none. [worker-thread]
+    MirrorRequiredPort* find_service(std::string_view name) const;
     /// Stops the component if execute() has started it: nobody else has asked for it. [task-thread]
     void peer_lost();
 
@@ -53,6 +60,9 @@ class SharedComponent final : private LifecycleListener {
     class OutConnection;
 
     void stateChanged(LifecycleState state) override;
+    void describe_data_ports(link::PortTable& table, std::vector<std::string>& refused) const;
+    void describe_service_ports(link::PortTable& table, const std::map<std::string, std::string>& interfaces,
+                                std::vector<std::string>& refused) const;
     void connect_port(const link::Port& port, link::Link& link, const SetArrivalListener& set_listener);
 
     const std::string name_;
@@ -62,6 +72,8 @@ class SharedComponent final : private LifecycleListener {
     bool connected_ = false;
     std::vector<std::unique_ptr<OutConnection>> outputs_;
     std::vector<std::unique_ptr<MirrorOutPort>> inputs_;
+    std::vector<std::unique_ptr<MirrorRequiredPort>>
+        services_; ///< each calls a provided port of the component
     std::atomic<bool> started_by_peer_{false}, exited_{false};
     std::mutex report_mutex_; ///< of two reports, the one with the larger sequence has the later state
     std::uint64_t sequence_ = 0;

@@ -19,7 +19,9 @@ constexpr int report_attempts = 3;
 
 } // namespace
 
-link::PortTable SharedComponents::find(const std::vector<std::string>& names, ComponentDirectory* directory) {
+link::PortTable SharedComponents::find(const std::vector<std::string>& names,
+                                       const std::map<std::string, std::string>& interfaces,
+                                       ComponentDirectory* directory) {
     if (!directory && !names.empty())
         spdlog::error("{}: property 'share': this engine does not show components to each other "
                       "(ComponentDirectory.h); nothing is shared",
@@ -34,7 +36,8 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names, Co
             continue;
         }
         components_.push_back(std::make_unique<SharedComponent>(name, *directory));
-        for (const auto& line : components_.back()->describe(table_)) spdlog::warn("{}: {}", owner_, line);
+        for (const auto& line : components_.back()->describe(table_, interfaces))
+            spdlog::warn("{}: {}", owner_, line);
     }
     return table_;
 }
@@ -55,6 +58,12 @@ SharedComponent* SharedComponents::find(std::string_view name) const {
     const auto found = std::find_if(components_.begin(), components_.end(),
                                     [&](const auto& component) { return component->name() == name; });
     return found == components_.end() ? nullptr : found->get();
+}
+
+MirrorRequiredPort* SharedComponents::find_service(std::string_view name) const {
+    for (const auto& component : components_)
+        if (auto* service = component->find_service(name)) return service;
+    return nullptr;
 }
 
 Reply SharedComponents::serve(const link::Request& request) {

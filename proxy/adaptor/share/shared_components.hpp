@@ -22,7 +22,8 @@ class SharedComponents {
 
     /// Finds the components and describes them. One that is not there, and a port that cannot cross, is logged in one
     /// line and left out. `directory` may be nullptr, then none is there. [main-thread]
-    link::PortTable find(const std::vector<std::string>& names, ComponentDirectory* directory);
+    link::PortTable find(const std::vector<std::string>& names,
+                         const std::map<std::string, std::string>& interfaces, ComponentDirectory* directory);
 
     /// Connects their ports with the link, whose own table find() has returned. [main-thread]
     void connect(link::Link& link, const SetArrivalListener& set_listener);
@@ -31,6 +32,8 @@ class SharedComponents {
 
     /// Executes a command for one of them. [worker-thread]
     link::Reply serve(const link::Request& request);
+    /// The provided service port of that channel name; nullptr when there is none. [worker-thread]
+    MirrorRequiredPort* find_service(std::string_view name) const;
 
     // [task-thread]
     void peer_connected();

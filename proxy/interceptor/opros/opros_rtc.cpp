@@ -134,6 +134,27 @@ std::string OprosRtc::channel_key(const link::Port& port) const {
 
 void OprosRtc::add_port(const link::Port& port) {
     const std::string name = port.name.substr(source_.component.name.size() + 1);
+    if (link::is_data_port(port.kind))
+        add_data_port(port, name);
+    else if (port.kind == link::PortKind::service_provided)
+        add_service_port(port, name);
+}
+
+void OprosRtc::add_service_port(const link::Port& port, const std::string& name) {
+    Service service;
+    try {
+        service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
+    } catch (const wire::SignatureError& error) { // it came from another process
+        spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
+        return;
+    }
+    service.port = std::make_unique<RTC::CorbaPort>(name.c_str());
+    service.port->registerProvider(port.instance.c_str(), port.type.c_str(), service.target->servant());
+    addPort(*service.port);
+    services_.push_back(std::move(service));
+}
+
+void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
     std::string type;
     try {
         type = standard_type(port.signature);

@@ -3,9 +3,11 @@
 
 #include "proxy/interceptor/opros/opros_in_port.hpp"
 #include "proxy/interceptor/opros/opros_out_port.hpp"
+#include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
 
+#include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/ExtTrigExecutionContext.h>
 
@@ -74,12 +76,19 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override;
 
   private:
+    /// A provided service port: one interface, whose calls cross the link.
+    struct Service {
+        std::unique_ptr<MirrorRequiredPort> target;
+        std::unique_ptr<RTC::CorbaPort> port;
+    };
     struct Output {
         std::unique_ptr<OprosOutPort> port;
         std::string channel;
         bool listens = false;
     };
     void add_port(const link::Port& port);
+    void add_data_port(const link::Port& port, const std::string& name);
+    void add_service_port(const link::Port& port, const std::string& name);
     void add_configuration();
     std::string channel_key(const link::Port& port) const;
     bool command(std::string_view command, std::chrono::milliseconds timeout);
@@ -92,6 +101,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     RTC::ExtTrigExecutionContext* context_ = nullptr; ///< own
     std::vector<std::unique_ptr<OprosInPort>> inputs_;
     std::vector<Output> outputs_;
+    std::vector<Service> services_;
     std::vector<std::string> channel_keys_;     ///< registered with LinkBuffer
     std::map<std::string, std::string> values_; ///< bound to the configuration parameters
     std::map<std::string, std::string> sent_;   ///< what the OPRoS component has
