@@ -92,6 +92,10 @@ void add_run(Row& row, RowRuns& runs, Outcome outcome) {
     runs.summaries.push_back(summarize(std::move(outcome.samples)));
     row.runs.push_back(runs.summaries.back().p50);
     row.foreign_cpu_share = std::max(row.foreign_cpu_share, outcome.foreign_cpu_share);
+    if (outcome.window_counts) {
+        if (!row.window_counts) row.window_counts.emplace();
+        row.window_counts->add(*outcome.window_counts);
+    }
     if (outcome.path_counts) row.path_counts = outcome.path_counts;
     if (!outcome.path_functions.empty()) row.path_functions = outcome.path_functions;
     if (!outcome.tick_counts) return;

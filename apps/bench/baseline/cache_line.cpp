@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The physical limit: what a reading of the clock costs, and how long one modified cache line takes from core
 // to core. No transport between two cores is faster than the latter.
+#include "apps/bench/baseline/line_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/measurements.hpp"
 #include "apps/bench/harness/registry.hpp"
@@ -8,38 +9,6 @@
 namespace tandem::bench {
 
 namespace {
-
-/// One word each way, without a ring. Each message uses the next of 64 lines: the way of a line to a core
-/// depends on its address (130 to 180 ns on one machine), and a single line would measure its luck.
-class LineEndpoint {
-  public:
-    explicit LineEndpoint(Session& session)
-        : out_(words(session, session.is_side_a() ? 0 : 1)),
-          in_(words(session, session.is_side_a() ? 1 : 0)) {}
-    void send(std::uint64_t sequence) { word(out_, sent_++).store(sequence, std::memory_order_release); }
-    std::uint64_t receive() {
-        auto& incoming = word(in_, received_);
-        // The line still holds the message of 64 messages ago: a new one has come when the word changes.
-        const std::uint64_t before = last_[received_ % lines];
-        std::uint64_t now = before;
-        while (now == before) now = incoming.load(std::memory_order_acquire);
-        return last_[received_++ % lines] = now;
-    }
-
-  private:
-    using Word = std::atomic<std::uint64_t>;
-    // 128 bytes: the prefetcher fetches lines in pairs, and neighbours would be moved along.
-    static constexpr std::size_t lines = 64, distance = 128;
-    static std::byte* words(Session& session, std::size_t direction) {
-        return session.memory().data() + direction * lines * distance;
-    }
-    static Word& word(std::byte* words, std::size_t index) {
-        return *reinterpret_cast<Word*>(words + index % lines * distance);
-    }
-    std::byte *out_, *in_;
-    std::size_t sent_ = 0, received_ = 0;
-    std::uint64_t last_[lines] = {};
-};
 
 /// Part of every latency in the report: one reading before and one after.
 void read_clock(Session& session) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cases of the minimal ring (index_ring.hpp): one way, as a pair of rings for calls, and streams.
-#include "apps/bench/baseline/index_ring.hpp"
+#include "apps/bench/baseline/index_ring_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/cold.hpp"
 #include "apps/bench/harness/ring_cases.hpp"
@@ -10,44 +10,6 @@
 namespace tandem::bench {
 
 namespace {
-
-template <std::size_t bytes, class Ring>
-void write_slot(Ring& ring, std::uint64_t sequence) {
-    fill_message(ring.claim(), bytes, sequence);
-    ring.publish();
-}
-
-/// The slot is given back after its words have been summed.
-template <std::size_t bytes, class Ring>
-std::uint64_t read_slot(Ring& ring) {
-    const std::uint64_t sequence = checked_sequence(ring.wait_for_slot(), bytes);
-    ring.release();
-    return sequence;
-}
-
-/// Two rings, one for each direction. A region is the place of such a pair in the session's memory.
-template <std::size_t bytes, Wake wake>
-class RingEndpoint {
-  public:
-    explicit RingEndpoint(Session& session, std::size_t region = 0)
-        : out_(memory(session, 2 * region + (session.is_side_a() ? 0 : 1))),
-          in_(memory(session, 2 * region + (session.is_side_a() ? 1 : 0))) {}
-    void send(std::uint64_t sequence) { write_slot<bytes>(out_, sequence); }
-    std::uint64_t receive() { return read_slot<bytes>(in_); }
-
-  private:
-    using Ring = IndexRing<bytes, bytes <= 4096 ? 1024 : 4, wake>;
-    static std::byte* memory(Session& session, std::size_t index) {
-        constexpr std::size_t page = 4096;
-        std::byte* const begin =
-            session.memory().data() + index * ((Ring::memory_bytes + page) / page * page);
-        for (std::size_t offset = 0; offset < Ring::memory_bytes;
-             offset += page) // page faults now, not in the first lap
-            static_cast<void>(*static_cast<volatile std::byte*>(begin + offset));
-        return begin;
-    }
-    Ring out_, in_;
-};
 
 /// One ring, tuned for throughput.
 class SmallStreamEndpoint {
@@ -86,7 +48,7 @@ class CopyingEndpoint {
 /// In 8 places of the memory, one after the other: see measure_round_trips_in_regions().
 template <Wake wake>
 void measure_in_8_regions(Session& session) {
-    measure_round_trips_in_regions<RingEndpoint<64, wake>>(session, 8);
+    measure_round_trips_in_regions<IndexRingEndpoint<64, wake>>(session, 8);
 }
 
 /// A sleeps for the interval, stamps 48 bytes and writes them; B reads the clock when it has them. Both cores read the same
@@ -153,7 +115,7 @@ void add_cold_cases(Registry& registry) {
 /// The 64-byte cases of one wake mode.
 template <Wake wake>
 void add_wake_mode(Registry& registry) {
-    RingCases<RingEndpoint>(registry, Group::baseline, "index-ring")
+    RingCases<IndexRingEndpoint>(registry, Group::baseline, "index-ring")
         .add_wake_mode<wake>(measure_in_8_regions<wake>);
     // A request and a reply, each in a ring: all that a call needs.
     registry.add_with_conditions({.group = Group::baseline,
@@ -165,8 +127,8 @@ void add_wake_mode(Registry& registry) {
 
 /// "zero-copy": the slots themselves are filled and summed.
 template <std::size_t bytes>
-void add_large_streams(RingCases<RingEndpoint>& cases) {
-    cases.add_large_stream<RingEndpoint<bytes, Wake::spin>>(bytes, "zero-copy");
+void add_large_streams(RingCases<IndexRingEndpoint>& cases) {
+    cases.add_large_stream<IndexRingEndpoint<bytes, Wake::spin>>(bytes, "zero-copy");
     cases.add_large_stream<CopyingEndpoint<bytes>>(bytes, "copy");
 }
 
@@ -177,7 +139,7 @@ void add_index_ring_cases(Registry& registry) {
     add_wake_mode<Wake::spin_then_futex>(registry);
     add_wake_mode<Wake::blocking>(registry);
     add_cold_cases(registry);
-    RingCases<RingEndpoint> cases(registry, Group::baseline, "index-ring");
+    RingCases<IndexRingEndpoint> cases(registry, Group::baseline, "index-ring");
     cases.add_sizes_from_256();
     cases.add_small_stream<SmallStreamEndpoint>();
     add_large_streams<65536>(cases);

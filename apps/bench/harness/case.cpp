@@ -21,7 +21,7 @@ const char* name_of(Placement placement) {
     return names[static_cast<int>(placement)];
 }
 const char* name_of(Unit unit) {
-    static constexpr const char* names[] = {"ns", "GB/s", "M/s", "count"};
+    static constexpr const char* names[] = {"ns", "GB/s", "M/s", "count", "ratio"};
     return names[static_cast<int>(unit)];
 }
 

@@ -27,7 +27,7 @@ enum class PowerProfile { normal, low_latency_idle };
 /// process, on a core each. alone: there is only A.
 enum class Placement { processes, same_core, threads, alone };
 
-enum class Unit { ns, gigabytes_per_second, million_messages_per_second, count };
+enum class Unit { ns, gigabytes_per_second, million_messages_per_second, count, ratio };
 
 struct Case {
     Group group = Group::tandem;

@@ -130,6 +130,7 @@ Outcome run_case(const Case& bench_case, const Budget& budget, const Cores& core
     for (const char* text : control.failure) // says more than "side A failed"
         if (*text != '\0') outcome.failure = text;
     if (control.has_tick_counts) outcome.tick_counts = control.tick_counts;
+    if (control.has_window_counts) outcome.window_counts = control.window_counts;
     if (control.has_path_counts) outcome.path_counts = control.path_counts;
     std::istringstream functions(control.path_functions);
     for (std::string line; std::getline(functions, line);) outcome.path_functions.push_back(line);

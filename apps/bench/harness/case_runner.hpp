@@ -14,6 +14,7 @@ struct Outcome {
     std::vector<double> samples; ///< in the case's unit
     std::string failure;         ///< one line; empty if it went well
     std::optional<TickCounts> tick_counts;
+    std::optional<WindowCounts> window_counts;
     std::optional<PathCounts> path_counts;
     std::vector<std::string> path_functions;
     double foreign_cpu_share = 0; ///< how much of the machine other processes used, 0 to 1

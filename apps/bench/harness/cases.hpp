@@ -17,6 +17,7 @@ void add_memory_cases(Registry& registry);
 void add_bridge_cases(Registry& registry);
 void add_call_cases(Registry& registry);
 void add_opros_cases(Registry& registry);
+void add_paired_cases(Registry& registry);
 void add_port_cases(Registry& registry);
 void add_publish_count_cases(Registry& registry);
 void add_ring_cases(Registry& registry);

@@ -30,6 +30,7 @@ Registry all_cases() {
     add_stream_cases(registry);
     add_call_cases(registry);
     add_port_cases(registry);
+    add_paired_cases(registry);
     add_opros_cases(registry);
     add_publish_count_cases(registry);
     add_rtm_cases(registry);

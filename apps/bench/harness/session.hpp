@@ -5,6 +5,7 @@
 #include "apps/bench/harness/case.hpp"
 #include "apps/bench/harness/path_counts.hpp"
 #include "apps/bench/harness/tick_record.hpp"
+#include "apps/bench/harness/window_counts.hpp"
 #include "apps/bench/machine/clock.hpp"
 
 #include <atomic>
@@ -34,6 +35,9 @@ struct Control {
     char failure[2][text_bytes]; ///< of A and of B; empty if it went well
     bool has_tick_counts;
     TickCounts tick_counts;
+    std::atomic<std::uint64_t> peer_switches; ///< of B: see paired.hpp
+    bool has_window_counts;
+    WindowCounts window_counts;
     bool has_path_counts;
     PathCounts path_counts;
     char path_functions[listing_bytes]; ///< one line each
@@ -85,6 +89,14 @@ class Session {
     void set_tick_counts(const TickCounts& counts) {
         control_.tick_counts = counts;
         control_.has_tick_counts = true;
+    }
+
+    /// How often side B has lost its core, as it last said.
+    std::atomic<std::uint64_t>& peer_switches() { return control_.peer_switches; }
+    /// How many windows of a paired case count.
+    void set_window_counts(const WindowCounts& counts) {
+        control_.window_counts = counts;
+        control_.has_window_counts = true;
     }
 
     /// What a message takes, and its functions, one line each; the last ones are left out if there is no room.

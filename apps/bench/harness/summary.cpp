@@ -24,6 +24,8 @@ Summary summarize(std::vector<double> samples) {
     out.samples = samples.size();
     if (samples.empty()) return out;
     std::sort(samples.begin(), samples.end());
+    out.p25 = percentile(samples, 0.25);
+    out.p75 = percentile(samples, 0.75);
     out.p50 = percentile(samples, 0.5);
     out.p90 = percentile(samples, 0.9);
     out.p99 = percentile(samples, 0.99);
@@ -59,6 +61,8 @@ Summary median_of(const std::vector<Summary>& runs) {
         out.max = std::max(out.max, run.max);
         points = std::min(points, run.curve.size());
     }
+    out.p25 = median_over([](const Summary& run) { return run.p25; });
+    out.p75 = median_over([](const Summary& run) { return run.p75; });
     out.p50 = median_over([](const Summary& run) { return run.p50; });
     out.p90 = median_over([](const Summary& run) { return run.p90; });
     out.p99 = median_over([](const Summary& run) { return run.p99; });

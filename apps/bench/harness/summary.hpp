@@ -14,6 +14,7 @@ struct CurvePoint {
 /// In the case's unit.
 struct Summary {
     std::size_t samples = 0;
+    double p25 = 0, p75 = 0; ///< the quartiles
     double p50 = 0, p90 = 0, p99 = 0, p999 = 0, max = 0;
     std::vector<CurvePoint> curve;
 };

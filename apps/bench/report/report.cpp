@@ -47,7 +47,9 @@ Json row_json(const Row& row, const Machine& machine) {
     }
     const Summary& s = row.summary;
     out.update({{"samples", s.samples},
+                {"p25", s.p25},
                 {"p50", s.p50},
+                {"p75", s.p75},
                 {"p90", s.p90},
                 {"p99", s.p99},
                 {"p99.9", s.p999},
@@ -58,6 +60,10 @@ Json row_json(const Row& row, const Machine& machine) {
     if (row.tick_counts) {
         out["overruns"] = row.tick_counts->overruns;
         out["periods_skipped"] = row.tick_counts->skipped;
+    }
+    if (row.window_counts) {
+        out["windows"] = row.window_counts->kept;
+        out["windows_dropped"] = row.window_counts->dropped;
     }
     if (row.path_counts)
         out["path"] = {{"instructions", row.path_counts->instructions},
@@ -93,7 +99,9 @@ Row row_from(const Json& in) {
     }
     Summary& s = row.summary;
     s.samples = in.at("samples");
+    s.p25 = in.value("p25", s.p25); // of reports since 0.2.0
     s.p50 = in.at("p50");
+    s.p75 = in.value("p75", s.p75);
     s.p90 = in.at("p90");
     s.p99 = in.at("p99");
     s.p999 = in.at("p99.9");
@@ -103,6 +111,7 @@ Row row_from(const Json& in) {
     for (const Json& run : in.at("runs")) row.runs.push_back(run.is_null() ? NAN : run.get<double>());
     for (const Json& point : in.at("curve")) s.curve.push_back({point.at(0), point.at(1)});
     if (in.contains("overruns")) row.tick_counts = {in.at("overruns"), in.at("periods_skipped")};
+    if (in.contains("windows")) row.window_counts = {in.at("windows"), in.at("windows_dropped")};
     if (in.contains("path")) {
         const Json& path = in.at("path");
         row.path_counts = {path.at("instructions"), path.at("code_lines"), path.at("code_pages"),

@@ -4,6 +4,7 @@
 #include "apps/bench/harness/path_counts.hpp"
 #include "apps/bench/harness/summary.hpp"
 #include "apps/bench/harness/tick_record.hpp"
+#include "apps/bench/harness/window_counts.hpp"
 
 #include <optional>
 #include <string>
@@ -21,16 +22,19 @@ struct Row {
     Summary summary;                       ///< median over the runs
     std::vector<double> runs;              ///< p50 of each run, in order; NaN where that run failed
     std::optional<TickCounts> tick_counts; ///< of cases that tick, over all runs
+    std::optional<WindowCounts> window_counts; ///< of paired cases, over all runs
     std::optional<PathCounts> path_counts; ///< of the last run of a case that counts instructions
     std::vector<std::string>
         path_functions;           ///< "118 libc.so.6 malloc": instructions of that run, library, function
     double foreign_cpu_share = 0; ///< the largest share of the machine that others used in a run
     std::string skipped;          ///< why there are no figures; empty if there are
 
-    bool higher_is_better() const { return unit != "ns" && unit != "count"; }
+    bool higher_is_better() const { return unit != "ns" && unit != "count" && unit != "ratio"; }
     /// A paced message counts from when it was due, so that a stall is not hidden.
     const char* timed_from() const { return operation == "paced" ? "intended start" : "start"; }
     bool disturbed() const { return foreign_cpu_share > max_foreign_cpu_share; }
+    /// Its samples are ratios to a floor, measured in alternation with it.
+    bool is_paired() const { return unit == "ratio"; }
     bool is_latency() const { return unit == "ns"; }
     /// A and B are processes of their own, on one core or on two.
     bool has_two_processes() const { return placement == "processes" || placement == "same-core"; }

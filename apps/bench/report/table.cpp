@@ -21,16 +21,20 @@ namespace {
 std::string line_of(const Row& row, std::size_t width) {
     const Summary& s = row.summary;
     const auto tail = [&](double value) { return row.is_latency() ? figure_text(value) : std::string("-"); };
-    return fmt::format("{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width,
-                       row.unit, row.cores, s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99),
-                       tail(s.p999), figure_text(s.max),
-                       row.conditions +
-                           (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped",
-                                                          row.tick_counts->overruns, row.tick_counts->skipped)
-                                            : "") +
-                           (row.disturbed() ? fmt::format(" DISTURBED: others used {:.0f} % of the machine",
-                                                          row.foreign_cpu_share * 100)
-                                            : ""));
+    return fmt::format(
+        "{:<{}} {:<5} {:>5} {:>8} {:>9} {:>9} {:>9} {:>10} {:>11} {}\n", row.id, width, row.unit, row.cores,
+        s.samples, figure_text(s.p50), tail(s.p90), tail(s.p99), tail(s.p999), figure_text(s.max),
+        row.conditions +
+            (row.tick_counts ? fmt::format(" {} overruns, {} periods skipped", row.tick_counts->overruns,
+                                           row.tick_counts->skipped)
+                             : "") +
+            (row.window_counts ? fmt::format(" quartiles {:.3f} .. {:.3f}, {} of {} windows dropped", s.p25,
+                                             s.p75, row.window_counts->dropped,
+                                             row.window_counts->kept + row.window_counts->dropped)
+                               : "") +
+            (row.disturbed()
+                 ? fmt::format(" DISTURBED: others used {:.0f} % of the machine", row.foreign_cpu_share * 100)
+                 : ""));
 }
 
 } // namespace

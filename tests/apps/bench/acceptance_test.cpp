@@ -21,6 +21,24 @@ TEST_CASE("A limit is checked against the median of the ratios of each run") {
     CHECK(results[0].passed());
 }
 
+TEST_CASE("A paired row is checked by the median of its windows and shown with their quartiles") {
+    Row paired = row("tandem/paired", {1.1}, "ratio");
+    paired.summary = summarize({1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7});
+    paired.runs = {paired.summary.p50};
+    paired.window_counts = {8, 2};
+    const auto results =
+        check_acceptance({{"x", Comparison::at_most, 1.35, "tandem/paired", ""}}, report({paired}));
+    CHECK(results[0].value == Approx(1.3));
+    CHECK(results[0].min == Approx(1.1));
+    CHECK(results[0].max == Approx(1.5));
+    CHECK(results[0].passed());
+    const Row again = from_json(to_json(report({paired}))).rows.at(0);
+    CHECK(again.summary.p25 == paired.summary.p25);
+    CHECK(again.summary.p75 == paired.summary.p75);
+    REQUIRE(again.window_counts);
+    CHECK((again.window_counts->kept == 8 && again.window_counts->dropped == 2));
+}
+
 TEST_CASE("Limits are checked in both directions and for figures without a denominator") {
     const Report of = report({row("tandem/a", {41}, "M/s"), row("baseline/b", {10}, "M/s")});
     CHECK(check_acceptance({{"x", Comparison::at_least, 40, "tandem/a", ""}}, of)[0].passed());

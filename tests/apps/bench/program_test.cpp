@@ -96,6 +96,27 @@ TEST_CASE("Cold messages cross the bridge in both directions") {
     }
 }
 
+TEST_CASE("A paired row is a ratio of short windows, and those in which others had the core are counted") {
+    const Folder folder;
+    const auto json = folder.file("paired.json");
+    const auto result = bench({"--only", "ring/paired/64/spin", "--quick", "--json", json});
+    INFO(result.errors);
+    REQUIRE(result.exit_code() == 0);
+    for (const Row& row : from_json(content(json)).rows) {
+        if (row.operation != "paired" || allowed_cores().size() < 2) continue;
+        INFO(row.id << ": " << row.skipped);
+        if (!row.skipped.empty()) {
+            CHECK_THAT(row.skipped, Catch::Contains("others had the core"));
+            continue;
+        }
+        CHECK(row.unit == "ratio");
+        REQUIRE(row.window_counts);
+        CHECK(row.window_counts->kept + row.window_counts->dropped == 60);
+        CHECK(row.summary.samples == row.window_counts->kept);
+        CHECK((row.summary.p25 <= row.summary.p50 && row.summary.p50 <= row.summary.p75));
+    }
+}
+
 TEST_CASE("Wrong options end in one line and a code") {
     for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
              {{"--only", "nothing-of-this-name"}, "--list"},
