@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
-#include "apps/tandem/opros/executor_format.hpp"
-#include "apps/tandem/opros/port_format.hpp"
+#include "apps/tandem/opros/description/executor_format.hpp"
+#include "apps/tandem/opros/description/port_format.hpp"
+#include "apps/tandem/opros/description/profile_description.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
-#include "apps/tandem/opros/profile_description.hpp"
 #include "apps/tandem/output/format.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/output/table.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/probe_tasks.hpp"
 
-#include "apps/tandem/opros/component_description.hpp"
+#include "apps/tandem/opros/description/component_description.hpp"
 #include "host/opros/engine/connect/make_connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
 #include "host/opros/engine/load/absent_properties.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/opros/component_description.hpp"
+#include "apps/tandem/opros/description/component_description.hpp"
 
 #include "proxy/adaptor/archive/type_check.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/opros/port_format.hpp"
+#include "apps/tandem/opros/description/port_format.hpp"
 
 #include "apps/tandem/output/table.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/opros/executor_format.hpp"
+#include "apps/tandem/opros/description/executor_format.hpp"
 
 #include <fmt/format.h>
 
