@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tandem::wire {
+
+/// A conversion that cannot be made; what() is one line that names the field, both types and what to do.
+class ConversionError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// What a user asks for between the type that is sent and the one that is received, as `convert.PORT` has it:
+///
+///     widen; narrow; reorder; positions; drop tm; set tm; drop PATH
+///     PATH: default VALUE        PATH: from SOURCE          PATH: count SOURCE
+///     PATH: deg->rad             PATH: * 0.125              PATH: from SOURCE deg->rad
+///
+/// PATH names a field of the receiver, SOURCE one of the sender: `velocity.va`, or by position `1.3`.
+struct ConversionRequest {
+    struct Rule {
+        std::string target, source;          ///< no source: the field of the same path
+        std::optional<std::string> constant; ///< the field's value in every message
+        bool count = false;                  ///< the field's value is the number of elements of the source
+        double factor = 1;
+    };
+    bool widen = false;     ///< to a type that has each value of the sender's
+    bool narrow = false;    ///< to any number type; a value that does not fit is an error of that message
+    bool reorder = false;   ///< fields are found by name
+    bool positions = false; ///< fields are found by position, whatever their names
+    bool drop_time = false, set_time = false;
+    std::vector<std::string> dropped; ///< fields of the sender that the receiver does not have
+    std::vector<Rule> rules;
+
+    bool empty() const;
+    const Rule* find(std::string_view target) const;
+};
+
+/// Throws ConversionError with the item that is not understood.
+ConversionRequest parse_conversion_request(std::string_view text);
+
+} // namespace tandem::wire

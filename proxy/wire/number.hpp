@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/wire/cdr.hpp"
+#include "proxy/wire/type.hpp"
+
+namespace tandem::wire {
+
+/// Whether values of that kind are numbers: integers, floating point, enumerations, octets, chars and booleans.
+bool is_number(Kind kind);
+
+/// The next number; exact for every kind, as long double has 64 bits of mantissa here.
+long double get_number(Kind kind, CdrReader& in);
+
+/// Writes the number, rounded to the nearest where the kind has no fractions. False if the kind cannot hold it: out of
+/// range, or no number.
+bool put_number(Kind kind, long double value, CdrWriter& out);
+
+/// A discriminator's value: an integer, a char, a boolean or an enumeration.
+std::int64_t get_integer(Kind kind, CdrReader& in);
+
+} // namespace tandem::wire
