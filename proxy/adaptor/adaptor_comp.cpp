@@ -162,20 +162,36 @@ void AdaptorComp::create_mirror_ports() {
                      peer_ports_.ports.size(), peer_ports_.component_names());
 }
 
+link::PortPolicy AdaptorComp::policy_of(const std::string& port) const {
+    return link::read_port_policy("property", port, [this](const std::string& name) {
+        const auto at = settings_.policies.find(name);
+        return at == settings_.policies.end() ? std::string() : at->second;
+    });
+}
+
 void AdaptorComp::create_mirror_port(const link::Port& port) {
+    if (port.has_ring()) {
+        const auto policy = policy_of(port.name);
+        if (port.kind == PortKind::data_in)
+            link_->writer(port.name).set_policy(policy);
+        else
+            link_->reader(port.name).set_policy(policy);
+    }
     const auto& events = settings_.event_ports;
     if (link::is_data_port(port.kind) && std::find(events.begin(), events.end(), port.name) != events.end())
         return create_event_mirror(port);
     switch (port.kind) {
     case PortKind::data_in:
-        inputs_.push_back(std::make_unique<MirrorInPort>(port, link_->writer(port.name)));
+        inputs_.push_back(
+            std::make_unique<MirrorInPort>(port, link_->writer(port.name), settings_.conversion(port.name)));
         addPort(port.name, inputs_.back().get());
         break;
     case PortKind::data_out: {
         const auto set_listener = [this, name = port.name](DataPortListener* listener) {
             listen_to(name, listener);
         };
-        outputs_.push_back(std::make_unique<MirrorOutPort>(port, link_->reader(port.name), set_listener));
+        outputs_.push_back(std::make_unique<MirrorOutPort>(port, link_->reader(port.name), set_listener,
+                                                           settings_.conversion(port.name)));
         addPort(port.name, outputs_.back().get());
         break;
     }

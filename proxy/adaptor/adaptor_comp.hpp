@@ -63,6 +63,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     void create_mirror_ports();
     void create_mirror_port(const link::Port&);
     void create_event_mirror(const link::Port&);
+    link::PortPolicy policy_of(const std::string& port) const;
     MirrorRequiredPort* find_required_port(std::string_view name);
 
     ReturnType drive_rtc(std::string_view command);

@@ -65,6 +65,12 @@ Settings read_settings(const std::map<std::string, std::string>& properties) {
         settings.group = group->second;
     if (const auto share = properties.find("share"); share != properties.end())
         settings.share = split_names(share->second);
+    constexpr std::string_view convert = "convert.";
+    for (const auto& [name, value] : properties)
+        if (name.starts_with(convert)) settings.conversions[name.substr(convert.size())] = value;
+    for (const std::string policy : {"keep_last", "wait_ms", "deadline_ms"})
+        for (const auto& [name, value] : properties)
+            if (name == policy || name.starts_with(policy + ".")) settings.policies[name] = value;
     if (const auto strict = properties.find("strict"); strict != properties.end())
         settings.strict = link::parse_flag("property", "strict", strict->second);
     if (const auto events = properties.find("event_ports"); events != properties.end())

@@ -24,8 +24,17 @@ struct Settings {
     std::vector<std::string> share; ///< `share`: names of the OPRoS components that are shown as RTCs
     /// `interfaces`: the IDL interface, `Module::Interface`, of a shared provided service port, by COMPONENT.PORT
     std::map<std::string, std::string> interfaces;
+    std::map<std::string, std::string> conversions; ///< `convert.PORT`: see wire::ConversionRequest
+    std::map<std::string, std::string>
+        policies;        ///< `keep_last`, `wait_ms`, `deadline_ms`, and `.PORT` for one port
     bool strict = false; ///< `strict`: a connection that is refused is an error when the component is started
     std::string group;   ///< `group`: may join the link beside the owner; empty: the owner only
+
+    /// What is asked for the port; empty if nothing is.
+    std::string conversion(const std::string& port) const {
+        const auto at = conversions.find(port);
+        return at == conversions.end() ? "" : at->second;
+    }
 };
 
 /// Throws std::runtime_error, one line, when `link` is missing or another property is not a number above 0.

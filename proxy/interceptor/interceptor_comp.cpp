@@ -135,6 +135,13 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
     const std::string key = channel_key(entry.name);
     LinkChannel channel;
+    const auto policy = link::read_port_policy("parameter", entry.name, [this](const std::string& name) {
+        return getProperties().getProperty(name);
+    });
+    if (entry.kind == PortKind::data_out)
+        link_->writer(entry.name).set_policy(policy);
+    else
+        link_->reader(entry.name).set_policy(policy);
     const auto type = wire::parse_signature(entry.signature);
     channel.timed = wire::is_timed(type);
     if (wire::contains(type, wire::Kind::any) || wire::contains(type, wire::Kind::fixed))

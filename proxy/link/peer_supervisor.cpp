@@ -50,6 +50,7 @@ void PeerSupervisor::run() {
             continue;
         }
         if (!state_.is_up() && !peer_refused_ && session->segment()->peer_published()) try_connect(*session);
+        if (state_.is_up()) channels_.check_deadlines();
         watcher_.wait(state_.is_up() ? watch_period_up : watch_period_down);
     }
     disconnect("");

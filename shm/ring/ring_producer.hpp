@@ -52,6 +52,10 @@ class alignas(layout::line_pair) RingProducer {
     /// Publishes the first `used` bytes of what was reserved. False: refused and counted after all.
     bool commit(const void* scratch, std::size_t used, std::uint64_t stamp);
 
+    /// Whether a message of that length can be published without dropping an older one.
+    bool has_room(std::size_t bytes) {
+        return fits(room_for(record_size(bytes <= ring_.max_record ? bytes : sizeof(ChunkReference))));
+    }
     /// Counts a message that its sender could not make, as sent and dropped. Returns false.
     bool refuse();
 

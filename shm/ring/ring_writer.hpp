@@ -25,6 +25,8 @@ class RingWriter {
     bool commit(std::size_t used, std::uint64_t stamp_ns);
     void cancel_reservation() { producer_.cancel_reservation(); } ///< Forgets what was reserved, uncounted.
 
+    /// Whether a message of that length can be published without dropping an older one.
+    bool has_room(std::size_t bytes) { return producer_.has_room(bytes); }
     void refuse() { producer_.refuse(); } ///< Counts a message that could not be made, as sent and dropped.
 
     /// reserve(), copy, commit(). False: dropped.

@@ -2,27 +2,31 @@
 #pragma once
 
 #include "proxy/link/protocol/port_table.hpp"
-#include "proxy/wire/signature_match.hpp"
+#include "proxy/wire/conversion/conversion.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <OPRoSTypes.h>
 
+#include <optional>
 #include <string>
 
 namespace tandem::adaptor {
 
-/// The result of check_type().
+/// How values of an OPRoS data port cross, or why they cannot: the result of check_type().
 struct TypeCheck {
-    wire::SignatureMatch match = wire::SignatureMatch::mismatch; ///< from the OPRoS type to the peer's
-    wire::Type type; ///< what the OPRoS type holds, with the names that it has
     std::string
         error; ///< empty, or one line with both types, both signatures and the first member that differs
+    bool value_has_time = false; ///< the OPRoS type begins with RTM's time, which the message header carries
+    bool set_time = false;       ///< the time is that of the crossing, not the sender's
+    std::optional<wire::Conversion> conversion{}; ///< of the rest; none if its bytes stay as they are
 };
 
-/// Compares the type of an OPRoS data port, of which `sample` is a value, with the signature of the peer's
-/// port. Accepted are signatures that fit, and add_time: the peer's message begins with RTM's time and the OPRoS
-/// value does not. `sends`: the OPRoS port is the sender. Throws nothing; the error is in the result.
-TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends);
+/// Compares the type of an OPRoS data port, of which `sample` is a value, with the signature of the peer's port. Types
+/// that fit need nothing, and RTM's leading time is added where the OPRoS type has none; `convert` says what else is to
+/// be done (wire::parse_conversion_request), or `device`: as device_conversion() has it, which is also what happens
+/// where nothing is asked for. `sends`: the OPRoS port is the sender. Throws nothing; the error is in the result.
+TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends,
+                     const std::string& convert = "");
 
 /// What the type that the sample holds is, as its load() shows it. A union in `peer` is looked for: load() is shown
 /// each discriminator and has to read that case's members. Throws std::exception when the type cannot cross.

@@ -2,39 +2,78 @@
 #include "proxy/adaptor/data/mirror_in_port.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
-#include "proxy/adaptor/archive/type_check.hpp"
-#include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
+
+#include <algorithm>
 
 namespace tandem::adaptor {
 
-MirrorInPort::MirrorInPort(link::Port peer, link::ChannelWriter& channel)
-    : peer_(std::move(peer)), channel_(channel) {}
+MirrorInPort::MirrorInPort(link::Port peer, link::ChannelWriter& channel, std::string convert)
+    : peer_(std::move(peer)), channel_(channel), convert_(std::move(convert)) {}
 
 bool MirrorInPort::checkType(opros_any& sample) {
-    const auto check = check_type(sample, peer_, true);
+    auto check = check_type(sample, peer_, true, convert_);
     type_error_ = check.error;
     if (!check.error.empty()) {
         refusals_.push_back(check.error);
         return false;
     }
-    value_has_time_ = wire::is_timed(peer_.signature) && check.match == wire::SignatureMatch::equal;
+    if (encodings_.empty() || !std::any_of(encodings_.begin(), encodings_.end(),
+                                           [&](const Encoding& each) { return each.type == sample.type(); }))
+        encodings_.push_back({sample.type(), std::move(check)});
     return true;
 }
 
+/// Asked by name only where ports of several types push here: a name costs an allocation.
+MirrorInPort::Encoding* MirrorInPort::find_encoding(const opros_any& value) {
+    if (encodings_.size() == 1) return &encodings_.front();
+    const std::string type = value.type();
+    const auto at = std::find_if(encodings_.begin(), encodings_.end(),
+                                 [&](const Encoding& each) { return each.type == type; });
+    return at == encodings_.end() ? nullptr : &*at;
+}
+
 ReturnType MirrorInPort::push(opros_any& value) {
-    std::uint64_t stamp = value_has_time_ ? 0 : wire::wall_clock_stamp();
+    Encoding* const encoding = find_encoding(value);
+    if (!encoding) return OPROS_BAD_INPUT_PARAMETER;
+    TypeCheck& check = encoding->check;
     try {
+        if (check.conversion || check.set_time) return push_converted(value, check);
+        std::uint64_t stamp = check.value_has_time ? 0 : wire::wall_clock_stamp();
         // The channel reads `stamp` after this function has run, so the archive may still set it.
         const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
-            CdrOarchive archive = value_has_time_ ? CdrOarchive(out, stamp) : CdrOarchive(out);
+            CdrOarchive archive = check.value_has_time ? CdrOarchive(out, stamp) : CdrOarchive(out);
             value.encode(archive);
         });
         return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
         // checkType() has accepted the type; single values may still not cross, as a string with a NUL in it.
+        channel_.refuse(error.what());
         return OPROS_BAD_INPUT_PARAMETER;
     }
+}
+
+ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
+    const std::lock_guard lock(conversion_mutex_);
+    std::uint64_t stamp = 0;
+    wire::CdrWriter out(encoded_);
+    CdrOarchive archive = check.value_has_time ? CdrOarchive(out, stamp) : CdrOarchive(out);
+    value.encode(archive);
+    if (!check.value_has_time || check.set_time) stamp = wire::wall_clock_stamp();
+    const auto* message = &encoded_;
+    if (check.conversion) {
+        wire::CdrWriter converted(converted_);
+        if (!check.conversion->run(wire::CdrReader(encoded_), converted)) {
+            channel_.refuse(check.conversion->error());
+            return OPROS_BAD_INPUT_PARAMETER;
+        }
+        message = &converted_;
+    }
+    const bool sent = channel_.write_sized(message->size(), stamp, [&](std::span<std::byte> room) {
+        std::copy(message->begin(), message->end(), room.begin());
+        return true;
+    });
+    return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
 }
 
 } // namespace tandem::adaptor

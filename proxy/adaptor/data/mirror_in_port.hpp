@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/archive/type_check.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
 #include <InputDataPort.h>
 
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -14,13 +16,16 @@ namespace tandem::adaptor {
 /// Mirrors an input data port of the peer: an OPRoS component's push() encodes the value into the link's
 /// channel, in the pushing thread, and never blocks. The channel's ring overwrites old messages, so a short
 /// message is encoded into a buffer of the ring's and copied from there when it is published; one that is too
-/// long for the ring is encoded in the chunk of shared memory in which it travels.
+/// long for the ring is encoded in the chunk of shared memory in which it travels. Several ports may push here, of
+/// types of their own.
 class MirrorInPort final : public InputDataPortInterface {
   public:
-    /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
-    MirrorInPort(link::Port peer, link::ChannelWriter& channel);
+    /// `peer` is the port's entry in the peer's table; `convert` as check_type() takes it. The channel must outlive this
+    /// port.
+    MirrorInPort(link::Port peer, link::ChannelWriter& channel, std::string convert = "");
 
-    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot be encoded.
+    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: this value cannot cross, which is
+    /// counted as a dropped message.
     ReturnType push(opros_any& value) override;
     ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
     ReturnType pushData(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
@@ -34,11 +39,22 @@ class MirrorInPort final : public InputDataPortInterface {
     const std::vector<std::string>& refusals() const { return refusals_; }
 
   private:
+    struct Encoding {
+        std::string type; ///< of the values
+        TypeCheck check;
+    };
+    Encoding* find_encoding(const opros_any& value);
+    ReturnType push_converted(opros_any& value, TypeCheck& check);
+
     const link::Port peer_;
     link::ChannelWriter& channel_;
-    bool value_has_time_ = false; ///< the OPRoS type begins with RTM's time, which the message header carries
+    const std::string convert_;
+    std::vector<Encoding> encodings_; ///< of the connected ports; complete before anybody pushes
     std::string type_error_;
     std::vector<std::string> refusals_;
+
+    std::mutex conversion_mutex_;                ///< the two below, and the conversions
+    std::vector<std::byte> encoded_, converted_; ///< kept for their memory
 };
 
 } // namespace tandem::adaptor

@@ -1,80 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/data/mirror_out_port.hpp"
 
-#include "proxy/adaptor/archive/type_check.hpp"
-#include "proxy/wire/signature_match.hpp"
-
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
+
+#include <algorithm>
 
 namespace tandem::adaptor {
 
-MirrorOutPort::MirrorOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener)
-    : peer_(std::move(peer)), channel_(channel), set_listener_(std::move(set_listener)) {}
+MirrorOutPort::MirrorOutPort(link::Port peer, link::ChannelReader& channel, SetListener set_listener,
+                             std::string convert)
+    : peer_(std::move(peer)), channel_(channel), set_listener_(std::move(set_listener)),
+      convert_(std::move(convert)) {}
 
-MirrorOutPort::~MirrorOutPort() { detach(); }
+MirrorOutPort::~MirrorOutPort() { clearConnection(); }
 
 bool MirrorOutPort::checkType(DataPort* target) {
     auto* input = dynamic_cast<InputDataPortInterface*>(target);
-    if (!input || target_) {
-        type_error_ =
-            fmt::format("port '{}': {}", peer_.name,
-                        input ? "it is connected already, and what crosses the link goes to one port; let "
-                                "that component pass it on"
-                              : "the target is not an input data port");
-        return false;
+    TypeCheck check;
+    if (input)
+        check = check_type(input->sample(), peer_, false, convert_);
+    else
+        check.error = fmt::format("port '{}': the target is not an input data port", peer_.name);
+    OutTap* tap = nullptr;
+    if (check.error.empty()) {
+        const auto channel_lock = channel_.lock();
+        const std::lock_guard lock(listeners_mutex_);
+        taps_.push_back(std::make_unique<OutTap>(*this, *input, std::move(check)));
+        tap = taps_.back().get();
     }
-    const auto check = check_type(input->sample(), peer_, false);
+    // Without a lock: the target asks the source, which takes them.
+    if (tap && input->addSource(tap) != OPROS_SUCCESS) {
+        check.error = fmt::format("port '{}': the target takes no values from a bridge", peer_.name);
+        remove(taps_.size() - 1);
+    }
     type_error_ = check.error;
-    if (!check.error.empty()) {
-        refusals_.push_back(check.error);
-        return false;
+    if (!type_error_.empty()) refusals_.push_back(type_error_);
+    return type_error_.empty();
+}
+
+/// The host adds a connection right after it has had its target checked.
+void MirrorOutPort::addConnection(IDataPortLink* connection) {
+    OutputDataPortInterface::addConnection(connection);
+    if (!taps_.empty() && !taps_.back()->connection) taps_.back()->connection = connection;
+}
+
+void MirrorOutPort::removeConnection(IDataPortLink* connection) {
+    OutputDataPortInterface::removeConnection(connection);
+    for (std::size_t i = taps_.size(); i > 0; --i)
+        if (taps_[i - 1]->connection == connection || !taps_[i - 1]->connection) remove(i - 1);
+}
+
+void MirrorOutPort::clearConnection() {
+    while (!taps_.empty()) remove(taps_.size() - 1);
+}
+
+/// The source is taken from its target first, after which nobody uses it.
+void MirrorOutPort::remove(std::size_t index) {
+    OutTap& tap = *taps_[index];
+    tap.target().removeSource(&tap);
+    set_listener(tap, nullptr);
+    const auto channel_lock = channel_.lock();
+    const std::lock_guard lock(listeners_mutex_);
+    taps_.erase(taps_.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void MirrorOutPort::keep_for_others(const OutTap& reader, std::span<const std::byte> bytes,
+                                    std::uint64_t stamp) {
+    if (taps_.size() == 1) return;
+    for (auto& tap : taps_)
+        if (tap.get() != &reader) tap->keep(bytes, stamp);
+}
+
+/// The peer is asked to ring the doorbell only when that changes: it costs a call across the link.
+void MirrorOutPort::set_listener(OutTap& tap, DataPortListener* listener) {
+    bool listens = false;
+    {
+        const std::lock_guard lock(listeners_mutex_);
+        tap.listener_ = listener;
+        listens = std::any_of(taps_.begin(), taps_.end(), [](const auto& each) { return each->listener(); });
+        if (listens == listens_) return;
+        listens_ = listens;
     }
-    // With equal signatures a leading time belongs to the OPRoS type; otherwise only to the peer's.
-    value_has_time_ = wire::is_timed(peer_.signature) && check.match == wire::SignatureMatch::equal;
-    if (input->addSource(this) != OPROS_SUCCESS) {
-        type_error_ = fmt::format("port '{}': the target takes no values from a bridge", peer_.name);
-        return false;
-    }
-    target_ = input;
-    return true;
+    set_listener_(listens ? static_cast<DataPortListener*>(this) : nullptr);
 }
 
-void MirrorOutPort::detach() {
-    if (target_) target_->removeSource(this);
-    target_ = nullptr;
-}
-
-opros::archive::iarchive* MirrorOutPort::next() {
-    // Held until done(): a rebind or another read would free the memory of the message.
-    channel_lock_ = channel_.lock();
-    const auto record = channel_.read_locked();
-    if (!record) {
-        channel_lock_.unlock();
-        return nullptr;
-    }
-    message_bytes_ = record->bytes.size();
-    const wire::CdrReader reader(record->bytes);
-    return value_has_time_ ? &archive_.emplace(reader, record->stamp_ns) : &archive_.emplace(reader);
-}
-
-void MirrorOutPort::done() {
-    archive_.reset();
-    channel_lock_.unlock();
-}
-
-bool MirrorOutPort::setListener(DataPortListener* listener) {
-    // The peer is asked to ring the doorbell only when that changes: it costs a call across the link.
-    if (listener != listener_) set_listener_(listener);
-    listener_ = listener;
-    return true;
-}
-
-void MirrorOutPort::undecodable(const std::string& why) {
-    // Connected types match, so this happens only if the peer is broken; then it may happen in every cycle.
-    if (undecodable_.should_log())
-        spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",
-                      peer_.name, message_bytes_, why, undecodable_.count());
+void MirrorOutPort::arrived() {
+    const std::lock_guard lock(listeners_mutex_);
+    for (const auto& tap : taps_)
+        if (tap->listener()) tap->listener()->arrived();
 }
 
 } // namespace tandem::adaptor

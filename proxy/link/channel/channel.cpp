@@ -5,17 +5,59 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <thread>
 #include <utility>
 
 namespace tandem::link {
 
 // ---- ChannelWriter; the private functions are called with mutex_ held
 
-bool ChannelWriter::publish(std::size_t bytes, std::uint64_t stamp) {
-    if (!bound_->ring.commit(bytes, stamp)) return false;
+bool ChannelWriter::publish(std::span<const std::byte> message, std::uint64_t stamp) {
+    if (policy_.keep_last) {
+        last_.assign(message.begin(), message.end());
+        last_stamp_ = stamp;
+        has_last_ = true;
+    }
+    if (policy_.wait.count() != 0 && !wait_for_room(message.size())) {
+        bound_->ring.cancel_reservation();
+        bound_->ring.refuse();
+        if (no_room_.should_log())
+            spdlog::warn("port '{}': the reader is too slow: a message waited {} ms for room and is dropped, "
+                         "{} so far",
+                         port_, policy_.wait.count(), no_room_.count());
+        return false;
+    }
+    if (!bound_->ring.commit(message.size(), stamp)) return false;
     // After the commit, so that whoever the doorbell wakes finds the message.
     if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
     return true;
+}
+
+/// Asks again and again, since nobody tells a writer that its reader has read: that would cost every reader a system
+/// call. A system call is made here only while the ring is full.
+bool ChannelWriter::wait_for_room(std::size_t bytes) {
+    constexpr auto pause = std::chrono::microseconds(50);
+    const auto deadline = std::chrono::steady_clock::now() + policy_.wait;
+    while (!bound_->ring.has_room(bytes)) {
+        if (bound_->ring.corrupt() || std::chrono::steady_clock::now() >= deadline) return false;
+        std::this_thread::sleep_for(pause);
+    }
+    return true;
+}
+
+void ChannelWriter::set_policy(const PortPolicy& policy) {
+    const std::lock_guard lock(mutex_);
+    policy_ = policy;
+}
+
+/// To a peer that has come after the message was sent.
+void ChannelWriter::send_last_again() {
+    if (!has_last_ || bound_->ring.counters().sent != 0) return;
+    const auto room = bound_->ring.reserve(last_.size());
+    if (room.data() == nullptr) return;
+    std::copy(last_.begin(), last_.end(), room.begin());
+    bound_->ring.commit(last_.size(), last_stamp_);
 }
 
 /// Logs why the ring refused a message of that length; the ring itself only counts it. Rings that drop the
@@ -64,6 +106,7 @@ bool ChannelWriter::corrupt() const {
 void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter ring) {
     const std::lock_guard lock(mutex_);
     bound_.emplace(BoundRing<shm::RingWriter>{std::move(segment), std::move(ring)});
+    send_last_again();
 }
 
 void ChannelWriter::unbind() {
@@ -89,9 +132,42 @@ shm::RingCounters ChannelReader::counters() const {
     return bound_ ? bound_->ring.counters() : shm::RingCounters{};
 }
 
+void ChannelReader::set_policy(const PortPolicy& policy) {
+    const std::lock_guard lock(mutex_);
+    policy_ = policy;
+}
+
+bool ChannelReader::has_missed_deadline(std::chrono::steady_clock::time_point now) {
+    const std::lock_guard lock(mutex_);
+    if (!bound_ || policy_.deadline.count() == 0) return false;
+    const std::uint64_t sent = bound_->ring.counters().sent;
+    if (sent != last_sent_ || last_change_ == std::chrono::steady_clock::time_point{}) {
+        last_sent_ = sent;
+        last_change_ = now;
+        silent_ = false;
+    }
+    if (silent_ || now - last_change_ <= policy_.deadline) return false;
+    silent_ = true;
+    ++missed_deadlines_;
+    return true;
+}
+
+std::uint64_t ChannelReader::missed_deadlines() const {
+    const std::lock_guard lock(mutex_);
+    return missed_deadlines_;
+}
+
+std::chrono::milliseconds ChannelReader::deadline() const {
+    const std::lock_guard lock(mutex_);
+    return policy_.deadline;
+}
+
 void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader ring) {
     const std::lock_guard lock(mutex_);
     bound_.emplace(BoundRing<shm::RingReader>{std::move(segment), std::move(ring)});
+    last_sent_ = 0;
+    last_change_ = {};
+    silent_ = false;
 }
 
 void ChannelReader::unbind() {

@@ -3,16 +3,19 @@
 
 #include "host/process/log_throttle.hpp"
 #include "host/rt/short_mutex.hpp"
+#include "proxy/link/channel/port_policy.hpp"
 #include "proxy/wire/cdr.hpp"
 #include "shm/segment.hpp"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tandem::link {
 
@@ -46,7 +49,7 @@ class ChannelWriter {
             if (room.data() == nullptr) return report_refusal(bytes);
             wire::CdrWriter writer(room);
             encode(writer);
-            if (writer.fits()) return publish(writer.size(), stamp);
+            if (writer.fits()) return publish(room.first(writer.size()), stamp);
             bound_->ring.cancel_reservation();
             bytes = writer.size();
         }
@@ -60,7 +63,7 @@ class ChannelWriter {
         if (!bound_) return false;
         const auto room = bound_->ring.reserve(bytes);
         if (room.data() == nullptr) return report_refusal(bytes);
-        if (fill(room)) return publish(bytes, stamp);
+        if (fill(room)) return publish(room.first(bytes), stamp);
         bound_->ring.cancel_reservation();
         return false;
     }
@@ -74,7 +77,7 @@ class ChannelWriter {
         const std::size_t longest = bound_->ring.max_record();
         const auto room = bound_->ring.reserve(longest);
         if (room.data() == nullptr) return report_refusal(longest);
-        if (const std::optional<std::size_t> bytes = fill(room)) return publish(*bytes, stamp);
+        if (const std::optional<std::size_t> bytes = fill(room)) return publish(room.first(*bytes), stamp);
         bound_->ring.cancel_reservation();
         return false;
     }
@@ -88,6 +91,9 @@ class ChannelWriter {
     /// True if the ring was damaged by another process; nothing more is sent through it.
     bool corrupt() const;
 
+    /// Before the port is in use. What keep_last keeps survives the peer.
+    void set_policy(const PortPolicy& policy);
+
     /// Whether the peer waits for messages of this port: then each one rings its doorbell, which costs a
     /// system call if it sleeps. Ends with unbind(), because the next peer has to ask for it again.
     void set_peer_listens(bool listens) { peer_listens_.store(listens, std::memory_order_relaxed); }
@@ -96,7 +102,9 @@ class ChannelWriter {
     void unbind();
 
   private:
-    bool publish(std::size_t bytes, std::uint64_t stamp);
+    bool publish(std::span<const std::byte> message, std::uint64_t stamp);
+    bool wait_for_room(std::size_t bytes);
+    void send_last_again();
     bool report_refusal(std::size_t bytes);
 
     mutable rt::ShortMutex mutex_;
@@ -104,7 +112,11 @@ class ChannelWriter {
     const std::string port_;
     std::atomic<bool> peer_listens_{false};
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
-    process::LogThrottle no_memory_, refused_;
+    process::LogThrottle no_memory_, refused_, no_room_;
+    PortPolicy policy_;
+    std::vector<std::byte> last_; ///< with keep_last: the last message
+    std::uint64_t last_stamp_ = 0;
+    bool has_last_ = false;
 };
 
 /// The receiving end of a data port across the link. Messages are read from the shared ring in the thread of
@@ -136,12 +148,25 @@ class ChannelReader {
 
     shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
 
+    /// Before the port is in use.
+    void set_policy(const PortPolicy& policy);
+    /// Whether the sender has been silent for longer than the port's deadline since the last message, or since the link
+    /// is up. True once for each silence. [supervisor-thread]
+    bool has_missed_deadline(std::chrono::steady_clock::time_point now);
+    std::uint64_t missed_deadlines() const; ///< how often so far
+    std::chrono::milliseconds deadline() const;
+
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
     void unbind();
 
   private:
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;
+    PortPolicy policy_;
+    std::uint64_t last_sent_ = 0,
+                  missed_deadlines_ = 0; ///< last_sent_: the sender's count when it last changed
+    std::chrono::steady_clock::time_point last_change_{};
+    bool silent_ = false; ///< the deadline was missed since last_change_
 };
 
 } // namespace tandem::link

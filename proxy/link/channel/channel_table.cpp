@@ -5,6 +5,7 @@
 #include "proxy/link/session/link_session.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -39,6 +40,15 @@ void ChannelTable::unbind_all() {
     const std::lock_guard lock(mutex_);
     for (auto& [name, writer] : writers_) writer.unbind();
     for (auto& [name, reader] : readers_) reader.unbind();
+}
+
+void ChannelTable::check_deadlines() {
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    for (auto& [name, reader] : readers_)
+        if (reader.has_missed_deadline(now))
+            spdlog::warn("port '{}': no message for {} ms, its deadline; {} times so far", name,
+                         reader.deadline().count(), reader.missed_deadlines());
 }
 
 bool ChannelTable::has_corrupt_ring() const {

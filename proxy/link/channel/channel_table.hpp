@@ -24,6 +24,9 @@ class ChannelTable {
     void bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports, shm::Side owner);
     void unbind_all();
 
+    /// Logs each port whose sender has been silent for longer than its deadline, once for each silence.
+    void check_deadlines();
+
     /// True if a bound ring holds words that its protocol cannot produce: a process outside of the link has
     /// written there, and nothing more would pass through that ring.
     bool has_corrupt_ring() const;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace tandem::adaptor {
+
+/// The conversion between a data type of OPRoS's device API and its counterpart among RTM's types, as a request for
+/// wire::Conversion; empty if there is none. `rtm_type` is a repository id. OPRoS's fields are named by their position,
+/// since their archive keeps no names. docs/device_types.md lists them.
+std::string device_conversion(std::string_view opros_type, std::string_view rtm_type, bool opros_sends);
+
+} // namespace tandem::adaptor

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "host/process/log_throttle.hpp"
+#include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/type_check.hpp"
+#include "proxy/link/channel/channel.hpp"
+
+#include <DataPortSource.h>
+#include <IDataPortLink.h>
+#include <InputDataPortInterface.h>
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tandem::adaptor {
+
+class MirrorOutPort;
+
+/// A message that was taken off the ring for a target that has not asked for it yet.
+struct KeptMessage {
+    std::vector<std::byte> bytes;
+    std::uint64_t stamp = 0;
+};
+
+/// What one OPRoS input port reads of a MirrorOutPort: its source. The only target of a port reads the ring itself; of
+/// several, whoever asks first takes the messages off the ring, and keeps a copy for each of the others. [one thread at a
+/// time: the target calls under its own lock]
+class OutTap final : public DataPortSource {
+  public:
+    OutTap(MirrorOutPort& port, InputDataPortInterface& target, TypeCheck check);
+
+    InputDataPortInterface& target() const { return target_; }
+    DataPortListener* listener() const { return listener_; }
+    const IDataPortLink* connection = nullptr; ///< the host's, as far as it has one
+
+    /// Copies a message for a later next(); the oldest is dropped when too many wait. With the port's lock held.
+    void keep(std::span<const std::byte> bytes, std::uint64_t stamp);
+
+    // DataPortSource
+    opros::archive::iarchive* next() override;
+    void done() override;
+    bool setListener(DataPortListener* listener) override;
+    void undecodable(const std::string& why) override;
+
+  private:
+    friend class MirrorOutPort;
+    opros::archive::iarchive* open(std::span<const std::byte> bytes, std::uint64_t stamp);
+
+    MirrorOutPort& port_;
+    InputDataPortInterface& target_;
+    TypeCheck check_;
+    DataPortListener* listener_ = nullptr;
+    /// From next() to done(): the message's memory must not be reused while it is decoded.
+    link::ChannelReader::Lock channel_lock_;
+    std::size_t message_bytes_ = 0; ///< of the last message
+    process::LogThrottle undecodable_, dropped_;
+    std::optional<CdrIarchive> archive_;
+    std::vector<std::byte> converted_; ///< kept for its memory
+    std::vector<KeptMessage> kept_;    ///< a ring, made with the second target
+    std::size_t first_kept_ = 0, kept_count_ = 0;
+};
+
+} // namespace tandem::adaptor

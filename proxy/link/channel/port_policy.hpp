@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/protocol/setting.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+namespace tandem::link {
+
+/// What a user asks of one data port across a link, beside its type.
+struct PortPolicy {
+    bool keep_last = false; ///< `keep_last`, of the sender: a peer that comes (again) gets the last message
+    /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. 0: the oldest message gives way.
+    std::chrono::milliseconds wait{0};
+    /// `deadline_ms`, of the receiver: the longest time without a message; 0: none.
+    std::chrono::milliseconds deadline{0};
+};
+
+constexpr std::chrono::milliseconds max_wait{1000}; ///< of wait_ms: whoever unbinds a port waits as long
+
+/// Reads the policy of a port from settings of the names `keep_last.PORT`, or `keep_last` for all ports, and the others
+/// likewise. `find(name)` returns a setting's text, empty if there is none. Throws std::runtime_error, one line.
+template <class Find>
+PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& find) {
+    const auto effective = [&](const std::string& name) {
+        const std::string own = name + "." + port;
+        return find(own).empty() ? name : own;
+    };
+    const auto milliseconds = [&](const std::string& all) {
+        const std::string name = effective(all), value = find(name);
+        if (value == "0") return std::chrono::milliseconds(0); // of one port, where the others have more
+        return std::chrono::milliseconds(static_cast<long>(parse_positive_number(kind, name, value, 0)));
+    };
+    const std::string keep_last = effective("keep_last");
+    PortPolicy policy;
+    policy.keep_last = parse_flag(kind, keep_last, find(keep_last));
+    policy.wait = std::min(milliseconds("wait_ms"), max_wait);
+    policy.deadline = milliseconds("deadline_ms");
+    return policy;
+}
+
+} // namespace tandem::link

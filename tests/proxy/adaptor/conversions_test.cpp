@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// The conversions that a link asks for, through the mirrors of data ports, and the device types.
+#include "proxy/adaptor/archive/device_conversions.hpp"
+#include "proxy/adaptor/data/mirror_in_port.hpp"
+#include "proxy/adaptor/data/mirror_out_port.hpp"
+#include "proxy/wire/time.hpp"
+#include "tests/proxy/link/link_side.hpp"
+
+#include <ApiTypes.h>
+#include <InputDataPort.h>
+#include <OutputDataPort.h>
+#include <RawImage.h>
+
+#include <catch2/catch.hpp>
+
+#include <numbers>
+
+using namespace tandem;
+using link::PortKind;
+using link::test::unique_name;
+
+namespace {
+
+/// A port of the peer, `in` for what OPRoS sends and `out` for what it receives, on a link within this process.
+struct Wire {
+    Wire(const std::string& what, const std::string& type, const std::string& signature)
+        : in{PortKind::data_in, "in", type, signature, "", {}}, out{PortKind::data_out, "out", type,
+                                                                    signature,          "",    {}},
+          peer(shm::Side::second, options(what), {{}, {in, out}}), own(shm::Side::first, options(what), {}) {
+        peer.link.open();
+        own.link.open();
+        peer.link.wait_until_up(link::test::soon, "peer");
+        own.link.wait_until_up(link::test::soon, "peer");
+    }
+    static link::LinkOptions options(const std::string& what) {
+        link::LinkOptions options;
+        options.name = unique_name(what);
+        return options;
+    }
+    /// The next message that the peer received.
+    std::vector<std::byte> received(std::uint64_t* stamp = nullptr) {
+        std::vector<std::byte> bytes;
+        peer.link.reader("in").read(false, [&](const shm::Record& record) {
+            bytes.assign(record.bytes.begin(), record.bytes.end());
+            if (stamp) *stamp = record.stamp_ns;
+        });
+        return bytes;
+    }
+    void send(const std::vector<std::byte>& bytes, std::uint64_t stamp = 0) {
+        peer.link.writer("out").write_sized(bytes.size(), stamp, [&](std::span<std::byte> room) {
+            std::copy(bytes.begin(), bytes.end(), room.begin());
+            return true;
+        });
+    }
+    /// Sends a value and gives the bytes back: it has to come out as it went in.
+    template <class T>
+    std::unique_ptr<opros_any> there_and_back(const T& value, const std::string& convert_in = "",
+                                              const std::string& convert_out = "") {
+        adaptor::MirrorInPort input(in, own.link.writer("in"), convert_in);
+        opros_any any(value), sample{T()}; // a sample of its own: an image's copies share the pixels
+        const bool accepted = input.checkType(sample);
+        INFO(input.typeError());
+        REQUIRE(accepted);
+        REQUIRE(input.push(any) == OPROS_SUCCESS);
+        std::uint64_t stamp = 0;
+        const auto bytes = received(&stamp);
+        InputDataPort<T> target(OPROS_FIFO, 4); // outlives the port whose target it is
+        adaptor::MirrorOutPort output(
+            out, own.link.reader("out"), [](DataPortListener*) {}, convert_out);
+        const bool fits = output.checkType(&target);
+        INFO(output.typeError());
+        REQUIRE(fits);
+        send(bytes, stamp);
+        return std::unique_ptr<opros_any>(target.pop());
+    }
+
+    link::Port in, out;
+    link::test::LinkSide peer, own;
+};
+
+template <class T>
+T& content(const std::unique_ptr<opros_any>& any) {
+    REQUIRE(any);
+    return *opros_any_cast<T>(any.get());
+}
+
+} // namespace
+
+TEST_CASE("a port widens, changes units and refuses what its request does not cover") {
+    Wire wire("convert", "IDL:T:1.0", "{tm}({sec}u{nsec}u){angle}d{label}s#8");
+    adaptor::MirrorInPort plain(wire.in, wire.own.link.writer("in"));
+    opros_any number(1.5F);
+    CHECK_FALSE(plain.checkType(number));
+    CHECK_THAT(plain.typeError(), Catch::Contains("'in'") && Catch::Contains("'f'") &&
+                                      Catch::Contains("'(uu)ds#8'") && Catch::Contains("convert.in"));
+    adaptor::MirrorInPort input(wire.in, wire.own.link.writer("in"),
+                                "widen; angle: from 1 deg->rad; label: default none");
+    REQUIRE(input.checkType(number));
+    opros_any degrees(180.0F);
+    REQUIRE(input.push(degrees) == OPROS_SUCCESS);
+    const auto bytes = wire.received();
+    wire::CdrReader in(bytes);
+    CHECK(in.get<double>() == Approx(std::numbers::pi));
+    CHECK(in.get_string() == "none");
+
+    adaptor::MirrorInPort nonsense(wire.in, wire.own.link.writer("in"), "bigger");
+    CHECK_FALSE(nonsense.checkType(number));
+    CHECK_THAT(nonsense.typeError(), Catch::Contains("'bigger'"));
+    CHECK(nonsense.refusals().size() == 1);
+}
+
+TEST_CASE("a value beyond the bound of the peer's type is counted as dropped, and those before and after it "
+          "cross") {
+    Wire wire("bound", "IDL:T:1.0", "{label}s#8");
+    adaptor::MirrorInPort input(wire.in, wire.own.link.writer("in"));
+    opros_any sample{std::string()};
+    REQUIRE(input.checkType(sample));
+    for (const std::string text : {"short", "much too long", "also fine"}) {
+        opros_any value(text);
+        CHECK(input.push(value) == (text.size() <= 8 ? OPROS_SUCCESS : OPROS_BAD_INPUT_PARAMETER));
+    }
+    const auto counters = wire.peer.link.reader("in").counters();
+    CHECK(counters.sent == 3);
+    CHECK(counters.refused == 2);
+}
+
+TEST_CASE("ports of several types push into one port of the peer") {
+    Wire wire("many-to-one", "IDL:T:1.0", "ad");
+    adaptor::MirrorInPort input(wire.in, wire.own.link.writer("in"));
+    opros_any vector(std::vector<double>{1, 2}), valarray(std::valarray<double>{3});
+    REQUIRE(input.checkType(vector));
+    REQUIRE(input.checkType(valarray));
+    CHECK(input.push(vector) == OPROS_SUCCESS);
+    CHECK(input.push(valarray) == OPROS_SUCCESS);
+    CHECK(wire::CdrReader(wire.received()).get_count(8) == 2);
+    CHECK(wire::CdrReader(wire.received()).get_count(8) == 1);
+}
+
+TEST_CASE("several ports read what one port of the peer sends, each all of it in its own time") {
+    Wire wire("one-to-many", "IDL:T:1.0", "d");
+    adaptor::MirrorOutPort output(wire.out, wire.own.link.reader("out"), [](DataPortListener*) {});
+    InputDataPort<double> fifo(OPROS_UFIFO, 4), last(OPROS_LAST, 1), late(OPROS_UFIFO, 4);
+    for (auto* target : {&fifo, &last, &late}) REQUIRE(output.checkType(target));
+    std::vector<std::byte> bytes;
+    for (int i = 0; i < 40; ++i) {
+        wire::CdrWriter(bytes).put(static_cast<double>(i));
+        wire.send(bytes);
+        if (i % 3 != 0) continue;
+        while (const std::unique_ptr<opros_any> value{fifo.pop()}) continue;
+    }
+    CHECK(content<double>(std::unique_ptr<opros_any>(last.pop())) == 39);
+    for (int i = 0; i < 40; ++i) CHECK(content<double>(std::unique_ptr<opros_any>(late.pop())) == i);
+    CHECK_FALSE(std::unique_ptr<opros_any>(late.pop()));
+    output.clearConnection();
+}
+
+TEST_CASE("device types cross to their counterparts and back without being asked for") {
+    const std::string tm = "{tm}({sec}u{nsec}u)", point = "({x}d{y}d)";
+    {
+        Wire wire("pose", "IDL:RTC/TimedPose2D:1.0", tm + "{data}({position}" + point + "{heading}d)");
+        const auto back = wire.there_and_back(ObjectLocation(1, 2, 3));
+        CHECK(content<ObjectLocation>(back).theta == 3);
+        CHECK(content<ObjectLocation>(back).y == 2);
+    }
+    {
+        Wire wire("pose3", "IDL:RTC/TimedPose3D:1.0",
+                  tm + "{data}({position}({x}d{y}d{z}d){orientation}({r}d{p}d{y}d))");
+        CHECK(content<ObjectPosition>(wire.there_and_back(ObjectPosition(1, 2, 3, 4, 5, 6))).yaw == 6);
+        CHECK(content<CartesianCoordinate>(wire.there_and_back(CartesianCoordinate(1, 2, 3, 4, 5, 6))).z ==
+              3);
+    }
+    {
+        Wire wire("velocity", "IDL:RTC/TimedVelocity2D:1.0", tm + "{data}({vx}d{vy}d{va}d)");
+        WheelControlVelocity velocity;
+        velocity.forward = 0.5;
+        velocity.angular = -1;
+        const auto back = wire.there_and_back(velocity);
+        CHECK(content<WheelControlVelocity>(back).forward == 0.5);
+        CHECK(content<WheelControlVelocity>(back).angular == -1);
+    }
+    {
+        Wire wire("gps", "IDL:RTC/GPSData:1.0",
+                  tm + "{timeFromGPS}({sec}u{msec}u){latitude}d{longitude}d{altitude}d{horizontalError}d{"
+                       "verticalError}d"
+                       "{heading}d{horizontalSpeed}d{verticalSpeed}d{numSatellites}q{fixType}e#3");
+        GpsData gps;
+        gps.latitude = 36.3;
+        gps.velocity = 2;
+        const auto back = wire.there_and_back(gps);
+        CHECK(content<GpsData>(back).latitude == 36.3);
+        CHECK(content<GpsData>(back).velocity == 2);
+    }
+    for (const auto& [type, members, first] :
+         {std::tuple{"TimedAngularVelocity3D", "{avx}d{avy}d{avz}d", 1.0},
+          {"TimedAcceleration3D", "{ax}d{ay}d{az}d", 4.0},
+          {"TimedOrientation3D", "{r}d{p}d{y}d", 7.0}}) {
+        Wire wire(std::string("posture") + type, "IDL:RTC/" + std::string(type) + ":1.0",
+                  tm + "{data}(" + members + ")");
+        ObjectPosture posture;
+        posture.pRate = 1;
+        posture.xAcceleration = 4;
+        posture.roll = 7;
+        const auto back = wire.there_and_back(posture);
+        const auto& value = content<ObjectPosture>(back);
+        CHECK(value.pRate == (first == 1 ? 1 : 0));
+        CHECK(value.xAcceleration == (first == 4 ? 4 : 0));
+        CHECK(value.roll == (first == 7 ? 7 : 0));
+    }
+    {
+        Wire wire("range", "IDL:RTC/RangeData:1.0",
+                  tm + "{ranges}ad{geometry}({geometry}({pose}d){elementGeometries}ad){config}({minAngle}d{"
+                       "maxAngle}d)");
+        CHECK(content<std::vector<double>>(wire.there_and_back(std::vector<double>{1, 2, 3})).at(2) == 3);
+    }
+    {
+        Wire wire("image", "IDL:RTC/CameraImage:1.0",
+                  tm + "{width}q{height}q{bpp}q{format}s{fDiv}d{pixels}ay");
+        unsigned char pixels[2 * 3 * 3];
+        for (std::size_t i = 0; i < sizeof pixels; ++i) pixels[i] = static_cast<unsigned char>(i);
+        RawImageData data(pixels, 2, 3, 3);
+        const auto back = wire.there_and_back(RawImage(data));
+        auto* image = content<RawImage>(back).getImage();
+        CHECK(image->getWidth() == 2);
+        CHECK(image->getHeight() == 3);
+        CHECK(image->getPixelByte() == 3);
+        REQUIRE(image->getSize() == sizeof pixels);
+        CHECK(std::equal(pixels, pixels + sizeof pixels, image->getData()));
+    }
+    CHECK(adaptor::device_conversion("RawImage", "IDL:RTC/TimedDouble:1.0", true).empty());
+    CHECK(adaptor::device_conversion("RawImage", "", true).empty());
+}

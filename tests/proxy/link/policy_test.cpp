@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user asks of single ports: the last value for who comes late, no loss, a longest silence.
+#include "tests/proxy/link/link_side.hpp"
+
+#include <map>
+
+using namespace tandem;
+using namespace tandem::link;
+using namespace tandem::link::test;
+
+namespace {
+
+bool send_number(ChannelWriter& writer, double number) {
+    return writer.write(1, [&](wire::CdrWriter& out) { out.put(number); });
+}
+std::optional<double> receive_number(ChannelReader& reader) {
+    std::optional<double> number;
+    reader.read(false,
+                [&](const shm::Record& record) { number = wire::CdrReader(record.bytes).get<double>(); });
+    return number;
+}
+
+PortPolicy keep_last() {
+    PortPolicy policy;
+    policy.keep_last = true;
+    return policy;
+}
+
+std::unique_ptr<LinkSide> side(shm::Side which, const std::string& name, const PortTable& table = {},
+                               std::size_t ring_bytes = std::size_t{256} * 1024) {
+    LinkOptions options;
+    options.name = name;
+    options.rings.ring_bytes = ring_bytes;
+    auto made = std::make_unique<LinkSide>(which, options, table);
+    made->link.open();
+    return made;
+}
+
+} // namespace
+
+TEST_CASE("a peer that comes again gets the last value of the ports that keep it, once, and no other") {
+    const auto name = unique_name("last");
+    auto a = side(shm::Side::second, name, joystick_table());
+    a->link.writer("reference").set_policy(keep_last());
+    for (int round = 0; round < 2; ++round) {
+        auto b = side(shm::Side::first, name);
+        a->link.wait_until_up(soon, "peer");
+        b->link.wait_until_up(soon, "peer");
+        if (round == 0) {
+            CHECK(b->link.reader("reference").empty());
+            for (const double value : {1.0, 2.0, 3.0})
+                REQUIRE(send_number(a->link.writer("reference"), value));
+            REQUIRE(send_number(b->link.writer("position"), 5));
+        } else {
+            CHECK(receive_number(b->link.reader("reference")) == 3);
+            CHECK_FALSE(receive_number(b->link.reader("reference")));
+            CHECK_FALSE(receive_number(a->link.reader("position")));
+        }
+        b.reset();
+        CHECK(eventually([&] { return !a->link.is_up(); }));
+    }
+}
+
+TEST_CASE("a port that waits for room loses nothing while its reader reads, and drops the newest when it "
+          "does not") {
+    const auto name = unique_name("wait");
+    auto a = side(shm::Side::second, name, joystick_table(), std::size_t{16} * 1024);
+    auto b = side(shm::Side::first, name);
+    a->link.wait_until_up(soon, "peer");
+    b->link.wait_until_up(soon, "peer");
+    auto& writer = a->link.writer("reference");
+    auto& reader = b->link.reader("reference");
+    PortPolicy policy;
+    policy.wait = max_wait;
+    writer.set_policy(policy);
+    constexpr int count = 3000; // many times what the ring holds
+    std::thread consumer([&] {
+        for (int next = 0; next < count;)
+            if (const auto number = receive_number(reader)) {
+                if (*number != next) return; // one was lost
+                ++next;
+            } else {
+                std::this_thread::sleep_for(100us);
+            }
+    });
+    for (int i = 0; i < count; ++i) send_number(writer, i);
+    consumer.join();
+    auto counters = reader.counters();
+    CHECK(counters.received == count);
+    CHECK(counters.dropped() == 0);
+    // Nobody reads: the oldest are kept, each other one is refused after the wait and counted.
+    policy.wait = 1ms;
+    writer.set_policy(policy);
+    int sent = 0;
+    while (send_number(writer, sent)) ++sent;
+    CHECK_FALSE(send_number(writer, -1));
+    CHECK(receive_number(reader) == 0);
+    counters = reader.counters();
+    CHECK(counters.refused == 2);
+    CHECK(counters.overwritten == 0);
+}
+
+TEST_CASE("a silence beyond a port's deadline is counted once, and again after the next message") {
+    const auto name = unique_name("deadline");
+    auto a = side(shm::Side::second, name, joystick_table());
+    auto b = side(shm::Side::first, name);
+    a->link.wait_until_up(soon, "peer");
+    b->link.wait_until_up(soon, "peer");
+    auto& reader = b->link.reader("reference");
+    CHECK(reader.missed_deadlines() == 0);
+    PortPolicy policy;
+    policy.deadline = 20ms;
+    reader.set_policy(policy);
+    CHECK(eventually([&] { return reader.missed_deadlines() == 1; }));
+    std::this_thread::sleep_for(100ms);
+    CHECK(reader.missed_deadlines() == 1); // the same silence
+    REQUIRE(send_number(a->link.writer("reference"), 1));
+    CHECK(eventually([&] { return reader.missed_deadlines() == 2; }));
+}
+
+TEST_CASE("settings of one port go before those of all") {
+    std::map<std::string, std::string> settings{
+        {"keep_last", "1"}, {"keep_last.b", "0"}, {"deadline_ms.b", "50"}, {"wait_ms", "100000"}};
+    const auto policy = [&](const std::string& port) {
+        return read_port_policy("property", port, [&](const std::string& name) { return settings[name]; });
+    };
+    CHECK(policy("a").keep_last);
+    CHECK_FALSE(policy("b").keep_last);
+    CHECK(policy("a").deadline == 0ms);
+    CHECK(policy("b").deadline == 50ms);
+    CHECK(policy("a").wait == max_wait);
+    settings["deadline_ms.a"] = "soon";
+    CHECK_THROWS_WITH(policy("a"), Catch::Contains("'deadline_ms.a' is 'soon'"));
+}
