@@ -70,3 +70,20 @@ TEST_CASE("a segment that is truncated under running hosts is named by both and 
     CHECK(hosts.stop("rtm") == 0);
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
+
+TEST_CASE(
+    "a port whose type differs is connected when AdaptorComp's property says how, and policies are taken") {
+    TwoHosts hosts;
+    hosts.set_adaptor_property("convert.numbers", "widen");
+    hosts.set_adaptor_property("keep_last", "1");
+    hosts.set_adaptor_property("deadline_ms.reply", "60000");
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "numbers", "Adaptor", "numbers") +
+                          TwoHosts::connection("data", "Talker", "word", "Adaptor", "word") +
+                          TwoHosts::connection("data", "Adaptor", "reply", "Talker", "reply"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "reply: hello 5 at a time"));
+    CHECK_THAT(hosts.output("opros"), !Catch::Contains("error") && !Catch::Contains("warning"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.stop("rtm") == 0);
+}
