@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/adaptor_comp.hpp"
 
-#include "proxy/adaptor/service/method_check.hpp"
+#include "proxy/adaptor/service/call_failure.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 
@@ -26,7 +26,8 @@ constexpr const char* peer_name = "InterceptorComp of the RTM host";
 
 /// Whether a call has failed because the peer's process or its component ends.
 bool peer_has_gone(CallStatus status) {
-    return status == CallStatus::peer_died || status == CallStatus::shut_down;
+    return status == CallStatus::peer_died || status == CallStatus::shut_down ||
+           status == CallStatus::not_ready;
 }
 
 /// Removes the ports of the peer whose mirrors would have the name of another port. Returns a line about the last of

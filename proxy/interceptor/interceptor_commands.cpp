@@ -51,6 +51,7 @@ void InterceptorComp::link_state_changed(bool up) {
 }
 
 void InterceptorComp::peer_disconnected() {
+    for (auto& port : required_) port->unbind();
     opros_rtcs_->peer_lost();
     deactivate_if_activated_by_link();
 }
@@ -117,7 +118,10 @@ std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     try {
         const auto binding = control::decode_service_binding(arguments);
         for (auto& port : required_)
-            if (port->port().name == binding.port) return port->bind(binding);
+            if (port->port().name == binding.port) {
+                port->bind(binding);
+                return "";
+            }
         return fmt::format("there is no required service port '{}'", binding.port);
     } catch (const std::runtime_error& error) { // damaged binding, malformed signature
         return error.what();

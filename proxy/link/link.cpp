@@ -4,11 +4,18 @@
 #include "shm/segment/truncation_guard.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace tandem::link {
+namespace {
+
+constexpr std::size_t max_waiting_sends = 256;
+
+} // namespace
 
 Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler& handler)
     : options_(std::move(options)), own_ports_(std::move(own_ports)), tasks_(options_.name),
+      sends_(options_.name, max_waiting_sends),
       supervisor_(side, options_, own_ports_, handler, state_, channels_, tasks_),
       workers_(state_, handler, [this] { supervisor_.wake(); }), arrivals_(state_, channels_, options_.wait) {
 }
@@ -27,6 +34,7 @@ void Link::close() {
     // The supervisor first: it ends the session, and with it every call that a task or a worker waits for.
     supervisor_.stop();
     tasks_.stop();
+    sends_.stop();
     workers_.stop();
     arrivals_.stop();
 }
@@ -42,12 +50,29 @@ void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& p
 
 Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
     const auto session = state_.connected_session(); // keeps the segment mapped during the call
-    if (!session) return Reply::failure(CallStatus::peer_died, "the peer is not there");
+    if (!session) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
     // One buffer per thread: its capacity is kept, so that calls do not allocate once it is large enough.
     thread_local std::vector<std::byte> encoded;
     encode(request, encoded);
     auto reply = session->outgoing_calls()->call(encoded, timeout);
     return {reply.status, std::move(reply.bytes)};
+}
+
+Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {
+    if (!state_.is_up()) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
+    sends_.start();
+    // The request refers to memory of the caller's.
+    const bool accepted =
+        sends_.post([this, timeout, port = std::string(request.port),
+                     operation = std::string(request.operation), signature = std::string(request.signature),
+                     arguments = std::vector<std::byte>(request.arguments.begin(), request.arguments.end())] {
+            const auto reply = call({port, operation, signature, arguments}, timeout);
+            if (reply.status != CallStatus::ok && failed_sends_.should_log())
+                spdlog::warn("link '{}': call of '{}.{}' without a reply failed: {} ({} so far)",
+                             options_.name, port, operation, shm::name_of(reply.status),
+                             failed_sends_.count());
+        });
+    return accepted ? Reply{} : Reply::failure(CallStatus::overload, "too many calls without a reply wait");
 }
 
 } // namespace tandem::link

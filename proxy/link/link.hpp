@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/process/log_throttle.hpp"
 #include "proxy/link/call_workers.hpp"
 #include "proxy/link/channel/arrival_notifier.hpp"
 #include "proxy/link/channel/channel_table.hpp"
@@ -42,6 +43,11 @@ class Link {
     /// too. [any-thread but the supervisor's]
     Reply call(const Request&, std::chrono::milliseconds timeout);
 
+    /// Calls the peer's handler in a thread of the link's and returns at once, for operations without a reply. The
+    /// calls are made one after the other, in order. ok: it will be called, if the peer is there then; failures are
+    /// logged. overload: 256 such calls wait already. [any-thread]
+    Reply send(const Request&, std::chrono::milliseconds timeout);
+
     /// Executes `task` in the task thread, after those posted before; not at all once the link is closing.
     /// [any-thread]
     void post(std::function<void()> task) { tasks_.post(std::move(task)); }
@@ -63,6 +69,8 @@ class Link {
     LinkState state_;
     ChannelTable channels_;
     TaskQueue tasks_;
+    TaskQueue sends_; ///< started with the first call without a reply
+    process::LogThrottle failed_sends_;
     PeerSupervisor supervisor_;
     CallWorkers workers_;
     ArrivalNotifier arrivals_;

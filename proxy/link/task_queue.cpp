@@ -8,7 +8,8 @@
 namespace tandem::link {
 
 void TaskQueue::start() {
-    thread_ = std::thread([this] { run(); });
+    const std::lock_guard lock(mutex_);
+    if (!stopping_ && !thread_.joinable()) thread_ = std::thread([this] { run(); });
 }
 
 void TaskQueue::stop() {
@@ -20,10 +21,12 @@ void TaskQueue::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-void TaskQueue::post(std::function<void()> task) {
+bool TaskQueue::post(std::function<void()> task) {
     const std::lock_guard lock(mutex_);
+    if (tasks_.size() >= max_tasks_) return false;
     tasks_.push_back(std::move(task));
     changed_.notify_all();
+    return true;
 }
 
 void TaskQueue::run() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -14,24 +15,27 @@ namespace tandem::link {
 /// uses it for everything that may wait for the peer, because the supervisor thread must not.
 class TaskQueue {
   public:
-    /// `owner` is the link's name, for log lines.
-    explicit TaskQueue(std::string owner) : owner_(std::move(owner)) {}
+    /// `owner` is the link's name, for log lines. At most `max_tasks` wait.
+    explicit TaskQueue(std::string owner, std::size_t max_tasks = SIZE_MAX)
+        : owner_(std::move(owner)), max_tasks_(max_tasks) {}
     ~TaskQueue() { stop(); }
     TaskQueue(const TaskQueue&) = delete;
     TaskQueue& operator=(const TaskQueue&) = delete;
 
+    /// Starts the thread, unless it has been started.
     void start();
     /// Waits for the task that is running; those behind it are never executed. [not in the task thread]
     void stop();
 
-    /// Appends a task. An exception that it throws is logged. [any-thread]
-    void post(std::function<void()> task);
+    /// Appends a task. An exception that it throws is logged. False: too many wait already. [any-thread]
+    bool post(std::function<void()> task);
 
   private:
     void run();
 
     const std::string owner_;
-    std::mutex mutex_; ///< tasks_, stopping_
+    const std::size_t max_tasks_;
+    std::mutex mutex_; ///< the members below
     std::condition_variable changed_;
     std::deque<std::function<void()>> tasks_;
     bool stopping_ = false;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/wire/signature_match.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace tandem::wire {
@@ -99,15 +97,6 @@ SignatureMatch match_signatures(std::string_view from, std::string_view to) {
     if (is_timed(sent) && types_fit(without_time(sent), received)) return SignatureMatch::strip_time;
     if (is_timed(received) && types_fit(sent, without_time(received))) return SignatureMatch::add_time;
     return SignatureMatch::mismatch;
-}
-
-OperationSignature parse_operation_signature(std::string_view signature) {
-    const auto colon = signature.find(':');
-    if (colon == std::string_view::npos || signature.find(':', colon + 1) != std::string_view::npos)
-        throw SignatureError(
-            fmt::format("operation signature '{}': 'arguments:result' was expected", signature));
-    return {to_signature(parse_signature(signature.substr(0, colon))),
-            to_signature(parse_signature(signature.substr(colon + 1)))};
 }
 
 } // namespace tandem::wire

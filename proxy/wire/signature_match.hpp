@@ -3,7 +3,6 @@
 
 #include "proxy/wire/type.hpp"
 
-#include <string>
 #include <string_view>
 
 namespace tandem::wire {
@@ -34,13 +33,5 @@ bool is_timed(const Type& message);
 bool is_timed(std::string_view signature); ///< Throws SignatureError.
 /// The message, which is timed, without its time.
 Type without_time(const Type& message);
-
-/// The two message signatures of an operation signature `arguments:result`, e.g. `ss:d`, in canonical form.
-struct OperationSignature {
-    std::string arguments, result;
-    bool operator==(const OperationSignature&) const = default;
-};
-/// Throws SignatureError unless there is exactly one colon and both parts parse.
-OperationSignature parse_operation_signature(std::string_view signature);
 
 } // namespace tandem::wire

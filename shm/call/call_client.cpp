@@ -148,7 +148,7 @@ CallStatus CallClient::State::take_reply(const CallTicket& ticket, std::vector<s
     const std::uint64_t word = caller.reply(ticket);
     const auto status = static_cast<CallStatus>(tag_of(word));
     const std::uint64_t length = length_of(word);
-    if (word == 0 || status > CallStatus::shut_down || length > queue.view.max_bytes) {
+    if (word == 0 || status > CallStatus::user_exception || length > queue.view.max_bytes) {
         caller.forget(ticket); // so that a worker does not take it any more, if it is submitted still
         return fail_with(CallStatus::exception, "the peer has damaged the reply", results);
     }

@@ -23,7 +23,9 @@ enum class CallStatus : std::uint32_t {
     timeout,
     peer_died,
     overload,
-    shut_down
+    shut_down,
+    not_ready,     ///< there is nobody yet who could execute it; it has not run
+    user_exception ///< the bytes say which
 };
 const char* name_of(CallStatus status);
 

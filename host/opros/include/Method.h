@@ -13,6 +13,18 @@
 #define METHOD_BLOCKING 1
 #define METHOD_NONBLOCKING 2
 
+/// Learns the types of a method from Method::describe() (ours). Each function returns the archive from which one
+/// default-constructed value of the type is loaded: an archive that records what it is asked for learns the signature.
+class MethodDescription {
+  public:
+    virtual ~MethodDescription() {}
+    /// The result; not asked for void.
+    virtual opros::archive::iarchive& result() = 0;
+    /// The next argument. `writable`: the method gets it by a reference or pointer that is not const, so that the caller
+    /// may get it back with another value.
+    virtual opros::archive::iarchive& argument(bool writable) = 0;
+};
+
 /// A method of a service port, provided or required, which owns it. Its name is the same on both sides.
 class Method {
   public:
@@ -28,10 +40,9 @@ class Method {
     /// result returns at once, and is made by the provider's own thread for events and such calls.
     virtual int getCallType() = 0;
 
-    /// Loads one default-constructed value of each argument type, in order, from the first archive, and one of the
-    /// result type, unless void, from the second: archives that record what they are asked for learn the
-    /// signature. False when a type cannot be archived (ours).
-    virtual bool describe(opros::archive::iarchive& arguments, opros::archive::iarchive& result);
+    /// Describes the result, then each argument in order. False when a type cannot be archived; then some may have
+    /// been described (ours).
+    virtual bool describe(MethodDescription& description);
     /// The C++ types: the result, then the arguments, without const and reference. Empty when not known (ours).
     virtual std::vector<const std::type_info*> types() const;
     /// "double (std::string, int)", for messages (ours).

@@ -3,6 +3,7 @@
 #ifndef METHODTYPES_H_
 #define METHODTYPES_H_
 
+#include <Method.h>
 #include <OPRoSTypes.h>
 
 #include <tuple>
@@ -31,12 +32,47 @@ struct can_cross : std::integral_constant<bool, archive::is_serializable<T>::val
 template <>
 struct can_cross<void> : std::true_type {};
 
+/// How an argument of type P crosses: as a value of the type `stored`, which is what P refers or points to. Text is no
+/// value: `char*` stays a pointer, which cannot cross.
+template <typename P>
+struct passing {
+    typedef bare<P> stored;
+    static const bool by_pointer = false;
+    static const bool writable = false; ///< the method may write, and the caller sees it
+};
+template <typename T>
+struct passing<T&> : passing<typename std::remove_cv<T>::type> {
+    static const bool writable = !std::is_const<T>::value;
+};
+template <typename T>
+struct passing<T*> {
+    static const bool by_pointer =
+        can_cross<bare<T>>::value && !std::is_void<T>::value && !std::is_same<bare<T>, char>::value;
+    typedef typename std::conditional<by_pointer, bare<T>, T*>::type stored;
+    static const bool writable = by_pointer && !std::is_const<T>::value;
+};
+
+/// Room for one argument: its value, and the pointer to it where the method wants one.
+template <typename P, bool by_pointer = passing<P>::by_pointer>
+struct argument_slot {
+    typename passing<P>::stored value = typename passing<P>::stored();
+    const void* address() { return &value; }
+};
+template <typename P>
+struct argument_slot<P, true> {
+    typename passing<P>::stored value = typename passing<P>::stored();
+    bare<P> pointer = 0;
+    const void* address() {
+        pointer = &value;
+        return &pointer;
+    }
+};
+
 /// What is known of a method R(P...).
 template <typename R, typename... P>
 struct method_types {
-    typedef std::tuple<bare<P>...> arguments;
-    static const bool can_cross =
-        all_true<detail::can_cross<bare<R>>::value, detail::can_cross<bare<P>>::value...>::value;
+    static const bool can_cross = all_true<detail::can_cross<bare<R>>::value,
+                                           detail::can_cross<typename passing<P>::stored>::value...>::value;
 
     /// The result, then the arguments.
     static std::vector<const std::type_info*> list() { return {&typeid(R), &typeid(bare<P>)...}; }
@@ -51,63 +87,75 @@ struct method_types {
     }
 };
 
-// loader reads one value and drops it; describer does so for each type of a method: an archive that records what it
-// is asked for learns the signature.
-template <typename R, bool crosses>
+// loader reads one value and drops it; describer does so for each type of a method.
+template <typename R>
 struct loader {
     static void load(archive::iarchive& in) {
         R value = R();
         in >> value;
     }
+    static void load_result(MethodDescription& to) { load(to.result()); }
 };
 template <>
-struct loader<void, true> {
-    static void load(archive::iarchive&) {}
+struct loader<void> {
+    static void load_result(MethodDescription&) {}
 };
 
 template <bool crosses, typename R, typename... P>
 struct describer {
-    static bool describe(archive::iarchive& arguments, archive::iarchive& result) {
-        const int in_order[] = {0, (loader<bare<P>, true>::load(arguments), 0)...};
+    static bool describe(MethodDescription& to) {
+        loader<bare<R>>::load_result(to);
+        const int in_order[] = {
+            0, (loader<typename passing<P>::stored>::load(to.argument(passing<P>::writable)), 0)...};
         static_cast<void>(in_order);
-        loader<R, true>::load(result);
         return true;
     }
 };
 template <typename R, typename... P>
 struct describer<false, R, P...> {
-    static bool describe(archive::iarchive&, archive::iarchive&) { return false; }
+    static bool describe(MethodDescription&) { return false; }
 };
 
 /// One argument of a call as the method wants it: a reference to what the caller has, or a copy where the method
-/// may change it.
+/// may change it and the caller's must not change.
 template <typename P>
 struct argument {
-    explicit argument(const void* given) : value(static_cast<const bare<P>*>(given)) {}
+    argument(const void* given, bool) : value(static_cast<const bare<P>*>(given)) {}
     const bare<P>& get() { return *value; }
     const bare<P>* value;
 };
 template <typename P>
-struct copied_argument {
-    explicit copied_argument(const void* given) : value(*static_cast<const bare<P>*>(given)) {}
-    bare<P> value;
-};
-template <typename P>
-struct argument<P&> : copied_argument<P> {
-    using copied_argument<P>::copied_argument;
-    P& get() { return this->value; }
+struct argument<P&> {
+    argument(const void* given, bool writable)
+        : copy(writable ? 0 : new bare<P>(*static_cast<const bare<P>*>(given))),
+          value(writable ? static_cast<bare<P>*>(const_cast<void*>(given)) : copy) {}
+    ~argument() { delete copy; }
+    P& get() { return *value; }
+    bare<P>* copy; // without <memory>, for components that have a shared_ptr of their own
+    bare<P>* value;
+
+  private:
+    argument(const argument&);
+    argument& operator=(const argument&);
 };
 template <typename P>
 struct argument<const P&> {
-    explicit argument(const void* given) : value(static_cast<const P*>(given)) {}
+    argument(const void* given, bool) : value(static_cast<const P*>(given)) {}
     const P& get() { return *value; }
     const P* value;
 };
 template <typename P>
-struct argument<P&&> : copied_argument<P> {
-    using copied_argument<P>::copied_argument;
-    P&& get() { return std::move(this->value); }
+struct argument<P&&> {
+    argument(const void* given, bool) : value(*static_cast<const bare<P>*>(given)) {}
+    P&& get() { return std::move(value); }
+    bare<P> value;
 };
+
+/// Whether a caller that passed an argument as A&& lets it be written.
+template <typename A>
+struct is_writable
+    : std::integral_constant<bool, std::is_lvalue_reference<A>::value &&
+                                       !std::is_const<typename std::remove_reference<A>::type>::value> {};
 
 } // namespace detail
 } // namespace opros

@@ -22,16 +22,19 @@ class ProvidedMethod : public ProvidedMethodInterface {
     virtual int getCallType() { return m_callType; }
 
     /// Calls the method. The arguments must have exactly the types that it declares, apart from const and
-    /// reference: ArgumentNumberException or MethodInvokeException otherwise.
+    /// reference: ArgumentNumberException or MethodInvokeException otherwise. A method that takes a reference writes to
+    /// the caller's variable; it gets a copy of what is const.
     template <typename... P>
-    RetType operator()(const P&... arguments) {
-        const std::type_info* const types[] = {&typeid(P)..., 0};
+    RetType operator()(P&&... arguments) {
+        const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
         const void* const values[] = {static_cast<const void*>(&arguments)..., 0};
-        return invoke(types, values, static_cast<int>(sizeof...(P)));
+        const bool writable[] = {opros::detail::is_writable<P>::value..., false};
+        return invoke(types, values, writable, static_cast<int>(sizeof...(P)));
     }
 
-    /// The same with the arguments' types and addresses.
-    virtual RetType invoke(const std::type_info* const* types, const void* const* values, int count) = 0;
+    /// The same with the arguments' types and addresses, and whether each may be written.
+    virtual RetType invoke(const std::type_info* const* types, const void* const* values,
+                           const bool* writable, int count) = 0;
 
   protected:
     std::string m_returnType;
@@ -42,6 +45,33 @@ class ProvidedMethod : public ProvidedMethodInterface {
 namespace opros {
 namespace detail {
 
+/// An encoded call whose arguments lie in one archive one after the other, and of which only the result is wanted.
+class stream_call : public EncodedCall {
+  public:
+    stream_call(archive::iarchive& in, archive::oarchive& out) : m_in(in), m_out(out) {}
+    virtual archive::iarchive* argument(int) { return &m_in; }
+    virtual archive::oarchive& result() { return m_out; }
+    virtual archive::oarchive* written_argument(int) { return 0; }
+
+  private:
+    archive::iarchive& m_in;
+    archive::oarchive& m_out;
+};
+
+/// Where a value lies in an opros_params, as the method wants it; NULL when it holds another type.
+template <typename P, bool by_pointer = passing<P>::by_pointer>
+struct param_address {
+    const void* find(opros_params& param) { return opros_params_cast<bare<P>>(&param); }
+};
+template <typename P>
+struct param_address<P, true> {
+    bare<P> pointer = 0;
+    const void* find(opros_params& param) {
+        pointer = opros_params_cast<typename passing<P>::stored>(&param);
+        return pointer ? &pointer : 0;
+    }
+};
+
 /// A provided method whose types are all known, and the function it calls.
 template <typename Function, typename R, typename... P>
 class bound_method : public ProvidedMethod<R> {
@@ -51,21 +81,26 @@ class bound_method : public ProvidedMethod<R> {
         this->m_name = name;
     }
 
-    virtual R invoke(const std::type_info* const* types, const void* const* values, int count) {
+    virtual R invoke(const std::type_info* const* types, const void* const* values, const bool* writable,
+                     int count) {
         if (count != this->m_arity) throw ArgumentNumberException(__LINE__, this->m_arity);
         if (!traits::match(types, count))
             throw MethodInvokeException("call of " + this->m_name +
                                         " with other types than it has: " + this->signature());
-        return apply(values, std::index_sequence_for<P...>());
+        return apply(values, writable, std::index_sequence_for<P...>());
     }
     virtual ReturnType call(archive::iarchive& in, archive::oarchive& out) {
-        return call_encoded(in, out, std::integral_constant<bool, traits::can_cross>());
+        stream_call both(in, out);
+        return call(both);
+    }
+    virtual ReturnType call(EncodedCall& values) {
+        return call_encoded(values, std::integral_constant<bool, traits::can_cross>());
     }
     virtual ReturnType call(std::vector<opros_params>& params, opros_params& result) {
         return call_with(params, result, std::index_sequence_for<P...>());
     }
-    virtual bool describe(archive::iarchive& arguments, archive::iarchive& result) {
-        return describer<traits::can_cross, bare<R>, P...>::describe(arguments, result);
+    virtual bool describe(MethodDescription& description) {
+        return describer<traits::can_cross, R, P...>::describe(description);
     }
     virtual std::vector<const std::type_info*> types() const { return traits::list(); }
 
@@ -74,56 +109,67 @@ class bound_method : public ProvidedMethod<R> {
 
     /// `values` are the addresses of the arguments, whose types have been checked.
     template <std::size_t... I>
-    R apply(const void* const* values, std::index_sequence<I...>) {
+    R apply(const void* const* values, const bool* writable, std::index_sequence<I...>) {
         static_cast<void>(values);
-        return m_function(argument<P>(values[I]).get()...);
+        static_cast<void>(writable);
+        return m_function(argument<P>(values[I], writable[I]).get()...);
+    }
+    /// The arguments belong to this call: all of them may be written.
+    R apply_own(const void* const* values) {
+        const bool writable[] = {passing<P>::writable..., false};
+        return apply(values, writable, std::index_sequence_for<P...>());
     }
 
     // An argument or result that cannot be archived.
-    ReturnType call_encoded(archive::iarchive&, archive::oarchive&, std::false_type) {
-        return OPROS_UNSUPPORTED_METHOD;
+    ReturnType call_encoded(EncodedCall&, std::false_type) { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType call_encoded(EncodedCall& call, std::true_type) {
+        return call_slots(call, std::index_sequence_for<P...>());
     }
-    ReturnType call_encoded(archive::iarchive& in, archive::oarchive& out, std::true_type) {
-        typename traits::arguments arguments;
-        load(in, arguments, std::index_sequence_for<P...>());
-        encode_result(out, arguments, std::is_void<R>());
+    template <std::size_t... I>
+    ReturnType call_slots(EncodedCall& call, std::index_sequence<I...>) {
+        std::tuple<argument_slot<P>...> slots;
+        static_cast<void>(slots);
+        const int loaded[] = {0, load(call.argument(static_cast<int>(I)), std::get<I>(slots).value)...};
+        const void* const values[] = {std::get<I>(slots).address()..., 0};
+        encode_result(call, values, std::is_void<R>());
+        const int saved[] = {0, (passing<P>::writable ? save(call.written_argument(static_cast<int>(I)),
+                                                             std::get<I>(slots).value)
+                                                      : 0)...};
+        static_cast<void>(loaded);
+        static_cast<void>(saved);
         return OPROS_SUCCESS;
     }
-    template <std::size_t... I>
-    void load(archive::iarchive& in, typename traits::arguments& arguments, std::index_sequence<I...>) {
-        static_cast<void>(in);
-        static_cast<void>(arguments);
-        const int in_order[] = {0, (in >> std::get<I>(arguments), 0)...};
-        static_cast<void>(in_order);
+    template <typename T>
+    static int load(archive::iarchive* in, T& value) {
+        if (in) *in >> value;
+        return 0;
     }
-    template <std::size_t... I>
-    R apply_tuple(typename traits::arguments& arguments, std::index_sequence<I...>) {
-        static_cast<void>(arguments);
-        const void* const values[] = {static_cast<const void*>(&std::get<I>(arguments))..., 0};
-        return apply(values, std::index_sequence_for<P...>());
+    template <typename T>
+    static int save(archive::oarchive* out, T& value) {
+        if (out) *out << value;
+        return 0;
     }
-    void encode_result(archive::oarchive&, typename traits::arguments& arguments, std::true_type) {
-        apply_tuple(arguments, std::index_sequence_for<P...>());
-    }
-    void encode_result(archive::oarchive& out, typename traits::arguments& arguments, std::false_type) {
-        out << apply_tuple(arguments, std::index_sequence_for<P...>());
+    void encode_result(EncodedCall&, const void* const* values, std::true_type) { apply_own(values); }
+    void encode_result(EncodedCall& call, const void* const* values, std::false_type) {
+        // Called first: an exception leaves no half of a reply.
+        const bare<R> result = apply_own(values);
+        call.result() << result;
     }
 
     template <std::size_t... I>
     ReturnType call_with(std::vector<opros_params>& params, opros_params& result, std::index_sequence<I...>) {
         if (params.size() != sizeof...(P)) return OPROS_BAD_INPUT_PARAMETER;
-        const void* const values[] = {static_cast<const void*>(opros_params_cast<bare<P>>(&params[I]))...,
-                                      &params};
+        std::tuple<param_address<P>...> addresses;
+        static_cast<void>(addresses);
+        const void* const values[] = {std::get<I>(addresses).find(params[I])..., &params};
         for (const void* value : values)
             if (!value) return OPROS_BAD_INPUT_PARAMETER;
         store_result(values, result, std::is_void<R>());
         return OPROS_SUCCESS;
     }
-    void store_result(const void* const* values, opros_params&, std::true_type) {
-        apply(values, std::index_sequence_for<P...>());
-    }
+    void store_result(const void* const* values, opros_params&, std::true_type) { apply_own(values); }
     void store_result(const void* const* values, opros_params& result, std::false_type) {
-        result = apply(values, std::index_sequence_for<P...>());
+        result = apply_own(values);
     }
 
     Function m_function;

@@ -4,6 +4,8 @@
 
 #include <ServicePortInterface.h>
 
+class EncodedCall;
+
 /// The side of a service that has the methods. Generated code derives from it and adds them in its constructor. Calls
 /// come in the threads of the callers, several at a time.
 class ProvidedServicePort : public ServicePortInterface {
@@ -17,6 +19,8 @@ class ProvidedServicePort : public ServicePortInterface {
     /// archived. What the method throws passes through.
     virtual ReturnType callService(std::string& name, opros::archive::iarchive& in,
                                    opros::archive::oarchive& out);
+    /// The same with the arguments that the method writes to (ours).
+    virtual ReturnType callService(const std::string& name, EncodedCall& call);
     /// The same with values. OPROS_BAD_INPUT_PARAMETER: not the method's number or types of arguments.
     virtual ReturnType callService(std::string& name, std::vector<opros_params>& params,
                                    opros_params& result);

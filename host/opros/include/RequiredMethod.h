@@ -40,13 +40,14 @@ class RequiredMethod : public RequiredMethodInterface {
         return OPROS_SUCCESS;
     }
 
-    /// Calls the peer in this thread, or asks the connector to. Throws MethodInvokeException without a peer, when
-    /// the connection fails, or when the arguments are not exactly of the peer's types.
+    /// Calls the peer in this thread, or asks the connector to. What the method takes by reference or pointer comes back
+    /// written. Throws MethodInvokeException without a peer, when the connection fails, or when the arguments are not
+    /// exactly of the peer's types.
     template <typename... P>
-    RetType operator()(const P&... arguments) {
-        if (m_peer) return (*m_peer)(arguments...);
+    RetType operator()(P&&... arguments) {
+        if (m_peer) return (*m_peer)(std::forward<P>(arguments)...);
         if (!m_con) throw MethodInvokeException("required method " + m_name + " is not connected");
-        return request(std::is_void<RetType>(), arguments...);
+        return request(std::is_void<RetType>(), std::forward<P>(arguments)...);
     }
 
   protected:
@@ -58,6 +59,8 @@ class RequiredMethod : public RequiredMethodInterface {
 
   private:
     virtual bool accepts(const std::type_info* const*, int count) const { return count == m_arity; }
+    /// Whether argument `index` comes back written.
+    virtual bool writes(int) const { return false; }
 
     /// Whether the peer's result and arguments have the types of this method. When this one does not know its
     /// argument types, their number counts.
@@ -71,31 +74,79 @@ class RequiredMethod : public RequiredMethodInterface {
         return true;
     }
 
-    // The call through a connector: arguments and result cross as values of known types.
+    // The call through a connector: arguments and result cross as values of known types, and what a pointer points to
+    // instead of the pointer.
     template <typename... P>
-    void send(opros_params& result, const P&... arguments) {
-        const std::type_info* const types[] = {&typeid(P)..., 0};
+    void send(opros_params& result, P&&... arguments) {
+        const std::type_info* const types[] = {&typeid(opros::detail::bare<P>)..., 0};
         if (!accepts(types, static_cast<int>(sizeof...(P))))
             throw MethodInvokeException("call of " + m_name +
                                         " with other types than it has: " + signature());
         std::vector<opros_params> params;
         params.reserve(sizeof...(P));
-        const int in_order[] = {0, (params.emplace_back(arguments), 0)...};
+        const int in_order[] = {0, add(params, arguments, passed_by_pointer<P>())...};
         static_cast<void>(in_order);
         const ReturnType code = m_con->requestService(m_name, params, result, m_callType);
         if (code != OPROS_SUCCESS)
             throw MethodInvokeException("call of " + m_name + " failed with code " + std::to_string(code));
+        int index = 0;
+        const int back[] = {0, write_back<P>(params, index++, arguments)...};
+        static_cast<void>(back);
     }
+    template <typename P>
+    using passed_by_pointer =
+        std::integral_constant<bool, opros::detail::passing<opros::detail::bare<P>>::by_pointer>;
+
+    template <typename T>
+    static int add(std::vector<opros_params>& params, const T& value, std::false_type) {
+        params.emplace_back(value);
+        return 0;
+    }
+    template <typename T>
+    static int add(std::vector<opros_params>& params, const T& pointer, std::true_type) {
+        typedef typename opros::detail::passing<T>::stored stored;
+        if (pointer)
+            params.emplace_back(static_cast<const stored&>(*pointer));
+        else
+            params.emplace_back(stored());
+        return 0;
+    }
+    template <typename A, typename T>
+    int write_back(std::vector<opros_params>& params, int index, T& argument) {
+        if (writes(index))
+            assign(argument, params[static_cast<std::size_t>(index)], passed_by_pointer<A>(),
+                   opros::detail::is_writable<A>());
+        return 0;
+    }
+    template <typename T, typename Writable>
+    static void assign(T& pointer, opros_params& from, std::true_type, Writable) {
+        typedef opros::detail::passing<opros::detail::bare<T>> how;
+        assign_pointee(pointer, opros_params_cast<typename how::stored>(&from),
+                       std::integral_constant<bool, how::writable>());
+    }
+    template <typename T>
+    static void assign(T& argument, opros_params& from, std::false_type, std::true_type) {
+        if (const T* value = opros_params_cast<T>(&from)) argument = *value;
+    }
+    template <typename T>
+    static void assign(T&, opros_params&, std::false_type, std::false_type) {}
+    template <typename T, typename V>
+    static void assign_pointee(T& pointer, const V* value, std::true_type) {
+        if (pointer && value) *pointer = *value;
+    }
+    template <typename T, typename V>
+    static void assign_pointee(T&, const V*, std::false_type) {}
+
     template <typename... P>
-    RetType request(std::true_type, const P&... arguments) {
+    RetType request(std::true_type, P&&... arguments) {
         opros_params none;
-        send(none, arguments...);
+        send(none, std::forward<P>(arguments)...);
     }
     template <typename... P>
-    RetType request(std::false_type, const P&... arguments) {
+    RetType request(std::false_type, P&&... arguments) {
         opros_params result;
         result.setType(static_cast<RetType*>(0));
-        send(result, arguments...);
+        send(result, std::forward<P>(arguments)...);
         RetType* value = opros_params_cast<RetType>(&result);
         if (!value)
             throw MethodInvokeException("call of " + m_name + " came back with a result of another type");
@@ -112,14 +163,18 @@ class typed_required_method : public RequiredMethod<R> {
   public:
     typed_required_method(const char* name, int callType)
         : RequiredMethod<R>(name, static_cast<int>(sizeof...(P)), callType) {}
-    virtual bool describe(archive::iarchive& arguments, archive::iarchive& result) {
-        return describer<method_types<R, P...>::can_cross, bare<R>, P...>::describe(arguments, result);
+    virtual bool describe(MethodDescription& description) {
+        return describer<method_types<R, P...>::can_cross, R, P...>::describe(description);
     }
     virtual std::vector<const std::type_info*> types() const { return method_types<R, P...>::list(); }
 
   private:
     virtual bool accepts(const std::type_info* const* given, int count) const {
         return method_types<R, P...>::match(given, count);
+    }
+    virtual bool writes(int index) const {
+        static const bool each[] = {passing<P>::writable..., false};
+        return each[index];
     }
 };
 

@@ -3,9 +3,8 @@
 
 `omniidl -p DIR -btandem_signatures F.idl` writes FSignatures.cpp, whose static initialiser fills
 RTC::InterfaceSignatures, so that a bridge can carry calls of interfaces it has never been compiled for.
-Arguments are those a request carries (in, inout) in order; results those a reply carries: return value,
-then inout and out. Members and arguments have their names in braces. What cannot cross (valuetypes, types that
-contain themselves) is written `?{reason}`. docs/wire_format.md has the signature language.
+Members and arguments have their names in braces. What cannot cross (valuetypes, types that contain themselves) is
+written `?{reason}`. docs/wire_format.md has the signature language.
 """
 import os
 
@@ -101,6 +100,26 @@ def quoted(text):
     return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
+def raises_clause(exceptions):
+    """` raises ID({name}T{name}T) ID()`, or nothing."""
+    text = ""
+    for exception in exceptions:
+        fields = "".join(named(d, signature(m.memberType())) for m in exception.members() for d in m.declarators())
+        text += " %s(%s)" % (exception.repoId(), fields)
+    return " raises" + text if text else ""
+
+
+DIRECTIONS = {(True, False): "", (False, True): ">", (True, True): "&"}
+
+
+def operation_signature(operation):
+    """(arguments, result) as wire::parse_operation reads them, the result with ` oneway` or ` raises`."""
+    arguments = "".join("%s{%s}%s" % (DIRECTIONS[bool(p.is_in()), bool(p.is_out())], p.identifier(),
+                                      signature(p.paramType())) for p in operation.parameters())
+    result = signature(operation.returnType())
+    return arguments, result + (" oneway" if operation.oneway() else "") + raises_clause(operation.raises())
+
+
 def operations(interface):
     """(name, arguments, result) of an interface and of all it inherits, each name once."""
     found = {}
@@ -117,11 +136,7 @@ def operations(interface):
                 if not callable_.readonly():
                     found["_set_" + name] = ("_set_" + name, value, "")
             continue
-        parameters = [("{%s}%s" % (p.identifier(), signature(p.paramType())), p) for p in callable_.parameters()]
-        sent = "".join(text for text, p in parameters if p.is_in())
-        returned = signature(callable_.returnType())
-        returned += "".join(text for text, p in parameters if p.is_out())
-        found[callable_.identifier()] = (callable_.identifier(), sent, returned)
+        found[callable_.identifier()] = (callable_.identifier(),) + operation_signature(callable_)
     return [found[name] for name in sorted(found)]
 
 

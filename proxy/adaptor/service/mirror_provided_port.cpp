@@ -2,46 +2,86 @@
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
-#include "proxy/adaptor/service/method_check.hpp"
-
-#include <MethodInvokeException.h>
+#include "proxy/adaptor/service/call_failure.hpp"
+#include "proxy/link/protocol/service_exception.hpp"
 
 #include <fmt/format.h>
 
 namespace tandem::adaptor {
 
+using link::CallStatus;
+using wire::Direction;
+
 MirrorProvidedPort::MirrorProvidedPort(link::Port peer, link::Link& link,
                                        std::chrono::milliseconds call_timeout)
-    : peer_(std::move(peer)), link_(link), call_timeout_(call_timeout) {}
+    : peer_(std::move(peer)), operations_(peer_.operations), link_(link), call_timeout_(call_timeout) {}
 
+/// Compared now, once, so that a call need not carry anything but CDR.
 std::string MirrorProvidedPort::bindMethod(Method* required) {
-    const auto signature = method_signature(*required);
-    if (!signature)
-        return fmt::format(
-            "service port '{}': method '{}' has an argument or result that cannot cross the link", peer_.name,
-            required->getName());
-    // Compared now, once, so that a call need not carry anything but CDR.
-    std::string error = check_method(peer_, required->getName(), *signature);
-    if (error.empty()) signatures_[required->getName()] = *signature;
-    return error;
+    const std::string& name = required->getName();
+    Binding& binding = bindings_[name];
+    try {
+        binding = make_binding(*required);
+    } catch (const wire::SignatureError& error) {
+        binding.problem = fmt::format("service port '{}': method '{}' of interface {}: {}", peer_.name, name,
+                                      peer_.type, error.what());
+    }
+    return binding.problem;
+}
+
+/// Throws SignatureError, one line.
+MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) const {
+    const std::string& name = required.getName();
+    Binding binding{name, {}, {}, true, ""};
+    const auto* known = operations_.find_for_method(name);
+    if (known && !known->problem.empty()) throw wire::SignatureError(known->problem);
+    const auto types = describe_method(required);
+    if (known) {
+        binding.operation = known->name;
+        binding.types = known->types;
+    } else if (operations_.empty()) {
+        // An interface whose IDL the RTM host does not know: the call itself will show whether the types fit.
+        binding.types = wire::parse_operation(types.operation_signature());
+    } else {
+        throw wire::SignatureError("the peer's interface has no such operation");
+    }
+    binding.directions = match_method(types, binding.types);
+    const bool returns_nothing = binding.types.reply.children.empty();
+    binding.waits =
+        !binding.types.oneway && !(returns_nothing && required.getCallType() == METHOD_NONBLOCKING);
+    return binding;
 }
 
 ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_params>& arguments,
                                            opros_params& result) {
-    const auto bound = signatures_.find(name);
-    if (bound == signatures_.end()) return OPROS_UNSUPPORTED_METHOD; // it was never connected
+    const auto bound = bindings_.find(name);
+    if (bound == bindings_.end()) return OPROS_UNSUPPORTED_METHOD; // it was never connected
+    if (!bound->second.problem.empty())
+        throw MethodInvokeException(bound->second.problem,
+                                    link::system_exception_id(CallStatus::no_such_operation));
+    if (arguments.size() != bound->second.directions.size()) return OPROS_BAD_INPUT_PARAMETER;
+    return call(name, bound->second, arguments, result);
+}
+
+ReturnType MirrorProvidedPort::call(const std::string& name, const Binding& binding,
+                                    std::vector<opros_params>& arguments, opros_params& result) {
     std::vector<std::byte> bytes;
     wire::CdrWriter writer(bytes);
     CdrOarchive archive(writer);
-    for (auto& argument : arguments) argument.encode(archive);
-    const auto reply = link_.call({peer_.name, name, bound->second, bytes}, call_timeout_);
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+        if (binding.directions[i] != Direction::out) arguments[i].encode(archive);
+    const link::Request request{peer_.name, binding.operation, binding.types.signature, bytes};
+    const auto reply =
+        binding.waits ? link_.call(request, call_timeout_) : link_.send(request, call_timeout_);
     // OPRoS stubs return the result itself, so a failure can only be an exception. The host leaves the
     // component ACTIVE after it: the next call may succeed.
-    if (reply.status != link::CallStatus::ok)
-        throw MethodInvokeException(
-            fmt::format("service '{}.{}': {}", peer_.name, name, describe_failure(reply, call_timeout_)));
+    if (reply.status != CallStatus::ok)
+        throw make_exception(peer_.name + "." + name, binding.types, reply, call_timeout_);
+    if (!binding.waits) return OPROS_SUCCESS;
     CdrIarchive results{wire::CdrReader(reply.bytes)};
     result.decode(results);
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+        if (binding.directions[i] != Direction::in) arguments[i].decode(results);
     return OPROS_SUCCESS;
 }
 

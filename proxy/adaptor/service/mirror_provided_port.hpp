@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/adaptor/service/method_types.hpp"
 #include "proxy/link/link.hpp"
+#include "proxy/link/protocol/operation_table.hpp"
 
 #include <ProvidedServicePort.h>
 
@@ -12,25 +14,39 @@
 namespace tandem::adaptor {
 
 /// Mirrors a service port that the peer provides: a call of an OPRoS component crosses the link in the calling
-/// thread and waits for the reply, at most `call_timeout`. A failure is thrown as MethodInvokeException, one
-/// line. The arguments are encoded by the component's own serialization; no stub is compiled.
+/// thread and waits for the reply, at most `call_timeout`; a oneway operation and a non-blocking method that returns
+/// nothing do not wait. A failure is thrown as MethodInvokeException, one line. The arguments are encoded by the
+/// component's own serialization; no stub is compiled.
 class MirrorProvidedPort final : public ProvidedServicePort {
   public:
     MirrorProvidedPort(link::Port peer, link::Link& link, std::chrono::milliseconds call_timeout);
 
     bool isDynamic() const override { return true; }
     /// Called when the host connects this port, once for each method of the required port. Returns an empty
-    /// string, or one line if the peer has no operation of that name and signature.
+    /// string, or one line if the peer has no operation that fits; calls of that method then throw this line.
     std::string bindMethod(Method* required) override;
     ReturnType callService(std::string& name, std::vector<opros_params>& arguments,
                            opros_params& result) override;
     using ProvidedServicePort::callService;
 
   private:
+    /// A method of the connected port.
+    struct Binding {
+        std::string operation; ///< the peer's name of it
+        wire::Operation types;
+        Directions directions;
+        bool waits = true;   ///< for the reply
+        std::string problem; ///< why it cannot be called; empty if it can
+    };
+    Binding make_binding(Method& required) const;
+    ReturnType call(const std::string& name, const Binding& binding, std::vector<opros_params>& arguments,
+                    opros_params& result);
+
     const link::Port peer_;
+    const link::OperationTable operations_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
-    std::map<std::string, std::string> signatures_; ///< of bound methods; complete before anybody calls
+    std::map<std::string, Binding> bindings_; ///< by method; complete before anybody calls
 };
 
 } // namespace tandem::adaptor

@@ -2,84 +2,138 @@
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 
 #include "proxy/adaptor/archive/cdr_archive.hpp"
-#include "proxy/adaptor/service/method_check.hpp"
+#include "proxy/adaptor/service/call_failure.hpp"
 
+#include <ProvidedMethodInterface.h>
 #include <ProvidedServicePort.h>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <mutex>
 
 namespace tandem::adaptor {
+namespace {
 
 using link::CallStatus;
 using link::Reply;
+using wire::Direction;
 
-MirrorRequiredPort::MirrorRequiredPort(link::Port peer) : peer_(std::move(peer)) {}
+/// The values of one call, read from the request and written to the reply.
+class RequestCall final : public EncodedCall {
+  public:
+    RequestCall(const Directions& directions, std::span<const std::byte> arguments,
+                std::vector<std::byte>& results)
+        : directions_(directions), arguments_(wire::CdrReader(arguments)), writer_(results),
+          results_(writer_) {}
+
+    opros::archive::iarchive* argument(int index) override {
+        return direction(index) == Direction::out ? nullptr : &arguments_;
+    }
+    opros::archive::oarchive& result() override { return results_; }
+    opros::archive::oarchive* written_argument(int index) override {
+        return direction(index) == Direction::in ? nullptr : &results_;
+    }
+
+  private:
+    Direction direction(int index) const { return directions_.at(static_cast<std::size_t>(index)); }
+
+    const Directions& directions_;
+    CdrIarchive arguments_;
+    wire::CdrWriter writer_;
+    CdrOarchive results_;
+};
+
+} // namespace
+
+MirrorRequiredPort::MirrorRequiredPort(link::Port peer)
+    : peer_(std::move(peer)), required_(peer_.operations) {}
 
 /// Waits for calls that are being served: the port that they use may be destroyed after this function.
 std::string MirrorRequiredPort::bindProvided(ProvidedServicePort* provided) {
     const std::unique_lock lock(mutex_);
-    signatures_.clear();
+    bindings_.clear();
+    problems_.clear();
     provided_ = nullptr;
     if (!provided) return "";
-    std::string error = collect_signatures(*provided);
-    if (error.empty())
+    bind_methods(*provided);
+    if (!bindings_.empty()) {
+        log_missing_operations();
         provided_ = provided;
-    else
-        signatures_.clear(); // the peer must not be offered what was refused
-    return error;
+        return "";
+    }
+    return fmt::format("service port '{}': the connected port provides no operation of interface {}{}",
+                       peer_.name, peer_.type, problems_.empty() ? "" : ": " + problems_.begin()->second);
 }
 
-std::string MirrorRequiredPort::collect_signatures(ProvidedServicePort& provided) {
-    for (auto at = provided.getFirst(); at != provided.getEnd(); ++at)
-        if (const auto signature = method_signature(*at->second)) signatures_[at->first] = *signature;
-    // Methods that the peer does not require may have types that cannot cross: they are left out above.
-    for (const auto& required : peer_.operations) {
-        const auto provided_method = signatures_.find(required.name);
-        if (provided_method == signatures_.end())
-            return fmt::format(
-                "service port '{}': the peer requires operation '{}' ({}), which the connected port "
-                "does not provide with types that can cross the link",
-                peer_.name, required.name, required.signature);
-        auto error = check_method(peer_, provided_method->first, provided_method->second);
-        if (!error.empty()) return error;
+void MirrorRequiredPort::bind_methods(ProvidedServicePort& provided) {
+    for (const auto& [name, operation] : required_)
+        problems_[name] =
+            operation.problem.empty() ? "the connected port has no such method" : operation.problem;
+    for (auto at = provided.getFirst(); at != provided.getEnd(); ++at) bind_method(at->first, *at->second);
+}
+
+/// Methods that the peer does not require may have types that cannot cross: nothing is said about them.
+void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
+    const auto* known = required_.find_for_method(name);
+    if (!known && !required_.empty()) return;
+    const std::string& operation = known ? known->name : name;
+    if (known && !known->problem.empty()) return;
+    try {
+        const auto types = describe_method(method);
+        // Where the peer does not know its IDL, the methods are the only description that there is.
+        Binding binding{name, known ? known->types : wire::parse_operation(types.operation_signature()), {}};
+        binding.directions = match_method(types, binding.types);
+        bindings_[operation] = std::move(binding);
+        problems_.erase(operation);
+    } catch (const wire::SignatureError& error) {
+        problems_[operation] = fmt::format("method '{}': {}", name, error.what());
     }
-    return "";
+}
+
+void MirrorRequiredPort::log_missing_operations() {
+    for (const auto& [operation, problem] : problems_)
+        spdlog::warn("service port '{}': operation '{}' of interface {} cannot be called, the others can: {}",
+                     peer_.name, operation, peer_.type, problem);
 }
 
 std::vector<link::ServiceOperation> MirrorRequiredPort::operations() const {
     const std::shared_lock lock(mutex_);
     std::vector<link::ServiceOperation> operations;
-    for (const auto& [name, signature] : signatures_) operations.push_back({name, signature});
+    for (const auto& [name, binding] : bindings_) operations.push_back({name, binding.types.signature});
     return operations;
 }
 
 Reply MirrorRequiredPort::serve(const link::Request& request) {
     const std::shared_lock lock(mutex_);
     if (!provided_)
-        return Reply::failure(CallStatus::no_such_operation, "no OPRoS component provides this service");
-    const auto known = signatures_.find(std::string(request.operation));
-    if (known == signatures_.end())
-        return Reply::failure(CallStatus::no_such_operation, "the OPRoS component has no such method");
-    // The peer checked the signature when the binding was published, but it is another process.
-    if (known->second != request.signature)
         return Reply::failure(
-            CallStatus::bad_arguments,
-            fmt::format("the method has signature '{}', not '{}'", known->second, request.signature));
-    return invoke(request);
+            CallStatus::not_ready,
+            fmt::format("not ready: no OPRoS component is connected to service port '{}'", peer_.name));
+    const auto bound = bindings_.find(request.operation);
+    if (bound == bindings_.end()) {
+        const auto problem = problems_.find(request.operation);
+        return Reply::failure(CallStatus::no_such_operation, problem == problems_.end()
+                                                                 ? "the OPRoS component has no such method"
+                                                                 : problem->second);
+    }
+    // The peer has the signature from this side or from the same table, but it is another process.
+    if (bound->second.types.signature != request.signature)
+        return Reply::failure(CallStatus::bad_arguments,
+                              fmt::format("the method has signature '{}', not '{}'",
+                                          bound->second.types.signature, request.signature));
+    return invoke(request, bound->second);
 }
 
-Reply MirrorRequiredPort::invoke(const link::Request& request) {
+Reply MirrorRequiredPort::invoke(const link::Request& request, const Binding& binding) {
     Reply reply;
-    wire::CdrWriter writer(reply.bytes);
-    CdrOarchive results(writer);
-    CdrIarchive arguments{wire::CdrReader(request.arguments)};
-    std::string name(request.operation);
+    RequestCall call(binding.directions, request.arguments, reply.bytes);
     try {
-        const ReturnType code = provided_->callService(name, arguments, results);
+        const ReturnType code = provided_->callService(binding.method, call);
         if (code == OPROS_SUCCESS) return reply;
         return Reply::failure(CallStatus::exception, fmt::format("the OPRoS method returned {}", code));
+    } catch (const MethodInvokeException& error) {
+        return make_reply(error, binding.types);
     } catch (const opros::archive::archive_type_exception&) {
         return Reply::failure(CallStatus::bad_arguments, "the arguments do not decode");
     } catch (const std::exception& error) {

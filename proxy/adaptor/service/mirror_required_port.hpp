@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/adaptor/service/method_types.hpp"
+#include "proxy/link/protocol/operation_table.hpp"
 #include "proxy/link/protocol/reply.hpp"
 #include "proxy/link/protocol/request.hpp"
 
@@ -20,11 +21,11 @@ class MirrorRequiredPort final : public RequiredServicePort {
     explicit MirrorRequiredPort(link::Port peer);
 
     bool isDynamic() const override { return true; }
-    /// Called when the host connects this port, or with nullptr disconnects it. Returns an empty string, or
-    /// one line naming an operation that the peer requires and the provided port lacks or has otherwise.
+    /// Called when the host connects this port, or with nullptr disconnects it. Returns an empty string, or one line
+    /// if the provided port has none of the operations that the peer requires. What it lacks is logged, a line each.
     std::string bindProvided(ProvidedServicePort* provided) override;
 
-    /// Name and signature of each method that is provided; empty while nothing is connected. [any-thread]
+    /// Name and signature of each operation that is provided; empty while nothing is connected. [any-thread]
     std::vector<link::ServiceOperation> operations() const;
     const std::string& port() const { return peer_.name; }
 
@@ -32,15 +33,26 @@ class MirrorRequiredPort final : public RequiredServicePort {
     link::Reply serve(const link::Request& request);
 
   private:
-    /// Returns as bindProvided() does.
-    std::string collect_signatures(ProvidedServicePort& provided);
-    link::Reply invoke(const link::Request& request);
+    /// An operation of the peer and the method that is called for it.
+    struct Binding {
+        std::string method;
+        wire::Operation types;
+        Directions directions;
+    };
+    // Each fills bindings_ or problems_.
+    void bind_methods(ProvidedServicePort& provided);
+    void bind_method(const std::string& name, Method& method);
+    void log_missing_operations();
+    link::Reply invoke(const link::Request& request, const Binding& binding);
 
     const link::Port peer_;
+    const link::OperationTable required_;
     mutable std::shared_mutex
         mutex_; ///< exclusive to bind, shared to serve: no call runs in a port that goes
     ProvidedServicePort* provided_ = nullptr;
-    std::map<std::string, std::string> signatures_; ///< by method name
+    std::map<std::string, Binding, std::less<>> bindings_; ///< by operation
+    std::map<std::string, std::string, std::less<>>
+        problems_; ///< by operation: why it has no binding, one line
 };
 
 } // namespace tandem::adaptor

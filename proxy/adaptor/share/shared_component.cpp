@@ -2,7 +2,7 @@
 #include "proxy/adaptor/share/shared_component.hpp"
 
 #include "proxy/adaptor/archive/type_check.hpp"
-#include "proxy/adaptor/service/method_check.hpp"
+#include "proxy/adaptor/service/method_types.hpp"
 
 #include <InputDataPortInterface.h>
 #include <OutputDataPortInterface.h>
@@ -128,14 +128,15 @@ void SharedComponent::describe_service_ports(link::PortTable& table,
                 fmt::format("port '{}' is not shared: only provided service ports are", shared.name));
             continue;
         }
-        for (auto method = provided->getFirst(); method != provided->getEnd(); ++method)
-            if (const auto signature = method_signature(*method->second))
-                shared.operations.push_back({method->first, *signature});
-            else
+        for (auto method = provided->getFirst(); method != provided->getEnd(); ++method) try {
+                shared.operations.push_back(
+                    {method->first, describe_method(*method->second).operation_signature()});
+            } catch (const wire::SignatureError&) {
                 refused.push_back(
                     fmt::format("method '{}' of port '{}' is not shared: one of its types cannot be "
                                 "serialized",
                                 method->first, shared.name));
+            }
         table.ports.push_back(std::move(shared));
     }
 }

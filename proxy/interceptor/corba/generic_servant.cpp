@@ -9,21 +9,30 @@
 namespace tandem::interceptor {
 namespace {
 
+/// The ids that the ORB lets pass; any other user exception becomes CORBA::UNKNOWN.
+std::vector<const char*> exception_ids(const wire::Operation& operation) {
+    std::vector<const char*> ids;
+    for (const auto& exception : operation.exceptions) ids.push_back(exception.id.c_str());
+    return ids;
+}
+
 /// One call on its way through the ORB, which calls these functions in the order arguments, run, results.
 class Upcall final : public omniCallDescriptor {
   public:
-    Upcall(const char* name, const CallTarget::Operation& operation, CallTarget& target)
-        : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, 0, nullptr, 0, 1),
+    Upcall(const char* name, const wire::Operation& operation, CallTarget& target,
+           const std::vector<const char*>& exceptions)
+        : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, operation.oneway,
+                             exceptions.data(), static_cast<int>(exceptions.size()), 1),
           operation_(operation), target_(target) {}
 
     // Arguments are converted before the target is called, so a malformed request never reaches it.
     void unmarshalArguments(cdrStream& stream) override {
         wire::CdrWriter writer(arguments_);
-        to_cdr(operation_.arguments, stream, writer);
+        to_cdr(operation_.request, stream, writer);
     }
     void marshalReturnedValues(cdrStream& stream) override {
         wire::CdrReader reader(results_);
-        from_cdr(operation_.result, reader, stream);
+        from_cdr(operation_.reply, reader, stream);
     }
 
   private:
@@ -32,7 +41,7 @@ class Upcall final : public omniCallDescriptor {
         self->results_ = self->target_.call(self->op(), self->operation_, self->arguments_);
     }
 
-    const CallTarget::Operation& operation_;
+    const wire::Operation& operation_;
     CallTarget& target_;
     std::vector<std::byte> arguments_, results_;
 };
@@ -46,7 +55,8 @@ _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
     const char* name = handle.operation_name();
     const auto* operation = target_.find_operation(name);
     if (!operation) return 0; // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
-    Upcall upcall(name, *operation, target_);
+    const auto exceptions = exception_ids(*operation);
+    Upcall upcall(name, *operation, target_, exceptions);
     handle.upcall(this, upcall);
     return 1;
 }

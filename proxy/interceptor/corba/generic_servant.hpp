@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/wire/type.hpp"
+#include "proxy/wire/operation.hpp"
 
 #include <omniORB4/CORBA.h>
 
@@ -17,15 +17,14 @@ namespace tandem::interceptor {
 class CallTarget {
   public:
     virtual ~CallTarget() = default;
-    struct Operation {
-        wire::Type arguments, result;
-        std::string signature; ///< `arguments:result`
-    };
     /// Returns nullptr when there is no such operation. The result must stay valid as long as the target.
-    virtual const Operation* find_operation(const char* name) = 0;
-    /// Executes an operation. Arguments and results are in CDR. Failures are thrown as CORBA system exceptions.
-    virtual std::vector<std::byte> call(const char* name, const Operation&,
+    virtual const wire::Operation* find_operation(const char* name) = 0;
+    /// Executes an operation. Arguments and results are in CDR. Failures are thrown: CORBA system exceptions, or a
+    /// GenericUserException that the operation declares.
+    virtual std::vector<std::byte> call(const char* name, const wire::Operation&,
                                         std::span<const std::byte> arguments) = 0;
+    /// Whether there is somebody who executes calls: what `_non_existent` tells clients.
+    virtual bool is_ready() const { return true; }
 };
 
 /// A CORBA object of any interface, without a compiled skeleton: it converts arguments and results by type
@@ -39,6 +38,7 @@ class GenericServant : public virtual PortableServer::ServantBase {
 
     _CORBA_Boolean _dispatch(omniCallHandle&) override;
     _CORBA_Boolean _is_a(const char* repository_id) override;
+    _CORBA_Boolean _non_existent() override { return !target_.is_ready(); }
 
   private:
     void* _ptrToInterface(const char* repository_id) override;

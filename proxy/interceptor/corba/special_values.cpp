@@ -81,6 +81,29 @@ void any_from_cdr(wire::CdrReader& from, cdrStream& to) {
     }
 }
 
+/// The ORB of this process, which exists: it has made the stream.
+CORBA::ORB_var process_orb() {
+    int argc = 0;
+    return CORBA::ORB_init(argc, nullptr);
+}
+
+/// A reference crosses as the text of its IOR, an empty one for nil: whoever gets it may keep it and give it back.
+void object_to_cdr(cdrStream& from, wire::CdrWriter& to) {
+    const CORBA::Object_var object = CORBA::Object::_unmarshalObjRef(from);
+    if (CORBA::is_nil(object)) return to.put_string("");
+    const CORBA::String_var text = process_orb()->object_to_string(object);
+    to.put_string(text.in());
+}
+
+void object_from_cdr(wire::CdrReader& from, cdrStream& to) {
+    const std::string text(from.get_string());
+    // The other forms, corbaloc and corbaname, would make this process ask others for an object.
+    if (!from.ok() || (!text.empty() && text.rfind("IOR:", 0) != 0)) throw_marshal();
+    const CORBA::Object_var object =
+        text.empty() ? CORBA::Object::_nil() : process_orb()->string_to_object(text.c_str());
+    CORBA::Object::_marshalObjRef(object, to);
+}
+
 template <class T>
 std::int64_t read_as(cdrStream& from) {
     T value;
@@ -117,6 +140,8 @@ void special_to_cdr(const Type& type, cdrStream& from, wire::CdrWriter& to) {
         return fixed_to_cdr(type, from, to);
     case Kind::any:
         return any_to_cdr(from, to);
+    case Kind::object:
+        return object_to_cdr(from, to);
     default:
         throw_marshal();
     }
@@ -140,6 +165,8 @@ void special_from_cdr(const Type& type, wire::CdrReader& from, cdrStream& to) {
         return fixed_from_cdr(type, from, to);
     case Kind::any:
         return any_from_cdr(from, to);
+    case Kind::object:
+        return object_from_cdr(from, to);
     default:
         throw_marshal();
     }

@@ -144,7 +144,8 @@ void OprosRtc::add_service_port(const link::Port& port, const std::string& name)
     Service service;
     try {
         service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
-    } catch (const wire::SignatureError& error) { // it came from another process
+        service.target->bind({port.name, port.operations}); // the component that provides it is there
+    } catch (const wire::SignatureError& error) {           // it came from another process
         spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return;
     }
@@ -299,7 +300,8 @@ bool OprosRtc::command(std::string_view command, std::chrono::milliseconds timeo
         }
     } else if (reply.status == CallStatus::timeout) {
         error = fmt::format("no reply within {} ms", bound.count());
-    } else if (reply.status == CallStatus::peer_died || reply.status == CallStatus::shut_down) {
+    } else if (reply.status == CallStatus::peer_died || reply.status == CallStatus::shut_down ||
+               reply.status == CallStatus::not_ready) {
         error = "the OPRoS host is not there";
     }
     spdlog::error("{}: cannot {} the OPRoS component: {}", getInstanceName(), command, error);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/link/protocol/operation_table.hpp"
 #include "proxy/link/protocol/reply.hpp"
 #include "proxy/link/protocol/request.hpp"
-#include "proxy/wire/type.hpp"
 
 #include <rtm/CorbaConsumer.h>
 
 #include <chrono>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -29,19 +29,18 @@ class MirrorProvidedPort final {
     link::Reply serve(const link::Request& request);
 
   private:
-    struct Types {
-        wire::Type arguments, result;
-    };
-    const Types& parsed_types(std::string_view signature);
-    /// Returns why the call is refused, in one line; empty when the operation fits.
-    std::string check_operation(const link::Request& request) const;
+    /// Finds the operation; otherwise returns nullptr and why the call is refused.
+    const wire::Operation* find_operation(const link::Request& request, link::Reply& refusal);
+    const wire::Operation* parse_request_types(std::string_view signature, link::Reply& refusal);
+    link::Reply invoke(const link::Request& request, const wire::Operation& operation);
 
     const link::Port port_;
+    const link::OperationTable operations_;
     const std::chrono::milliseconds call_timeout_;
     RTC::CorbaConsumerBase consumer_;
-    std::mutex mutex_;
-    std::map<std::string, Types, std::less<>>
-        types_; ///< by signature, parsed once; entries are never removed
+    std::mutex mutex_; ///< requested_types_
+    /// Without the IDL: what the peer's requests said, by signature; entries are never removed.
+    std::map<std::string, std::unique_ptr<wire::Operation>, std::less<>> requested_types_;
 };
 
 } // namespace tandem::interceptor

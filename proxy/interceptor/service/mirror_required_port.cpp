@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 
-#include "proxy/wire/signature_match.hpp"
+#include "proxy/interceptor/corba/generic_user_exception.hpp"
+#include "proxy/link/protocol/service_exception.hpp"
 
 #include <rtm/InterfaceSignatures.h>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
-#include <algorithm>
 
 namespace tandem::interceptor {
 namespace {
@@ -28,6 +27,8 @@ std::string repository_id(const std::string& type) {
 [[noreturn]] void throw_system_exception(const link::Reply& reply) {
     using link::CallStatus;
     switch (reply.status) {
+    case CallStatus::not_ready:
+        throw CORBA::TRANSIENT(0, CORBA::COMPLETED_NO);
     case CallStatus::timeout:
         throw CORBA::TIMEOUT(0, CORBA::COMPLETED_MAYBE);
     case CallStatus::peer_died:
@@ -50,51 +51,50 @@ MirrorRequiredPort::MirrorRequiredPort(link::Port port, link::Link& link,
                                        std::chrono::milliseconds call_timeout)
     : port_(std::move(port)), link_(link), call_timeout_(call_timeout),
       servant_(repository_id(port_.type), *this) {
-    for (const auto& operation : port_.operations)
-        // '?' stands for a type without a signature: such an operation cannot cross the link.
-        if (operation.signature.find('?') == std::string::npos) add_operation(operation);
+    tables_.push_back(std::make_unique<const link::OperationTable>(port_.operations));
 }
 
-void MirrorRequiredPort::add_operation(const link::ServiceOperation& operation) {
-    const auto signature = wire::parse_operation_signature(operation.signature);
-    auto& entry = operations_[operation.name];
-    if (entry) retired_.push_back(std::move(entry));
-    entry = std::make_unique<Operation>(Operation{wire::parse_signature(signature.arguments),
-                                                  wire::parse_signature(signature.result),
-                                                  signature.arguments + ":" + signature.result});
-}
-
-std::string MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
-    const std::lock_guard lock(mutex_);
-    const bool idl_known = !port_.operations.empty();
-    for (const auto& offered : binding.operations) {
-        const auto known = operations_.find(offered.name);
-        if (known != operations_.end() && known->second->signature == offered.signature) continue;
-        if (!idl_known) {
-            add_operation(offered); // the OPRoS component's methods are the only description that there is
-        } else if (known != operations_.end()) {
-            return fmt::format(
-                "service port '{}': operation '{}' of interface {} has signature '{}', the OPRoS method "
-                "has '{}'",
-                port_.name, offered.name, port_.type, known->second->signature, offered.signature);
-        } // a method that the IDL does not have is not needed
+void MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
+    // Without the IDL, the OPRoS component's methods are the only description that there is.
+    if (port_.operations.empty()) {
+        auto table = std::make_unique<const link::OperationTable>(binding.operations);
+        const std::lock_guard lock(mutex_);
+        if (!binding.operations.empty() && *table != *tables_.back()) tables_.push_back(std::move(table));
     }
-    return "";
+    ready_ = !binding.operations.empty();
 }
 
-const CallTarget::Operation* MirrorRequiredPort::find_operation(const char* name) {
+const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
     const std::lock_guard lock(mutex_);
-    const auto found = operations_.find(name);
-    return found == operations_.end() ? nullptr : found->second.get();
+    const auto* found = tables_.back()->find(name);
+    if (!found) return nullptr;
+    if (found->problem.empty()) return &found->types;
+    if (failed_calls_.should_log())
+        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, found->problem,
+                     failed_calls_.count());
+    throw CORBA::NO_IMPLEMENT(0, CORBA::COMPLETED_NO);
 }
 
-std::vector<std::byte> MirrorRequiredPort::call(const char* name, const Operation& operation,
+std::vector<std::byte> MirrorRequiredPort::call(const char* name, const wire::Operation& operation,
                                                 std::span<const std::byte> arguments) {
-    auto reply = link_.call({port_.name, name, operation.signature, arguments}, call_timeout_);
-    if (reply.status == link::CallStatus::ok) return std::move(reply.bytes);
+    const link::Request request{port_.name, name, operation.signature, arguments};
+    auto reply = operation.oneway ? link_.send(request, call_timeout_) : link_.call(request, call_timeout_);
+    if (reply.status != link::CallStatus::ok) throw_failure(name, operation, reply);
+    return std::move(reply.bytes);
+}
+
+void MirrorRequiredPort::throw_failure(const char* name, const wire::Operation& operation,
+                                       const link::Reply& reply) {
+    std::string text = reply.text();
+    if (reply.status == link::CallStatus::user_exception) {
+        auto exception = link::decode_service_exception(reply.bytes);
+        if (const auto* declared = operation.find_exception(exception.id))
+            throw GenericUserException(*declared, std::move(exception.fields));
+        text = fmt::format("{} ({}, which the operation does not declare)", exception.text, exception.id);
+    }
     // A CORBA system exception carries no text, so it is logged here.
-    if (!reply.bytes.empty() && failed_calls_.should_log())
-        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, reply.text(),
+    if (!text.empty() && failed_calls_.should_log())
+        spdlog::warn("service '{}.{}': {} ({} failed calls so far)", port_.name, name, text,
                      failed_calls_.count());
     throw_system_exception(reply);
 }

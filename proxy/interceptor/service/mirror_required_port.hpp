@@ -5,42 +5,49 @@
 #include "proxy/interceptor/corba/generic_servant.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
+#include "proxy/link/protocol/operation_table.hpp"
 
+#include <atomic>
 #include <chrono>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace tandem::interceptor {
 
 /// Mirrors a service interface that the RTC requires and an OPRoS component provides: a CORBA object whose
-/// calls cross the link, without a compiled skeleton. A failed call is a CORBA system exception: TIMEOUT,
-/// COMM_FAILURE (peer gone), NO_RESOURCES (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN (the OPRoS
-/// method failed; its text is in the log).
+/// calls cross the link, without a compiled skeleton. A failed call is the user exception that the OPRoS method
+/// threw, if the operation declares it, or a CORBA system exception: TIMEOUT, TRANSIENT (not ready), COMM_FAILURE
+/// (peer gone), NO_RESOURCES (too many calls), BAD_OPERATION, BAD_PARAM, or UNKNOWN; their text is in the log.
 class MirrorRequiredPort final : private CallTarget {
   public:
     MirrorRequiredPort(link::Port port, link::Link& link, std::chrono::milliseconds call_timeout);
 
     GenericServant& servant() { return servant_; }
     const link::Port& port() const { return port_; }
-    /// Learns the operations that the OPRoS component provides. Returns an empty string, or one line with both
-    /// signatures if one differs from the IDL's. [worker-thread]
-    std::string bind(const link::control::ServiceBinding& binding);
+    /// Learns what the OPRoS component provides: the calls are ready from now on if that is anything. [worker-thread]
+    void bind(const link::control::ServiceBinding& binding);
+    /// Nobody provides it any more. [any-thread]
+    void unbind() { ready_ = false; }
 
   private:
     // CallTarget, in ORB threads or the calling component's own.
-    const Operation* find_operation(const char* name) override;
-    std::vector<std::byte> call(const char* name, const Operation&, std::span<const std::byte>) override;
-    void add_operation(const link::ServiceOperation& operation);
+    const wire::Operation* find_operation(const char* name) override;
+    std::vector<std::byte> call(const char* name, const wire::Operation&,
+                                std::span<const std::byte>) override;
+    bool is_ready() const override { return ready_ && link_.is_up(); }
+
+    [[noreturn]] void throw_failure(const char* name, const wire::Operation&, const link::Reply&);
 
     const link::Port port_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
-    std::mutex mutex_; ///< operations_, retired_
-    std::map<std::string, std::unique_ptr<Operation>, std::less<>> operations_;
-    /// Operations that were replaced. They are kept, because calls that are being executed may still use them.
-    std::vector<std::unique_ptr<Operation>> retired_;
+    std::atomic<bool> ready_{false};
+    std::mutex mutex_; ///< tables_
+    /// The last one is in use. Those that it replaced are kept, because calls that are being executed may still use
+    /// them.
+    std::vector<std::unique_ptr<const link::OperationTable>> tables_;
     process::LogThrottle failed_calls_;
     GenericServant servant_;
 };

@@ -356,7 +356,9 @@ TEST_CASE("the peer calls what an OPRoS component provides, by signature") {
     CHECK(thrown.status == CallStatus::exception);
     CHECK(thrown.text() == "no such axis");
     scene.port<RequiredServicePort>("chair").bindProvided(nullptr);
-    CHECK(link.call({"chair", "limits", "i:ad", {}}, soon).status == CallStatus::no_such_operation);
+    const auto unbound = link.call({"chair", "limits", "i:ad", {}}, soon);
+    CHECK(unbound.status == CallStatus::not_ready);
+    CHECK_THAT(unbound.text(), Catch::StartsWith("not ready: "));
 }
 
 TEST_CASE("starting and stopping the adaptor activates and deactivates the RTC") {

@@ -3,15 +3,15 @@
 // socket.
 #include "proxy/interceptor/corba/generic_call.hpp"
 #include "proxy/interceptor/corba/generic_servant.hpp"
+#include "proxy/interceptor/corba/generic_user_exception.hpp"
 #include "proxy/wire/cdr.hpp"
-#include "proxy/wire/signature_match.hpp"
 #include "tests/proxy/interceptor/orb.hpp"
 
 #include "Chair.hh"
 
 #include <catch2/catch.hpp>
 
-#include <functional>
+#include <atomic>
 #include <map>
 
 using namespace tandem;
@@ -24,6 +24,8 @@ using Status = interceptor::GenericCallResult::Status;
 namespace {
 
 const char* const seats_signature = "a(sn[3]db)s:a(sn[3]db)";
+const char* const drive_signature =
+    "d: raises IDL:TestChair/TooFast:1.0({speed}d{occupied}a(sn[3]db)) IDL:TestChair/Broken:1.0()";
 
 class ChairServant : public POA_TestChair::Chair {
     CORBA::Double add(CORBA::Double a, CORBA::Long b) override { return a + b; }
@@ -44,8 +46,42 @@ class ChairServant : public POA_TestChair::Chair {
         return inverted;
     }
     void drive(CORBA::Double speed) override {
-        if (speed > 2) throw TestChair::TooFast(speed);
+        if (speed < 0) throw TestChair::Broken();
+        if (speed > 9) throw CORBA::NO_PERMISSION(0, CORBA::COMPLETED_NO);
+        if (speed <= 2) return;
+        TestChair::Seats occupied;
+        occupied.length(1);
+        occupied[0].name = "front";
+        occupied[0].legs = 3;
+        occupied[0].used = true;
+        throw TestChair::TooFast(speed, occupied);
     }
+    void hide() override { throw TestChair::Hidden(7); }
+    CORBA::Boolean locate(CORBA::Long row, TestChair::Seat_out found, TestChair::Doubles& trace,
+                          CORBA::String_out text) override {
+        found = new TestChair::Seat;
+        found->name = "found";
+        found->legs = static_cast<CORBA::Short>(row);
+        found->used = true;
+        trace.length(trace.length() + 1);
+        trace[trace.length() - 1] = row;
+        text = CORBA::string_dup("here");
+        return row > 0;
+    }
+    TestChair::Furniture_ptr partner(TestChair::Furniture_ptr of, CORBA::Object_out none) override {
+        none = CORBA::Object::_nil();
+        return TestChair::Furniture::_duplicate(of);
+    }
+    void beep(CORBA::Long times) override { beeps += times; }
+    char* owner() override { return CORBA::string_dup("Tandem"); }
+    CORBA::Long number() override { return number_; }
+    void number(CORBA::Long value) override { number_ = value; }
+
+  public:
+    std::atomic<int> beeps{0};
+
+  private:
+    CORBA::Long number_ = 4;
 };
 
 /// Hands every call on to a CORBA object by generic_call: servant and call in a row move each byte twice.
@@ -56,27 +92,32 @@ class Forward : public CallTarget {
                                        {"scale", "adf:ad"},
                                        {"rename", seats_signature},
                                        {"invert", "a[3]y:a[3]y"},
-                                       {"drive", "d:"}}) {
-            const auto operation = wire::parse_operation_signature(signature);
-            operations_[name] = {wire::parse_signature(operation.arguments),
-                                 wire::parse_signature(operation.result), signature};
-        }
+                                       {"drive", drive_signature},
+                                       {"hide", ":"}, // as an IDL that does not declare the exception
+                                       {"locate", "i>(sn[3]db)&ad>s:b"},
+                                       {"beep", "i: oneway"},
+                                       {"partner", "o>o:o"},
+                                       {"_get_owner", ":s"},
+                                       {"_get_number", ":i"},
+                                       {"_set_number", "i:"}})
+            operations_[name] = wire::parse_operation(signature);
     }
-    const Operation* find_operation(const char* name) override {
+    const wire::Operation* find_operation(const char* name) override {
         const auto at = operations_.find(name);
         return at == operations_.end() ? nullptr : &at->second;
     }
-    std::vector<std::byte> call(const char* name, const Operation& operation,
+    std::vector<std::byte> call(const char* name, const wire::Operation& operation,
                                 std::span<const std::byte> arguments) override {
-        auto result = generic_call(object_, name, operation.arguments, operation.result, arguments,
-                                   std::chrono::seconds(5));
-        if (result.status != Status::ok) throw CORBA::UNKNOWN(0, CORBA::COMPLETED_MAYBE);
-        return result.results;
+        auto result = generic_call(object_, name, operation, arguments, std::chrono::seconds(5));
+        if (result.status == Status::ok) return result.results;
+        if (const auto* declared = operation.find_exception(result.exception_id))
+            throw interceptor::GenericUserException(*declared, std::move(result.results));
+        throw CORBA::UNKNOWN(0, CORBA::COMPLETED_MAYBE);
     }
 
   private:
     CORBA::Object_var object_;
-    std::map<std::string, Operation> operations_;
+    std::map<std::string, wire::Operation> operations_;
 };
 
 /// A servant while it is reachable.
@@ -119,6 +160,39 @@ void check_chair(TestChair::Chair_ptr chair) {
     CHECK_NOTHROW(chair->drive(1));
 }
 
+void check_out_arguments(TestChair::Chair_ptr chair) {
+    TestChair::Seat_var found;
+    TestChair::Doubles trace;
+    trace.length(1);
+    trace[0] = 0.25;
+    CORBA::String_var text;
+    CHECK(chair->locate(5, found, trace, text));
+    CHECK((std::string(found->name) == "found" && found->legs == 5 && found->used));
+    REQUIRE(trace.length() == 2);
+    CHECK((trace[0] == 0.25 && trace[1] == 5));
+    CHECK(std::string(text) == "here");
+}
+
+void check_exceptions(TestChair::Chair_ptr chair) {
+    CHECK_THROWS_AS(chair->drive(-1), TestChair::Broken);
+    CHECK_THROWS_AS(chair->hide(), CORBA::UNKNOWN);
+    CHECK_THROWS_AS(chair->drive(10), CORBA::UNKNOWN); // Forward's; a system exception
+    try {
+        chair->drive(3);
+        FAIL("no exception");
+    } catch (const TestChair::TooFast& error) {
+        CHECK(error.speed == 3);
+        REQUIRE(error.occupied.length() == 1);
+        CHECK((std::string(error.occupied[0].name) == "front" && error.occupied[0].legs == 3));
+    }
+}
+
+void check_attributes(TestChair::Chair_ptr chair) {
+    CHECK(std::string(CORBA::String_var(chair->owner())) == "Tandem");
+    chair->number(12);
+    CHECK(chair->number() == 12);
+}
+
 } // namespace
 
 TEST_CASE("a generic servant and generic calls carry every type there and back") {
@@ -134,10 +208,45 @@ TEST_CASE("a generic servant and generic calls carry every type there and back")
         REQUIRE_FALSE(CORBA::is_nil(stub));
         check_chair(stub);
     }
-    SECTION("a user exception of the provider arrives as an exception") {
+    SECTION("inherited attributes, out and inout arguments, exceptions with their members") {
         TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
-        CHECK_THROWS_AS(stub->drive(3), CORBA::UNKNOWN);
+        check_attributes(stub);
+        check_out_arguments(stub);
+        check_exceptions(stub);
     }
+    SECTION("object references come back as themselves") {
+        TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
+        CORBA::Object_var none = CORBA::Object::_duplicate(stub);
+        TestChair::Furniture_var back = stub->partner(stub, none.out());
+        CHECK(back->_is_equivalent(stub));
+        CHECK(std::string(CORBA::String_var(back->owner())) == "Tandem");
+        CHECK(CORBA::is_nil(none));
+    }
+    SECTION("a oneway operation") {
+        TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
+        stub->beep(3);
+        CHECK(chair.beeps == 3);
+    }
+}
+
+TEST_CASE("a generic servant whose target is not ready does not exist for clients that ask") {
+    struct : CallTarget {
+        bool ready = false;
+        const wire::Operation* find_operation(const char*) override { return nullptr; }
+        std::vector<std::byte> call(const char*, const wire::Operation&,
+                                    std::span<const std::byte>) override {
+            return {};
+        }
+        bool is_ready() const override { return ready; }
+    } target;
+    Orb orb;
+    GenericServant servant("IDL:TestChair/Chair:1.0", target);
+    Active active(orb, servant);
+    CHECK(active.object->_non_existent());
+    target.ready = true;
+    CHECK_FALSE(active.object->_non_existent());
+    TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
+    CHECK_THROWS_AS(stub->beep(1), CORBA::BAD_OPERATION);
 }
 
 TEST_CASE("a servant with a guessed repository id passes _narrow") {
@@ -157,19 +266,39 @@ TEST_CASE("generic calls name what went wrong") {
     ChairServant chair;
     Active active(orb, chair);
     CORBA::Object_ptr object = active.object;
-    const auto none = wire::parse_signature("");
-    const auto d = wire::parse_signature("d");
-    std::vector<std::byte> speed;
-    wire::CdrWriter(speed).put(3.0);
-    const auto second = std::chrono::seconds(1);
-
-    const auto missing = generic_call(object, "fly", none, none, {}, second);
+    const auto none = wire::parse_operation(":");
+    const auto drive = wire::parse_operation(drive_signature);
+    const auto call = [&](CORBA::Object_ptr of, const char* name, const wire::Operation& as, double speed) {
+        std::vector<std::byte> argument;
+        wire::CdrWriter(argument).put(speed);
+        return generic_call(of, name, as, argument, std::chrono::seconds(1));
+    };
+    const auto missing = call(object, "fly", none, 0);
     CHECK(missing.status == Status::no_such_operation);
     CHECK_THAT(missing.text, Catch::Contains("'fly'"));
-    const auto thrown = generic_call(object, "drive", d, none, speed, second);
+
+    const auto thrown = call(object, "drive", drive, 3.0);
     CHECK(thrown.status == Status::exception);
+    CHECK(thrown.exception_id == "IDL:TestChair/TooFast:1.0");
     CHECK_THAT(thrown.text, Catch::Contains("TooFast"));
-    CHECK(generic_call(object, "drive", none, none, {}, second).status == Status::bad_arguments);
-    CHECK(generic_call(object, "drive", d, none, {}, second).status == Status::bad_arguments);
-    CHECK(generic_call(CORBA::Object::_nil(), "drive", d, none, speed, second).status == Status::unreachable);
+    CHECK(wire::CdrReader(thrown.results).get<double>() == 3.0);
+    const auto undeclared = call(object, "drive", wire::parse_operation("d:"), 3.0);
+    CHECK(undeclared.status == Status::exception);
+    CHECK(undeclared.exception_id == "IDL:TestChair/TooFast:1.0");
+    CHECK(undeclared.results.empty());
+    const auto system = call(object, "drive", drive, 10);
+    CHECK(system.status == Status::exception);
+    CHECK(system.exception_id == "IDL:omg.org/CORBA/NO_PERMISSION:1.0");
+
+    CHECK(call(object, "drive", none, 0).status == Status::bad_arguments);
+    // A text that is no reference, and one that would make the ORB ask another host.
+    for (const char* text : {"IOR:00zz", "corbaloc::127.0.0.1:1/Nobody", "IOR:"}) {
+        std::vector<std::byte> argument;
+        wire::CdrWriter(argument).put_string(text);
+        const auto refused = generic_call(object, "partner", wire::parse_operation("o>o:o"), argument,
+                                          std::chrono::seconds(1));
+        CHECK((refused.status == Status::bad_arguments || refused.status == Status::exception));
+    }
+    CHECK(generic_call(object, "drive", drive, {}, std::chrono::seconds(1)).status == Status::bad_arguments);
+    CHECK(call(CORBA::Object::_nil(), "drive", drive, 1).status == Status::unreachable);
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/protocol/link_error.hpp"
+#include "proxy/link/protocol/operation_table.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 #include "proxy/link/protocol/request.hpp"
+#include "proxy/link/protocol/service_exception.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -84,4 +86,35 @@ TEST_CASE("bytes that are no request are recognized") {
     bytes.resize(10);
     CHECK_FALSE(decode_request(bytes));
     CHECK_FALSE(decode_request({}));
+}
+
+TEST_CASE("an operation that cannot cross costs none of the others") {
+    const OperationTable table({{"add", "dd:d"}, {"paint", "{how}({deep}?{an M::How}):"}, {"odd", "z:"}});
+    CHECK(table.find("add")->problem.empty());
+    CHECK(table.find("paint")->problem == "argument 'how': field 'deep' is an M::How");
+    CHECK_THAT(table.find("odd")->problem, Catch::Contains("'z'"));
+    CHECK(table.find("other") == nullptr);
+}
+
+TEST_CASE("a method stands for the operation of its name or for an attribute") {
+    const OperationTable table(
+        {{"_get_speed", ":d"}, {"_set_speed", "d:"}, {"_get_Name", ":s"}, {"getPlace", ":i"}});
+    for (const char* get : {"_get_speed", "get_speed", "getSpeed"})
+        CHECK(table.find_for_method(get) == table.find("_get_speed"));
+    CHECK(table.find_for_method("setSpeed") == table.find("_set_speed"));
+    CHECK(table.find_for_method("getName") == table.find("_get_Name"));
+    CHECK(table.find_for_method("getPlace") == table.find("getPlace"));
+    for (const char* none : {"speed", "get", "getspeed", "set_", "setPlace", ""})
+        CHECK(table.find_for_method(none) == nullptr);
+}
+
+TEST_CASE("an exception comes out of a reply as it went in, and damaged bytes have no id") {
+    const ServiceException thrown{
+        "IDL:M/TooFast:1.0", "too fast", {std::byte{1}, std::byte{2}, std::byte{3}}};
+    const auto reply = make_exception_reply(thrown);
+    CHECK(reply.status == CallStatus::user_exception);
+    const auto back = decode_service_exception(reply.bytes);
+    CHECK((back.id == thrown.id && back.text == thrown.text && back.fields == thrown.fields));
+    for (std::size_t size = 0; size < 30; ++size)
+        CHECK(decode_service_exception(std::span(reply.bytes).first(size)).id.empty());
 }

@@ -67,14 +67,6 @@ TEST_CASE("what a message takes at most is known unless its type sets no bound")
         CHECK(std::isinf(max_bytes(unbounded)));
 }
 
-TEST_CASE("an operation is arguments, colon, result") {
-    CHECK(parse_operation_signature("ss:d") == OperationSignature{"ss", "d"});
-    CHECK(parse_operation_signature(":ad") == OperationSignature{"", "ad"});
-    CHECK(parse_operation_signature("i:") == OperationSignature{"i", ""});
-    CHECK_THROWS_AS(parse_operation_signature("i"), SignatureError);
-    CHECK_THROWS_AS(parse_operation_signature("i:d:d"), SignatureError);
-}
-
 TEST_CASE("names of members are kept, and are no part of a type") {
     const std::string text = "{tm}({sec}u{nsec}u){shape}<e#2;0={radius}d;*={side}f>{points}a({x}d{y}d)";
     const Type type = parse_signature(text);

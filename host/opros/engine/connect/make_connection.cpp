@@ -6,6 +6,8 @@
 #include "host/opros/engine/connect/service_connection.hpp"
 #include "host/opros/engine/profile/port_type.hpp"
 
+#include <spdlog/spdlog.h>
+
 namespace tandem::engine {
 namespace {
 
@@ -78,7 +80,11 @@ std::unique_ptr<Connection> connect_services(const ConnectionProfile& connection
                                              RequiredServicePort& required, ProvidedServicePort& provided,
                                              ComponentHost& provider) {
     try {
-        return std::make_unique<ServiceConnection>(required, provided, provider);
+        auto made = std::make_unique<ServiceConnection>(required, provided, provider);
+        for (const auto& refusal : made->refusals())
+            spdlog::warn("{}: {}; the other methods of the port are connected", connection.location.text(),
+                         refusal);
+        return made;
     } catch (const SetupError&) {
         throw;
     } catch (const std::runtime_error& error) {

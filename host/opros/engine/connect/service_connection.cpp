@@ -15,11 +15,6 @@ std::string method_names(ServicePortInterface& port) {
     return names.empty() ? "no methods" : names;
 }
 
-/// Dynamic ports answer with the reason for a refusal, or with an empty text.
-void throw_if_refused(const std::string& refusal) {
-    if (!refusal.empty()) throw std::runtime_error(refusal);
-}
-
 } // namespace
 
 ServiceConnection::ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided,
@@ -39,12 +34,15 @@ ServiceConnection::~ServiceConnection() {
 
 void ServiceConnection::connect() {
     if (required_.isDynamic()) {
-        throw_if_refused(required_.bindProvided(&provided_));
+        const std::string refusal = required_.bindProvided(&provided_);
+        if (!refusal.empty()) throw std::runtime_error(refusal);
         bound_ = true;
         return;
     }
     for (auto it = required_.getFirst(); it != required_.getEnd(); ++it)
         connect_method(it->first, *it->second);
+    if (!connected_.empty() && refusals_.size() == connected_.size())
+        throw std::runtime_error(refusals_.front());
 }
 
 void ServiceConnection::connect_through(RequiredMethodInterface& method,
@@ -60,7 +58,8 @@ void ServiceConnection::connect_method(const std::string& name, Method& method) 
     // Before it is connected, so that the destructor also undoes a connection that fails half-way.
     connected_.push_back(required);
     if (provided_.isDynamic()) {
-        throw_if_refused(provided_.bindMethod(&method));
+        const std::string refusal = provided_.bindMethod(&method);
+        if (!refusal.empty()) refusals_.push_back(refusal);
         return connect_through(*required, make_direct_connector(provided_, provider_));
     }
     Method* peer = provided_.getMethod(name);

@@ -18,10 +18,12 @@ namespace tandem::engine {
 /// through the provider's task queue. Ports that learn their methods at connection (isDynamic()) are asked first.
 class ServiceConnection : public Connection {
   public:
-    /// Throws std::runtime_error with the reason when a method is missing, has another signature, or is refused
-    /// by a dynamic port; methods that were bound before are unbound again.
+    /// Throws std::runtime_error with the reason when a method is missing or has another signature, or a dynamic port
+    /// refuses all methods; methods that were bound before are unbound again.
     ServiceConnection(RequiredServicePort& required, ProvidedServicePort& provided, ComponentHost& provider);
     ~ServiceConnection() override;
+    /// Why a dynamic port refused some of the methods, one line each: it throws when they are called.
+    const std::vector<std::string>& refusals() const { return refusals_; }
 
   private:
     struct Unconnected {};
@@ -37,6 +39,7 @@ class ServiceConnection : public Connection {
     ComponentHost& provider_;
     std::vector<RequiredMethodInterface*> connected_; // to be disconnected at the end
     std::vector<std::unique_ptr<ServicePortConnector>> connectors_;
+    std::vector<std::string> refusals_;
     bool bound_ = false; // the dynamic required port has accepted the provided one
 };
 

@@ -8,7 +8,7 @@ Method::Method(const std::string& name) : m_name(name) {}
 Method::~Method() = default;
 std::string& Method::getName() { return m_name; }
 // The defaults for methods that components derive themselves: their types are not known.
-bool Method::describe(opros::archive::iarchive&, opros::archive::iarchive&) { return false; }
+bool Method::describe(MethodDescription&) { return false; }
 std::vector<const std::type_info*> Method::types() const { return {}; }
 
 std::string Method::signature() {
@@ -54,6 +54,11 @@ ReturnType ProvidedServicePort::callService(std::string& name, opros::archive::i
                                             opros::archive::oarchive& out) {
     auto* method = dynamic_cast<ProvidedMethodInterface*>(getMethod(name));
     return method ? method->call(in, out) : OPROS_UNSUPPORTED_METHOD;
+}
+
+ReturnType ProvidedServicePort::callService(const std::string& name, EncodedCall& call) {
+    auto* method = dynamic_cast<ProvidedMethodInterface*>(getMethod(name));
+    return method ? method->call(call) : OPROS_UNSUPPORTED_METHOD;
 }
 
 ReturnType ProvidedServicePort::callService(std::string& name, std::vector<opros_params>& params,

@@ -16,8 +16,10 @@ class InterfaceSignatures {
   public:
     struct Operation {
         std::string name;
-        std::string arguments; ///< what a request carries, without separators: `{a}d{b}d`
-        std::string result;    ///< what a reply carries: return value, then inout and out arguments
+        std::string
+            arguments; ///< without separators, `>` before an out and `&` before an inout one: `{a}d>{b}d`
+        std::string
+            result; ///< and then ` oneway`, or ` raises` and the exceptions: `i raises IDL:M/E:1.0({a}s)`
     };
     using Operations = std::vector<Operation>;
 

@@ -94,8 +94,13 @@ TEST_CASE("references, const methods and free functions are provided as well") {
     Math math;
     std::vector<int> values;
     const std::unique_ptr<Method> grow(makeProvidedMethod(&Math::grow, &math, "grow"));
-    CHECK((*reinterpret_cast<ProvidedMethod<int>*>(grow.get()))(values) == 1);
-    CHECK(values.empty()); // the method has changed its own copy
+    auto& grow_call = *reinterpret_cast<ProvidedMethod<int>*>(grow.get());
+    CHECK(grow_call(values) == 1);
+    CHECK(values == std::vector<int>{1}); // the caller's variable
+    const std::vector<int> constant = values;
+    CHECK(grow_call(constant) == 2); // a copy of what is const
+    CHECK(constant.size() == 1);
+    CHECK(grow_call(std::vector<int>{1, 2}) == 3);
     const std::unique_ptr<Method> name(makeProvidedMethod(&Math::name, &math, "name"));
     const char* second = "b";
     CHECK((*reinterpret_cast<ProvidedMethod<std::string>*>(name.get()))(std::string("a"), second) == "ab");
@@ -131,31 +136,139 @@ TEST_CASE("a provided port is called by name with values, of the right number an
     CHECK(provided.callService(name, params, result) == OPROS_BAD_INPUT_PARAMETER);
 }
 
+namespace {
+
+/// Keeps what a method says of itself as text: result, colon, arguments, `&` before those that it may write.
+struct Description : MethodDescription {
+    TypeRecorder result_type;
+    std::vector<std::unique_ptr<TypeRecorder>> arguments;
+    std::vector<bool> writable;
+    opros::archive::iarchive& result() override { return result_type; }
+    opros::archive::iarchive& argument(bool may_write) override {
+        writable.push_back(may_write);
+        arguments.push_back(std::make_unique<TypeRecorder>());
+        return *arguments.back();
+    }
+    std::string text() const {
+        std::string all = result_type.text + ":";
+        for (std::size_t i = 0; i < arguments.size(); ++i)
+            all += (i ? " " : "") + std::string(writable[i] ? "&" : "") + arguments[i]->text;
+        return all;
+    }
+};
+
+struct Limits {
+    bool read(int axis, double& low, std::vector<int>* steps, const std::string& unit, const double* scale) {
+        low = -axis * *scale;
+        if (steps) steps->push_back(static_cast<int>(unit.size()));
+        return true;
+    }
+};
+
+/// Calls the port with the caller's values, as the connector of a bridge in the same process.
+struct ValueConnector : ServicePortConnector {
+    ProvidedMethodInterface& method;
+    explicit ValueConnector(ProvidedMethodInterface& m) : method(m) {}
+    ReturnType requestService(const std::string&, std::vector<opros_params>& params, opros_params& result,
+                              int) override {
+        return method.call(params, result);
+    }
+    ReturnType responseService(std::string&, std::string&, std::string&) override {
+        return OPROS_UNSUPPORTED_METHOD;
+    }
+};
+
+class LimitsRequired : public RequiredServicePort {
+  public:
+    LimitsRequired() { addMethod("read", makeRequiredMethod(&LimitsRequired::read, "read")); }
+    bool read(int axis, double& low, std::vector<int>* steps, const std::string& unit, const double* scale) {
+        return (*reinterpret_cast<RequiredMethod<bool>*>(getMethod("read")))(axis, low, steps, unit, scale);
+    }
+};
+
+} // namespace
+
 TEST_CASE("a bridge learns a method's signature from both sides") {
     Math math;
     MathProvided provided(&math);
     MathRequired required;
     for (ServicePortInterface* port :
          {static_cast<ServicePortInterface*>(&provided), static_cast<ServicePortInterface*>(&required)}) {
-        TypeRecorder arguments, result;
-        CHECK(port->getMethod("turn")->describe(arguments, result));
-        CHECK(arguments.text == "(sa(dd)[3]i)i");
-        CHECK(result.text == "(sa(dd)[3]i)");
-        TypeRecorder none, nothing;
-        CHECK(port->getMethod("note")->describe(none, nothing));
-        CHECK(none.text == "s");
-        CHECK(nothing.text.empty());
+        Description turn, note;
+        CHECK(port->getMethod("turn")->describe(turn));
+        CHECK(turn.text() == "(sa(dd)[3]i):(sa(dd)[3]i) i");
+        CHECK(port->getMethod("note")->describe(note));
+        CHECK(note.text() == ":s");
     }
+    Limits limits;
+    Description read;
+    CHECK(std::unique_ptr<Method>(makeProvidedMethod(&Limits::read, &limits, "read"))->describe(read));
+    CHECK(read.text() == "b:i &d &ai s d");
+}
+
+TEST_CASE(
+    "what a method writes to references and pointers reaches the caller directly and through a connector") {
+    Limits limits;
+    LimitsRequired required;
+    const std::unique_ptr<Method> provided(makeProvidedMethod(&Limits::read, &limits, "read"));
+    ValueConnector connector(static_cast<ProvidedMethodInterface&>(*provided));
+    auto& method = static_cast<RequiredMethodInterface&>(*required.getMethod("read"));
+    if (GENERATE(true, false))
+        REQUIRE(method.Connect(provided.get()) == OPROS_SUCCESS);
+    else
+        REQUIRE(method.Connect(&connector) == OPROS_SUCCESS);
+    double low = 0;
+    const double scale = 0.5;
+    std::vector<int> steps{7};
+    CHECK(required.read(3, low, &steps, "mm", &scale));
+    CHECK(low == -1.5);
+    CHECK(steps == std::vector<int>{7, 2});
+}
+
+TEST_CASE("an encoded call loads what is sent and saves what was written") {
+    Limits limits;
+    const std::unique_ptr<Method> method(makeProvidedMethod(&Limits::read, &limits, "read"));
+    struct Call : EncodedCall {
+        BinaryPipe in, out;
+        // Argument 1 is not sent, and nobody wants argument 2 back.
+        opros::archive::iarchive* argument(int index) override { return index == 1 ? nullptr : &in.in; }
+        opros::archive::oarchive& result() override { return out.out; }
+        opros::archive::oarchive* written_argument(int index) override {
+            return index == 1 ? &out.out : nullptr;
+        }
+    } call;
+    call.in.out << 4 << std::vector<int>{1} << std::string("mm") << 2.0;
+    REQUIRE(static_cast<ProvidedMethodInterface&>(*method).call(call) == OPROS_SUCCESS);
+    bool result = false;
+    double low = 0;
+    call.out.in >> result >> low;
+    CHECK(result);
+    CHECK(low == -8);
+}
+
+TEST_CASE("an exception with an id has fields of their types") {
+    const MethodInvokeException error("too fast", "IDL:Chair/TooFast:1.0", 2.5, std::string("left"));
+    CHECK(error.getId() == "IDL:Chair/TooFast:1.0");
+    double speed = 0;
+    std::string wheel;
+    CHECK(error.getFields(speed, wheel));
+    CHECK((speed == 2.5 && wheel == "left"));
+    int wrong = 1;
+    CHECK_FALSE(error.getFields(wrong, wheel));
+    CHECK_FALSE(error.getFields(speed));
+    CHECK(wrong == 1);
+    CHECK(MethodInvokeException("plain").getId().empty());
+    CHECK_FALSE(MethodInvokeException("plain").getFields(speed));
 }
 
 TEST_CASE("a method with a type that cannot be archived can be called but not described") {
     struct Local {
-        int size(int* p) { return p ? 1 : 0; }
+        int size(void* p) { return p ? 1 : 0; }
     } local;
     const std::unique_ptr<Method> method(makeProvidedMethod(&Local::size, &local, "size"));
     int number = 0;
-    int* pointer = &number;
+    void* pointer = &number;
     CHECK((*reinterpret_cast<ProvidedMethod<int>*>(method.get()))(pointer) == 1);
-    TypeRecorder arguments, result;
-    CHECK_FALSE(method->describe(arguments, result));
+    Description description;
+    CHECK_FALSE(method->describe(description));
 }

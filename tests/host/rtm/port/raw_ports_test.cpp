@@ -126,6 +126,6 @@ TEST_CASE("Signatures of data types and of service operations are known at run t
     CHECK(
         all ==
         "_get_calls :{value}i\n_get_name :{value}s\n_set_calls {value}i:\n"
-        "divide {dividend}i{divisor}i:i{rest}i\nrange_of {values}ad:({low}d{high}d)\nset_mode {wanted}e#2:\n"
+        "divide {dividend}i{divisor}i>{rest}i:i\nrange_of {values}ad:({low}d{high}d)\nset_mode {wanted}e#2:\n"
         "stamped {value}({tm}({sec}u{nsec}u){data}d):({tm}({sec}u{nsec}u){data}d)\nsum {values}ad:d\n");
 }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Provides every operation of the matrix, and calls those of both providers that it is connected to.
+#include <OPRoSInclude.h>
+#include <ServiceUtils.h>
+
+#include "cells.h"
+
+#include <ProvidedMethod.h>
+#include <ProvidedServicePort.h>
+#include <RequiredMethod.h>
+#include <RequiredServicePort.h>
+
+#include <atomic>
+
+// ---- the structures of the IDL, and values of a seed as ServiceMatrixRtc.cpp has them
+
+struct Point {
+    double x = 0;
+    int grid[3] = {};
+};
+inline std::string typeName(Point*) { return "Point"; }
+inline void save_this(opros::archive::oarchive& ar, Point& point) { ar << point.x << point.grid; }
+inline void load_this(opros::archive::iarchive& ar, Point& point) { ar >> point.x >> point.grid; }
+
+struct Label {
+    std::string text;
+    Point place;
+    bool valid = false;
+};
+inline std::string typeName(Label*) { return "Label"; }
+inline void save_this(opros::archive::oarchive& ar, Label& label) {
+    ar << label.text << label.place << label.valid;
+}
+inline void load_this(opros::archive::iarchive& ar, Label& label) {
+    ar >> label.text >> label.place >> label.valid;
+}
+
+namespace {
+
+template <class T>
+void set(T& value, int seed) {
+    value = static_cast<T>(seed);
+}
+void set(bool& value, int seed) { value = seed % 2 != 0; }
+void set(float& value, int seed) { value = static_cast<float>(seed) + 0.5f; }
+void set(double& value, int seed) { value = seed + 0.25; }
+void set(std::string& value, int seed) { value = "text " + std::to_string(seed); }
+void set(Point& value, int seed) {
+    value.x = seed + 0.25;
+    for (int i = 0; i < 3; ++i) value.grid[i] = seed + i;
+}
+void set(Label& value, int seed) {
+    set(value.text, seed);
+    set(value.place, seed);
+    value.valid = seed % 2 != 0;
+}
+template <class T>
+void set(std::vector<T>& values, int seed) {
+    values.resize(static_cast<std::size_t>(seed % 3));
+    for (std::size_t i = 0; i < values.size(); ++i) set(values[i], seed + static_cast<int>(i));
+}
+template <class T>
+void clear(T& value) {
+    set(value, 98);
+}
+bool equal(const Point& a, const Point& b) { return a.x == b.x && std::equal(a.grid, a.grid + 3, b.grid); }
+bool equal(const Label& a, const Label& b) {
+    return a.text == b.text && equal(a.place, b.place) && a.valid == b.valid;
+}
+template <class T>
+bool equal(const T& a, const T& b) {
+    return a == b;
+}
+template <class T>
+bool equal(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(), [](const T& x, const T& y) { return equal(x, y); });
+}
+template <class T>
+T made(int seed) {
+    T value{};
+    set(value, seed);
+    return value;
+}
+template <class T>
+bool same(const T& value, int seed) {
+    return equal(value, made<T>(seed));
+}
+
+std::string what() {
+    try {
+        throw;
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
+#include "MatrixOpros.h"
+
+} // namespace
+
+class ServiceMatrixComp : public Component, public MatrixService {
+  public:
+    ServiceMatrixComp() {
+        addPort("first", first_);
+        addPort("second", second_);
+        addPort("matrix", new MatrixProvided(this));
+    }
+    ReturnType onExecute() override {
+        if (done_) return OPROS_SUCCESS;
+        done_ = true;
+        for (auto* port : {first_, second_}) {
+            Cells cells("OPRoS to RTM", what);
+            call_all(*port, cells);
+            cells.print();
+        }
+        return OPROS_SUCCESS;
+    }
+
+  protected:
+    ReturnType onInitialize() override { return OPROS_SUCCESS; }
+    ReturnType onStart() override { return OPROS_SUCCESS; }
+    ReturnType onStop() override { return OPROS_SUCCESS; }
+    ReturnType onReset() override { return OPROS_SUCCESS; }
+    ReturnType onError() override { return OPROS_SUCCESS; }
+    ReturnType onRecover() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
+
+  private:
+    MatrixRequired* first_ = new MatrixRequired; // the component deletes its service ports
+    MatrixRequired* second_ = new MatrixRequired;
+    bool done_ = false;
+};
+
+extern "C" {
+Component* getComponent() { return new ServiceMatrixComp; }
+void releaseComponent(Component* component) { delete component; }
+}

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+// Provides every operation of the matrix twice on one port, requires it on the same port, and calls what it requires
+// once somebody provides it.
+#include "MatrixSkel.h"
+
+#include "cells.h"
+
+#include <rtm/CorbaConsumer.h>
+#include <rtm/CorbaPort.h>
+#include <rtm/DataFlowComponentBase.h>
+#include <rtm/Manager.h>
+
+#include <atomic>
+#include <cstring>
+
+namespace {
+
+// ---- values of a seed; opros_values.h has the same
+
+template <class T>
+void set(T& value, int seed) {
+    value = static_cast<T>(seed);
+}
+void set(CORBA::Boolean& value, int seed) { value = seed % 2 != 0; }
+void set(CORBA::Float& value, int seed) { value = static_cast<CORBA::Float>(seed) + 0.5f; }
+void set(CORBA::Double& value, int seed) { value = seed + 0.25; }
+std::string text(int seed) { return "text " + std::to_string(seed); }
+void set(char*& value, int seed) {
+    CORBA::string_free(value);
+    value = CORBA::string_dup(text(seed).c_str());
+}
+void set(CORBA::String_out value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
+void set(CORBA::String_var& value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
+void set(CORBA::String_member& value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
+void set(_CORBA_String_element value, int seed) { value = CORBA::string_dup(text(seed).c_str()); }
+void set(Matrix::Point& value, int seed) {
+    value.x = seed + 0.25;
+    for (int i = 0; i < 3; ++i) value.grid[i] = seed + i;
+}
+void set(Matrix::Label& value, int seed) {
+    set(value.text, seed);
+    set(value.place, seed);
+    value.valid = seed % 2 != 0;
+}
+void set(Matrix::Doubles& values, int seed);
+template <class Sequence>
+void set_sequence(Sequence& values, int seed) {
+    values.length(static_cast<CORBA::ULong>(seed % 3));
+    for (CORBA::ULong i = 0; i < values.length(); ++i) {
+        auto&& value = values[i];
+        set(value, seed + static_cast<int>(i));
+    }
+}
+void set(Matrix::Octets& values, int seed) { set_sequence(values, seed); }
+void set(Matrix::Doubles& values, int seed) { set_sequence(values, seed); }
+void set(Matrix::Strings& values, int seed) { set_sequence(values, seed); }
+void set(Matrix::Labels& values, int seed) { set_sequence(values, seed); }
+void set(Matrix::Rows& values, int seed) { set_sequence(values, seed); }
+#define MATRIX_SEQUENCE(type)                                                                                \
+    void set(Matrix::type##_out values, int seed) { set(*values.ptr(), seed); }                              \
+    void set(Matrix::type##_var& values, int seed) {                                                         \
+        values = new Matrix::type;                                                                           \
+        set(values.inout(), seed);                                                                           \
+    }                                                                                                        \
+    void clear(Matrix::type##_var&) {}
+MATRIX_SEQUENCE(Label)
+MATRIX_SEQUENCE(Octets)
+MATRIX_SEQUENCE(Doubles)
+MATRIX_SEQUENCE(Strings)
+MATRIX_SEQUENCE(Labels)
+MATRIX_SEQUENCE(Rows)
+template <class T>
+void clear(T& value) {
+    set(value, 98);
+}
+void clear(CORBA::String_var&) {}
+
+bool same(const char* value, int seed) { return text(seed) == value; }
+bool same(char* const& value, int seed) { return text(seed) == value; }
+template <class T>
+bool same(const T& value, int seed) {
+    T expected{};
+    set(expected, seed);
+    return value == expected;
+}
+bool same(const CORBA::String_var& value, int seed) { return same(value.in(), seed); }
+bool same(const CORBA::String_member& value, int seed) { return same(value.in(), seed); }
+bool same(const Matrix::Point& value, int seed) {
+    Matrix::Point expected;
+    set(expected, seed);
+    return value.x == expected.x && std::memcmp(value.grid, expected.grid, sizeof value.grid) == 0;
+}
+bool same(const Matrix::Label& value, int seed) {
+    return same(value.text, seed) && same(value.place, seed) && value.valid == (seed % 2 != 0);
+}
+bool same(const Matrix::Doubles& values, int seed);
+template <class Sequence>
+bool same_sequence(const Sequence& values, int seed) {
+    if (values.length() != static_cast<CORBA::ULong>(seed % 3)) return false;
+    for (CORBA::ULong i = 0; i < values.length(); ++i)
+        if (!same(values[i], seed + static_cast<int>(i))) return false;
+    return true;
+}
+bool same(const Matrix::Octets& values, int seed) { return same_sequence(values, seed); }
+bool same(const Matrix::Doubles& values, int seed) { return same_sequence(values, seed); }
+bool same(const Matrix::Strings& values, int seed) {
+    if (values.length() != static_cast<CORBA::ULong>(seed % 3)) return false;
+    for (CORBA::ULong i = 0; i < values.length(); ++i)
+        if (!same(static_cast<const char*>(values[i]), seed + static_cast<int>(i))) return false;
+    return true;
+}
+bool same(const Matrix::Labels& values, int seed) { return same_sequence(values, seed); }
+bool same(const Matrix::Rows& values, int seed) { return same_sequence(values, seed); }
+#define MATRIX_SAME(type)                                                                                    \
+    bool same(const Matrix::type##_var& values, int seed) { return same(values.in(), seed); }
+MATRIX_SAME(Label)
+MATRIX_SAME(Octets)
+MATRIX_SAME(Doubles)
+MATRIX_SAME(Strings)
+MATRIX_SAME(Labels)
+MATRIX_SAME(Rows)
+
+/// A value to be returned, as the C++ mapping wants it: a pointer for what is not of fixed length.
+template <class T>
+struct Maker {
+    static T make(int seed) {
+        T value{};
+        set(value, seed);
+        return value;
+    }
+};
+template <class T>
+struct Maker<T*> {
+    static T* make(int seed) {
+        auto* value = new T;
+        set(*value, seed);
+        return value;
+    }
+};
+template <>
+struct Maker<char*> {
+    static char* make(int seed) { return CORBA::string_dup(text(seed).c_str()); }
+};
+template <class T>
+T made(int seed) {
+    return Maker<T>::make(seed);
+}
+
+/// An attribute's value, to be returned.
+template <class R, class T>
+R copied(const T& value) {
+    if constexpr (std::is_same_v<R, char*>)
+        return CORBA::string_dup(value.in());
+    else if constexpr (std::is_pointer_v<R>)
+        return new T(value);
+    else
+        return value;
+}
+
+std::string what() {
+    try {
+        throw;
+    } catch (const CORBA::Exception& error) {
+        return error._rep_id();
+    } catch (const std::exception& error) {
+        return error.what();
+    }
+}
+
+#include "MatrixServant.h"
+
+#include "MatrixCalls.h"
+
+} // namespace
+
+class ServiceMatrixRtc : public RTC::DataFlowComponentBase {
+  public:
+    explicit ServiceMatrixRtc(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager), port_("matrix") {}
+
+    RTC::ReturnCode_t onInitialize() override {
+        port_.registerProvider("first", "Matrix::Service", first_);
+        port_.registerProvider("second", "Matrix::Service", second_);
+        port_.registerConsumer("third", "Matrix::Service", required_);
+        addPort(port_);
+        return RTC::RTC_OK;
+    }
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
+        if (done_ || required_._ptr()->_non_existent()) return RTC::RTC_OK;
+        done_ = true;
+        Cells cells("RTM to OPRoS", what);
+        call_all(required_._ptr(), cells);
+        cells.print();
+        return RTC::RTC_OK;
+    }
+
+  private:
+    RTC::CorbaPort port_;
+    MatrixServant first_, second_;
+    RTC::CorbaConsumer<Matrix::Service> required_;
+    bool done_ = false;
+};
+
+extern "C" void ServiceMatrixRtcInit(RTC::Manager* manager) {
+    static const char* const spec[] = {"implementation_id",
+                                       "ServiceMatrixRtc",
+                                       "type_name",
+                                       "ServiceMatrixRtc",
+                                       "max_instance",
+                                       "0",
+                                       "language",
+                                       "C++",
+                                       "lang_type",
+                                       "compile",
+                                       ""};
+    coil::Properties profile(spec);
+    manager->registerFactory(profile, RTC::Create<ServiceMatrixRtc>, RTC::Delete<ServiceMatrixRtc>);
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts the cells of the matrix; for both sides.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+inline void require(bool holds) {
+    if (!holds) throw std::logic_error("a value is not the expected one");
+}
+
+inline bool eventually(const std::function<bool()>& condition) {
+    for (int i = 0; i < 1000; ++i) {
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+}
+
+/// Runs cells and prints each that fails, with why.
+class Cells {
+  public:
+    /// `describe` turns what a cell throws into a text; called inside of a catch block.
+    Cells(std::string direction, std::function<std::string()> describe)
+        : direction_(std::move(direction)), describe_(std::move(describe)) {}
+
+    void run(const char* name, const std::function<void()>& cell) {
+        ++count_;
+        try {
+            cell();
+            ++passed_;
+        } catch (...) { // CORBA exceptions are no std::exception
+            std::cout << "cell " << direction_ << " " << name << " failed: " << describe_() << std::endl;
+        }
+    }
+    void print() const {
+        std::cout << "cells " << direction_ << ": " << passed_ << " of " << count_ << " passed" << std::endl;
+    }
+
+  private:
+    std::string direction_;
+    std::function<std::string()> describe_;
+    int count_ = 0, passed_ = 0;
+};
