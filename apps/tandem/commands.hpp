@@ -14,6 +14,7 @@ using Action = std::function<int()>; ///< Returns the program's exit code.
 // `tandem` and `selected` must outlive the parsing: the callbacks of the sub-commands keep references to them.
 void add_opros_commands(CLI::App& tandem, Action& selected);
 void add_rtm_commands(CLI::App& tandem, Action& selected);
+void add_idl_commands(CLI::App& tandem, Action& selected);
 void add_link_commands(CLI::App& tandem, Action& selected);
 void add_run_command(CLI::App& tandem, Action& selected);
 void add_shm_commands(CLI::App& tandem, Action& selected);

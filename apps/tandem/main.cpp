@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     tandem::command::add_doctor_command(app, selected);
     tandem::command::add_opros_commands(app, selected);
     tandem::command::add_rtm_commands(app, selected);
+    tandem::command::add_idl_commands(app, selected);
     tandem::command::add_link_commands(app, selected);
     tandem::command::add_run_command(app, selected);
     tandem::command::add_shm_commands(app, selected);

@@ -3,6 +3,7 @@
 #include "apps/tandem/opros/partner_ports.hpp"
 #include "apps/tandem/opros/port_mismatches.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
+#include "apps/tandem/opros/service_differences.hpp"
 #include "apps/tandem/opros/type_profile_errors.hpp"
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/shared_ports/link_ports.hpp"
@@ -112,6 +113,7 @@ bool check_component(const ApplicationProfile& application, const engine::Subcom
             return false;
         findings.add(find_port_mismatches(profile, ports, options.initialize || mirrors));
         findings.add(find_type_profile_errors(profile));
+        for (auto& line : find_service_differences(profile, ports)) findings.notes.push_back(std::move(line));
         return true;
         // A library's own errors do not say which profile names it: the line of <library_name> is put before them.
     } catch (const plugin::Error& error) {

@@ -114,6 +114,30 @@ TEST_CASE("tandem opros check reads the type profiles that a component refers to
     CHECK(result.output_contains("app: 2 errors\n"));
 }
 
+TEST_CASE("tandem opros check notes where a service profile differs from the component's methods") {
+    const Folder folder;
+    folder.write("P.xml", "<component_profile><name>P</name><execution_environment><library_name>printer"
+                          "</library_name></execution_environment><execution_semantics><type>passive</type>"
+                          "</execution_semantics><ports><service_port><name>math</name><type>Math</type>"
+                          "<usage>provided</usage><reference>Math.xml</reference></service_port>"
+                          "</ports></component_profile>");
+    folder.write("Math.xml",
+                 "<service_port_type_profile><service_port_type><type_name>Math</type_name>\n"
+                 "<method name=\"add\" return_type=\"double\"><param><type>double</type></param>"
+                 "<param><type>const double&amp;</type></param></method>\n"
+                 "<method name=\"note\" return_type=\"void\"><param><type>int</type></param></method>\n"
+                 "<method name=\"fly\"/>\n</service_port_type></service_port_type_profile>");
+    const auto result = check(folder.application(Folder::sub("P", "P.xml")));
+    INFO(result.output << result.errors);
+    CHECK(result.exit_code == 0);
+    CHECK(result.output_contains(
+        "Math.xml:3: method 'note' is void(int) here, void(string) in the component's port 'math'\n"));
+    CHECK(result.output_contains("Math.xml:4: service port 'math' of the component has no method 'fly'\n"));
+    CHECK(result.output_contains(
+        "Math.xml:1: method 'turn' of the component's port 'math' is not in this profile\n"));
+    CHECK_FALSE(result.output_contains("'add'"));
+}
+
 TEST_CASE("tandem opros check reports a connection that is listed many times in one line") {
     const Folder folder;
     folder.component("M", "maker");

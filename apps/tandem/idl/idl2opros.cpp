@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tandem/idl/commands.hpp"
+
+#include "host/process/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace tandem::command {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path prefix() { return fs::read_symlink("/proc/self/exe").parent_path().parent_path(); }
+
+fs::path back_end_folder() {
+    auto folder = prefix() / TANDEM_IDL_TOOLS_DIR;
+    if (fs::is_regular_file(folder / "tandem_opros.py")) return folder;
+    throw std::runtime_error(fmt::format(
+        "there is no {}/tandem_opros.py; install Tandem again (cmake --install)", folder.string()));
+}
+
+/// Where the IDL files of OpenRTM-aist lie, `rtm/idl/BasicDataType.idl`: installed, and in a build folder.
+std::vector<fs::path> rtm_idl_folders() {
+    std::vector<fs::path> folders;
+    for (const char* place : {"include/tandem/rtm", "host/rtm/include"})
+        for (const char* below : {"", "rtm/idl", "rtm/ext"})
+            if (fs::is_directory(prefix() / place / below)) folders.push_back(prefix() / place / below);
+    return folders;
+}
+
+} // namespace
+
+int idl2opros(const Idl2OprosOptions& options) {
+    if (!fs::is_regular_file(options.file))
+        throw std::runtime_error(fmt::format("there is no file {}", options.file.string()));
+    fs::create_directories(options.folder);
+    std::vector<std::string> command{"env",
+                                     "PYTHONDONTWRITEBYTECODE=1",
+                                     "omniidl",
+                                     "-nf",
+                                     "-p" + back_end_folder().string(),
+                                     "-btandem_opros",
+                                     "-C" + options.folder.string()};
+    for (const auto& folder : options.include_dirs) command.push_back("-I" + folder);
+    command.push_back("-I" + fs::absolute(options.file).parent_path().string());
+    for (const auto& folder : rtm_idl_folders()) command.push_back("-I" + folder.string());
+    command.push_back(options.file.string());
+    const auto result = process::run_command(command);
+    if (!result.succeeded()) throw std::runtime_error(fmt::format("omniidl: {}", result.failure()));
+    fmt::print("{}", result.output);
+    fmt::print(stderr, "{}", result.errors);
+    return 0;
+}
+
+} // namespace tandem::command

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command lines of `tandem idl2opros` and `tandem opros2idl`.
+#include "apps/tandem/build/component_commands.hpp"
+#include "apps/tandem/commands.hpp"
+#include "apps/tandem/idl/commands.hpp"
+
+#include <memory>
+
+namespace tandem::command {
+
+void add_idl_commands(CLI::App& tandem, Action& selected) {
+    auto to_opros = std::make_shared<Idl2OprosOptions>();
+    CLI::App* command = add_command(
+        tandem, "idl2opros",
+        "Writes the OPRoS service profile and port headers for the interfaces of an IDL file",
+        "For each interface I: IService.xml, II.h, IProvided.h, IRequired.h; for the types FTypes.h. "
+        "Operations\n"
+        "without a counterpart are left out and named with the reason. Exit code 1 if the IDL has errors.");
+    command->add_option("FILE", to_opros->file, "IDL file")->required();
+    command->add_option("-o,--output", to_opros->folder, "folder to write to (.)")->type_name("DIR");
+    command->add_option("-I,--include", to_opros->include_dirs, "folder with included IDL files (repeatable)")
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    command->callback([=, &selected] { selected = [to_opros] { return idl2opros(*to_opros); }; });
+
+    auto to_idl = std::make_shared<Opros2IdlOptions>();
+    command = add_command(
+        tandem, "opros2idl", "Writes the IDL of the services of an OPRoS service profile",
+        "Arguments by reference or pointer become inout, non-blocking methods without a result oneway. Exit "
+        "code 1\n"
+        "if the profile is wrong, or a type of it is neither a standard one nor in a data type profile.");
+    command->add_option("FILE", to_idl->file, "service profile (XML)")->required();
+    command->add_option("-o,--output", to_idl->output, "file to write (standard output)")->type_name("FILE");
+    command->add_option("--types", to_idl->type_files, "data type profile (XML) (repeatable)")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command->callback([=, &selected] { selected = [to_idl] { return opros2idl(*to_idl); }; });
+}
+
+} // namespace tandem::command

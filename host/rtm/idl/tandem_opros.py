@@ -1,0 +1,322 @@
+# SPDX-License-Identifier: Apache-2.0
+"""omniidl back end: the OPRoS side of the interfaces of one IDL file.
+
+`omniidl -p DIR -btandem_opros F.idl` writes, for each interface I of the file, IService.xml (the OPRoS service profile),
+II.h (the interface), IProvided.h and IRequired.h (its ports), and for the file and each that it includes FTypes.h with the
+types. What has no OPRoS counterpart is left out and named on standard error, one line each: `F.idl: I.f: why`.
+docs/joining.md says how operations and methods stand for each other.
+"""
+import os
+import sys
+
+from omniidl import idlast, idltype
+
+PRIMITIVES = {
+    idltype.tk_void: "void", idltype.tk_boolean: "bool", idltype.tk_char: "char", idltype.tk_octet: "unsigned char",
+    idltype.tk_short: "short", idltype.tk_ushort: "unsigned short", idltype.tk_long: "int",
+    idltype.tk_ulong: "unsigned int", idltype.tk_longlong: "long long", idltype.tk_ulonglong: "unsigned long long",
+    idltype.tk_float: "float", idltype.tk_double: "double", idltype.tk_string: "std::string",
+    idltype.tk_objref: "std::string", # an object reference is an opaque text
+}
+NO_COUNTERPART = {idltype.tk_any: "any", idltype.tk_TypeCode: "TypeCode", idltype.tk_longdouble: "long double",
+                  idltype.tk_wchar: "wchar", idltype.tk_wstring: "wstring", idltype.tk_fixed: "fixed"}
+MAX_ARGUMENTS = 15
+# Functions of every OPRoS port: a function of a required port that has such a name gets an underscore behind it.
+PORT_FUNCTIONS = {"addMethod", "bindProvided", "getEnd", "getFirst", "getMethod", "getName", "getRole", "getType",
+                  "isDynamic", "reset", "sample", "setName", "typeError"}
+NOTE = "// Made by tandem idl2opros from %s; changes are lost when it is made again.\n#pragma once\n\n"
+
+
+class NoCounterpart(Exception):
+    """Why a type or an operation cannot be said in OPRoS; the text is a part of one line."""
+
+
+def scoped(decl):
+    return "::".join(decl.scopedName())
+
+
+class Converter:
+    """The C++ type of an IDL type, and whether there is one."""
+
+    def __init__(self):
+        self.open = [] # structures being looked at, to find those that contain themselves
+
+    def cxx(self, t):
+        kind = t.kind()
+        if kind in NO_COUNTERPART:
+            raise NoCounterpart("%s has no OPRoS counterpart" % NO_COUNTERPART[kind])
+        if kind in PRIMITIVES:
+            return PRIMITIVES[kind]
+        if kind == idltype.tk_sequence:
+            return "std::vector<%s>" % self.cxx(t.seqType())
+        decl = t.decl()
+        if kind == idltype.tk_alias:
+            if decl.sizes() or not self.is_plain(decl.alias().aliasType()):
+                self.cxx(decl.alias().aliasType())
+                return scoped(decl) if decl.sizes() else self.cxx(decl.alias().aliasType())
+            return self.cxx(decl.alias().aliasType())
+        if kind == idltype.tk_enum:
+            return scoped(decl)
+        if isinstance(decl, idlast.StructForward):
+            decl = decl.fullDecl()
+        if not isinstance(decl, idlast.Struct):
+            raise NoCounterpart("%s, a union or value type, has no OPRoS counterpart" % scoped(decl))
+        if decl in self.open:
+            raise NoCounterpart("%s contains itself" % scoped(decl))
+        self.open.append(decl)
+        try:
+            for member in decl.members():
+                self.cxx(member.memberType())
+        finally:
+            self.open.pop()
+        return scoped(decl)
+
+    @staticmethod
+    def is_plain(t):
+        return t.kind() in PRIMITIVES
+
+
+CONVERTER = Converter()
+
+
+# ---- types
+
+def dimensions(sizes):
+    return "".join("[%d]" % size for size in sizes)
+
+
+def struct_lines(name, members):
+    """`members` are (type, name, dimensions)."""
+    lines = ["struct %s {" % name]
+    for cxx, member, sizes in members:
+        lines.append("    %s %s%s{};" % (cxx, member, sizes))
+    fields = [member for _, member, _ in members]
+    lines += ["};", 'inline std::string typeName(%s*) { return "%s"; }' % (name, name)]
+    for function, archive, operator in [("save_this", "oarchive", "<<"), ("load_this", "iarchive", ">>")]:
+        lines.append("inline void %s(opros::archive::%s& ar, %s& value) { ar%s; }" % (
+            function, archive, name, "".join(" %s value.%s" % (operator, field) for field in fields)))
+    return lines
+
+
+class TypeWriter:
+    """Collects the types of one file, in the order of the IDL."""
+
+    def __init__(self):
+        self.lines = []
+
+    def in_namespaces(self, decl, lines):
+        names = decl.scopedName()[:-1]
+        if names:
+            # One in the other: these headers are C++14.
+            lines = [" ".join("namespace %s {" % name for name in names)] + lines + ["}" * len(names)]
+        self.lines += lines + [""]
+
+    def add(self, decl):
+        try:
+            if isinstance(decl, idlast.Struct):
+                CONVERTER.cxx(decl_type(decl))
+                members = [(CONVERTER.cxx(m.memberType()), d.identifier(), dimensions(d.sizes()))
+                           for m in decl.members() for d in m.declarators()]
+                self.in_namespaces(decl, struct_lines(decl.identifier(), members))
+            elif isinstance(decl, idlast.Enum):
+                values = ", ".join(e.identifier() for e in decl.enumerators())
+                self.in_namespaces(decl, ["enum %s { %s };" % (decl.identifier(), values)])
+            elif isinstance(decl, idlast.Typedef):
+                for d in decl.declarators():
+                    cxx = CONVERTER.cxx(decl.aliasType())
+                    if d.sizes(): # C++ passes no arrays: a structure of one member is encoded the same
+                        self.in_namespaces(d, struct_lines(d.identifier(), [(cxx, "value", dimensions(d.sizes()))]))
+                    else:
+                        self.in_namespaces(d, ["typedef %s %s;" % (cxx, d.identifier())])
+        except NoCounterpart:
+            pass # the operations that use it say so
+
+
+def decl_type(decl):
+    return idltype.declaredType(decl, decl.scopedName(), idltype.tk_struct, 0)
+
+
+def types_header(file):
+    return os.path.splitext(os.path.basename(file))[0] + "Types.h"
+
+
+# ---- services
+
+def direction(parameter):
+    return "in" if not parameter.is_out() else "inout" if parameter.is_in() else "out"
+
+
+def checked(t, what):
+    try:
+        return CONVERTER.cxx(t)
+    except NoCounterpart as problem:
+        raise NoCounterpart("%s: %s" % (what, problem))
+
+
+class Method:
+    def __init__(self, name, result, arguments, oneway=False):
+        self.name, self.result, self.arguments, self.oneway = name, result, arguments, oneway
+
+    def parameters(self):
+        return ", ".join("%s %s" % argument for argument in self.arguments)
+
+    def call_type(self):
+        return "METHOD_NONBLOCKING" if self.oneway else "METHOD_BLOCKING"
+
+
+def operation_method(operation):
+    if len(operation.parameters()) > MAX_ARGUMENTS:
+        raise NoCounterpart("%d arguments; OPRoS methods have %d at most"
+                            % (len(operation.parameters()), MAX_ARGUMENTS))
+    arguments = []
+    for p in operation.parameters():
+        cxx = checked(p.paramType(), "argument '%s'" % p.identifier())
+        arguments.append((cxx + ("" if direction(p) == "in" else "&"), p.identifier()))
+    return Method(operation.identifier(), checked(operation.returnType(), "the result"), arguments,
+                  operation.oneway())
+
+
+def attribute_methods(attribute, name):
+    cxx = checked(attribute.attrType(), "attribute '%s'" % name)
+    suffix = name[0].upper() + name[1:]
+    yield Method("get" + suffix, cxx, [])
+    if not attribute.readonly():
+        yield Method("set" + suffix, "void", [(cxx, "value")])
+
+
+def methods(interface, leave_out):
+    """By name, those of the interfaces that it inherits included."""
+    found = {}
+    for base in interface.inherits():
+        while isinstance(base, idlast.Declarator):
+            base = base.alias().aliasType().decl()
+        found.update(methods(base, leave_out))
+    for callable_ in interface.callables():
+        try:
+            if isinstance(callable_, idlast.Attribute):
+                for name in callable_.identifiers():
+                    found.update((m.name, m) for m in attribute_methods(callable_, name))
+            else:
+                found[callable_.identifier()] = operation_method(callable_)
+        except NoCounterpart as problem:
+            name = callable_.identifiers()[0] if isinstance(callable_, idlast.Attribute) else callable_.identifier()
+            leave_out(interface, name, problem)
+    return found
+
+
+def xml_text(text):
+    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+
+
+def service_profile(name, found):
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<service_port_type_profile>", "  <service_port_type>",
+             "    <type_name>%s</type_name>" % name]
+    for m in found:
+        head = '    <method name="%s" return_type="%s" call_type="%s"' % (
+            m.name, xml_text(m.result), "nonblocking" if m.oneway else "blocking")
+        if not m.arguments:
+            lines.append(head + "/>")
+            continue
+        lines.append(head + ">")
+        for index, (cxx, argument) in enumerate(m.arguments, 1):
+            lines.append('      <param index="%d"><type>%s</type><name>%s</name></param>'
+                         % (index, xml_text(cxx), argument))
+        lines.append("    </method>")
+    return "\n".join(lines + ["  </service_port_type>", "</service_port_type_profile>"]) + "\n"
+
+
+def interface_header(note, file, name, found):
+    lines = ['#include "%s"' % types_header(file), "", "class I%s {" % name, "  public:",
+             "    virtual ~I%s() {}" % name]
+    lines += ["    virtual %s %s(%s) = 0;" % (m.result, m.name, m.parameters()) for m in found]
+    return note + "\n".join(lines + ["};"]) + "\n"
+
+
+def provided_header(note, name, found):
+    lines = ["#include <OPRoSTypes.h>", "#include <ProvidedMethod.h>", "#include <ProvidedServicePort.h>", "",
+             '#include "I%s.h"' % name, "",
+             "// Passes each call to the component, which derives from I%s." % name,
+             "class %sProvided : public ProvidedServicePort {" % name, "  public:",
+             "    explicit %sProvided(I%s* component) {" % (name, name)]
+    for m in found:
+        lines.append('        addMethod("%s", makeProvidedMethod(&I%s::%s, component, "%s", %s));'
+                     % (m.name, name, m.name, m.name, m.call_type()))
+    return note + "\n".join(lines + ["    }", "};"]) + "\n"
+
+
+def required_header(note, name, found):
+    port = name + "Required"
+    lines = ["#include <OPRoSTypes.h>", "#include <RequiredMethod.h>", "#include <RequiredServicePort.h>", "",
+             '#include "I%s.h"' % name, "",
+             "// Each function calls the component that is connected. Throws MethodInvokeException.",
+             "class %s : public RequiredServicePort {" % port, "  public:", "    %s() {" % port]
+
+    def function(m):
+        return m.name + ("_" if m.name in PORT_FUNCTIONS else "")
+
+    for m in found:
+        lines.append('        addMethod("%s", makeRequiredMethod(&%s::%s, "%s", %s));'
+                     % (m.name, port, function(m), m.name, m.call_type()))
+    lines.append("    }")
+    for m in found:
+        lines.append("    %s %s(%s) {" % (m.result, function(m), m.parameters()))
+        lines.append('        return (*reinterpret_cast<RequiredMethod<%s>*>(getMethod("%s")))(%s);'
+                     % (m.result, m.name, ", ".join(argument for _, argument in m.arguments)))
+        lines.append("    }")
+    return note + "\n".join(lines + ["};"]) + "\n"
+
+
+class Collector:
+    def __init__(self):
+        self.types = {}    # by file, in the order of the IDL
+        self.includes = {} # by file: those before it, which it may use
+        self.interfaces = []
+
+    def visit(self, declarations):
+        for d in declarations:
+            if isinstance(d, idlast.Module):
+                self.visit(d.definitions())
+            elif isinstance(d, idlast.Interface):
+                self.visit(d.declarations())
+                if d.mainFile():
+                    self.interfaces.append(d)
+            elif isinstance(d, (idlast.Struct, idlast.Enum, idlast.Typedef)):
+                self.types.setdefault(d.file(), TypeWriter()).add(d)
+
+
+def write(name, text):
+    with open(name, "w") as out:
+        out.write(text)
+
+
+def run(tree, args):
+    collector = Collector()
+    collector.visit(tree.declarations())
+    main_name = os.path.basename(tree.file())
+    note = NOTE % main_name
+    collector.types.setdefault(tree.file(), TypeWriter())
+    before = []
+    for file, writer in [(f, w) for f, w in collector.types.items() if f != tree.file()] + [
+            (tree.file(), collector.types[tree.file()])]:
+        includes = "".join('#include "%s"\n' % types_header(f) for f in before)
+        write(types_header(file), note + "#include <OPRoSTypes.h>\n\n#include <string>\n#include <vector>\n" + includes
+              + "\n" + "\n".join(writer.lines))
+        before.append(file)
+    left_out = 0
+
+    def leave_out(interface, name, problem):
+        nonlocal left_out
+        left_out += 1
+        sys.stderr.write("%s: %s.%s is left out: %s\n" % (main_name, scoped(interface), name, problem))
+
+    total = 0
+    for interface in collector.interfaces:
+        found = [m for _, m in sorted(methods(interface, leave_out).items())]
+        total += len(found)
+        name = interface.identifier()
+        write(name + "Service.xml", service_profile(name, found))
+        write("I%s.h" % name, interface_header(note, tree.file(), name, found))
+        write(name + "Provided.h", provided_header(note, name, found))
+        write(name + "Required.h", required_header(note, name, found))
+    sys.stdout.write("%s: %d interfaces, %d methods, %d operations left out\n"
+                     % (main_name, len(collector.interfaces), total, left_out))

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// tandem idl2opros and opros2idl: what they write compiles, and says the same in both directions.
+#include "tests/apps/tandem/shell.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+using tandem::test::CommandOutput;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const arm_idl = R"(
+#include "rtm/idl/BasicDataType.idl"
+module Robot {
+  enum Mode { idle, running };
+  struct Pose { double x; long cells[4]; Mode how; };
+  typedef sequence<Pose> Path;
+  typedef double Triple[3];
+  struct Tree;
+  typedef sequence<Tree> Trees;
+  struct Tree { long value; Trees branches; };
+  union Either switch(boolean) { case TRUE: long number; case FALSE: string text; };
+  exception Blocked { string joint; };
+  interface Base { readonly attribute string name; attribute double speed; };
+  interface Arm : Base {
+    boolean move(in Path along, inout Pose last, out string text) raises (Blocked);
+    void place(in Triple where, in RTC::Time when);
+    oneway void stop();
+    void grow(in Tree what);
+    void choose(in Either which);
+  };
+};
+)";
+
+const char* const service_xml = R"(<service_port_type_profile><service_port_type>
+  <type_name>Arm</type_name>
+  <method name="move" return_type="ReturnType" call_type="blocking">
+    <param index="1"><type>const std::vector&lt;std::valarray&lt;double&gt; &gt;&amp;</type><name>path</name></param>
+    <param index="2"><type>Pose*</type><name>in</name></param>
+    <param index="3"><type>std::map&lt;std::string, unsigned int&gt;</type><name>limits</name></param>
+  </method>
+  <method name="stop" return_type="void" call_type="nonblocking"/>
+</service_port_type></service_port_type_profile>
+)";
+const char* const pose_xml = R"(<data_type><struct name="Pose"><item type="double">x</item>
+  <item type="vector&lt;long&gt;">cells</item></struct></data_type>
+)";
+
+/// A temporary folder with files, and commands that run in it.
+struct Folder {
+    Folder() {
+        std::string name = (fs::temp_directory_path() / "tandem-idl-XXXXXX").string();
+        path = mkdtemp(name.data());
+    }
+    ~Folder() { fs::remove_all(path); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
+    std::string read(const std::string& name) const {
+        std::ifstream file(path / name);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    CommandOutput run(const std::string& command) const {
+        return tandem::test::shell("cd " + path.string() + " && " + command);
+    }
+    fs::path path;
+};
+
+const std::string program = TANDEM_PROGRAM;
+
+} // namespace
+
+TEST_CASE("idl2opros writes headers that compile, and names what has no counterpart") {
+    const Folder folder;
+    folder.write("Arm.idl", arm_idl);
+    const auto made = folder.run(program + " idl2opros Arm.idl -o out");
+    INFO(made.output);
+    REQUIRE(made.exit_code == 0);
+    CHECK_THAT(
+        made.output,
+        Catch::Contains("Arm.idl: 2 interfaces, 9 methods, 2 operations left out") &&
+            Catch::Contains("Robot::Arm.grow is left out: argument 'what': Robot::Tree contains itself") &&
+            Catch::Contains("Robot::Arm.choose is left out: argument 'which': Robot::Either"));
+    const auto profile = folder.read("out/ArmService.xml");
+    CHECK_THAT(profile,
+               Catch::Contains("<method name=\"stop\" return_type=\"void\" call_type=\"nonblocking\"/>") &&
+                   Catch::Contains("<param index=\"2\"><type>Robot::Pose&amp;</type><name>last</name>") &&
+                   Catch::Contains("name=\"setSpeed\"") && !Catch::Contains("name=\"setName\""));
+    folder.write("use.cpp",
+                 "#include \"ArmProvided.h\"\n#include \"ArmRequired.h\"\n#include \"BaseRequired.h\"\n"
+                 "bool use(ArmRequired& arm, ArmProvided& provided) {\n"
+                 "    Robot::Pose last; std::string text; Robot::Triple where;\n"
+                 "    arm.place(where, RTC::Time());\n"
+                 "    return arm.move({last}, last, text) && provided.getMethod(\"stop\");\n}\n");
+    const auto compiled =
+        folder.run("c++ -std=c++14 -Wall -Werror -fsyntax-only -Iout -I" OPROS_HEADERS " use.cpp");
+    INFO(compiled.output);
+    CHECK(compiled.exit_code == 0);
+    CHECK(folder.run(program + " opros info out/ArmService.xml").exit_code == 0);
+}
+
+TEST_CASE("idl2opros ends with omniidl's error when the IDL is wrong") {
+    const Folder folder;
+    folder.write("Wrong.idl", "interface I { void f(in Nothing n); };\n");
+    const auto made = folder.run(program + " idl2opros Wrong.idl");
+    CHECK(made.exit_code == 1);
+    CHECK_THAT(made.output, Catch::Contains("tandem: omniidl: ") && Catch::Contains("Wrong.idl:1"));
+    CHECK_THAT(folder.run(program + " idl2opros None.idl").output,
+               Catch::Contains("there is no file None.idl"));
+}
+
+TEST_CASE("opros2idl writes IDL that omniidl takes and that idl2opros takes back") {
+    const Folder folder;
+    folder.write("ArmService.xml", service_xml);
+    folder.write("pose.xml", pose_xml);
+    const auto made = folder.run(program + " opros2idl ArmService.xml --types pose.xml -o Arm.idl");
+    INFO(made.output);
+    REQUIRE(made.exit_code == 0);
+    const auto idl = folder.read("Arm.idl");
+    CHECK_THAT(idl, Catch::Contains("long move(in ::ArmTypes::DoubleSeqSeq path, inout ::ArmTypes::Pose _in, "
+                                    "in ::ArmTypes::StringUnsignedLongPairSeq limits);") &&
+                        Catch::Contains("oneway void stop();") &&
+                        Catch::Contains("struct Pose { double x; ::ArmTypes::LongLongSeq cells; };"));
+    CHECK(folder.run("omniidl -bcxx Arm.idl").exit_code == 0);
+    const auto back = folder.run(program + " idl2opros Arm.idl");
+    CHECK_THAT(back.output, Catch::Contains("Arm.idl: 1 interfaces, 2 methods, 0 operations left out"));
+}
+
+TEST_CASE("opros2idl names the file, line and type that it does not know") {
+    const Folder folder;
+    folder.write("ArmService.xml", service_xml);
+    const auto made = folder.run(program + " opros2idl ArmService.xml");
+    CHECK(made.exit_code == 1);
+    CHECK_THAT(made.output, Catch::Contains("ArmService.xml:3") && Catch::Contains("'move'") &&
+                                Catch::Contains("type 'Pose' is not known; give the data type profile") &&
+                                Catch::Contains("--types"));
+}
