@@ -3,8 +3,8 @@
 // to core. No transport between two cores is faster than the latter.
 #include "apps/bench/baseline/line_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/measurements.hpp"
 #include "apps/bench/harness/registry.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 
 namespace tandem::bench {
 

@@ -5,8 +5,8 @@
 #include "apps/bench/harness/in_process_cases.hpp"
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/harness/tick_budget.hpp"
-#include "apps/bench/harness/time_each_call.hpp"
 #include "apps/bench/machine/cores.hpp"
+#include "apps/bench/measurements/time_each_call.hpp"
 
 #include <condition_variable>
 #include <mutex>

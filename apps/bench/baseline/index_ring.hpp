@@ -3,7 +3,7 @@
 // at each end, the peer's index cached. It has no policies, counters, checks or lengths: the difference to
 // Tandem's ring is what those cost.
 #pragma once
-#include "apps/bench/harness/measurements.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 
 #include <linux/futex.h>
 #include <sys/syscall.h>

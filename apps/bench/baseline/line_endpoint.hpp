@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "apps/bench/harness/measurements.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 
 namespace tandem::bench {
 

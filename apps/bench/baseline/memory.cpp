@@ -2,8 +2,8 @@
 // What one core does with large messages alone: copying, filling and summing memory. A stream between two cores
 // fills on one and sums on the other, and cannot be faster than the slower of the two.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/measurements.hpp"
 #include "apps/bench/harness/registry.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 
 #include <cstring>
 

@@ -2,8 +2,8 @@
 // The cases of the minimal ring (index_ring.hpp): one way, as a pair of rings for calls, and streams.
 #include "apps/bench/baseline/index_ring_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/cold.hpp"
-#include "apps/bench/harness/ring_cases.hpp"
+#include "apps/bench/measurements/cold.hpp"
+#include "apps/bench/measurements/ring_cases.hpp"
 
 #include <cstring>
 

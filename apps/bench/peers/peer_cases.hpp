@@ -3,8 +3,8 @@
 // is measured in the modes and with the payloads that it has.
 #pragma once
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/measurements.hpp"
 #include "apps/bench/harness/registry.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 
 #include <stdexcept>
 #include <string>

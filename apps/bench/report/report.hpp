@@ -19,11 +19,11 @@ struct Row {
     std::string cores;      ///< "0,1": those of A and B
     std::size_t bytes = 0;
     bool loaded = false;
-    Summary summary;                       ///< median over the runs
-    std::vector<double> runs;              ///< p50 of each run, in order; NaN where that run failed
-    std::optional<TickCounts> tick_counts; ///< of cases that tick, over all runs
+    Summary summary;                           ///< median over the runs
+    std::vector<double> runs;                  ///< p50 of each run, in order; NaN where that run failed
+    std::optional<TickCounts> tick_counts;     ///< of cases that tick, over all runs
     std::optional<WindowCounts> window_counts; ///< of paired cases, over all runs
-    std::optional<PathCounts> path_counts; ///< of the last run of a case that counts instructions
+    std::optional<PathCounts> path_counts;     ///< of the last run of a case that counts instructions
     std::vector<std::string>
         path_functions;           ///< "118 libc.so.6 malloc": instructions of that run, library, function
     double foreign_cpu_share = 0; ///< the largest share of the machine that others used in a run

@@ -2,7 +2,7 @@
 // The shared memory of a link as the cases use it: sides A and B join one segment, each adds its objects and
 // finds the peer's.
 #pragma once
-#include "apps/bench/harness/measurements.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 #include "shm/segment.hpp"
 
 #include <memory>

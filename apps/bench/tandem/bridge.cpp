@@ -3,9 +3,9 @@
 // with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way; both components poll.
 // Cold, the sender of the measured direction sleeps before each message.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/cold.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
+#include "apps/bench/measurements/cold.hpp"
 #include "apps/bench/tandem/bench_host.hpp"
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tandem's ring in ratio to its floors, measured in alternation with them (paired.hpp): what the acceptance limits use.
-#include "apps/bench/harness/paired.hpp"
+#include "apps/bench/measurements/paired.hpp"
 #include "apps/bench/baseline/index_ring_endpoint.hpp"
 #include "apps/bench/baseline/line_endpoint.hpp"
 #include "apps/bench/harness/cases.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tandem's ring, which carries each data port across a link: one way, by wake mode and size.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/ring_cases.hpp"
+#include "apps/bench/measurements/ring_cases.hpp"
 #include "apps/bench/tandem/ring_endpoint.hpp"
 
 namespace tandem::bench {

@@ -8,7 +8,7 @@
 #include "apps/bench/harness/session.hpp"
 #include "apps/bench/harness/tick_budget.hpp"
 #include "apps/bench/harness/tick_record.hpp"
-#include "apps/bench/harness/time_each_call.hpp"
+#include "apps/bench/measurements/time_each_call.hpp"
 
 #include "BenchEchoSkel.h"
 #include "host/rt/periodic_tick.hpp"

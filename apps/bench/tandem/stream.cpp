@@ -3,7 +3,7 @@
 // the oldest message when its ring is full; so that none is lost, the reader returns credits over a second
 // port, as two components do that need flow control.
 #include "apps/bench/harness/cases.hpp"
-#include "apps/bench/harness/ring_cases.hpp"
+#include "apps/bench/measurements/ring_cases.hpp"
 #include "apps/bench/tandem/ring_endpoint.hpp"
 
 #include <cstring>

@@ -69,7 +69,7 @@ class MethodInvokeException : public std::exception {
     virtual ~MethodInvokeException() noexcept { delete m_fields; }
     /// The same with fields that came encoded, of which it keeps a clone (ours, for bridges).
     static MethodInvokeException withFields(const std::string& message, const std::string& id,
-                                             const opros::exception_fields& fields) {
+                                            const opros::exception_fields& fields) {
         MethodInvokeException exception(message);
         exception.m_id = id;
         exception.m_fields = fields.clone();

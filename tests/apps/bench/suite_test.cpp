@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/bench/harness/measurements.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 #include "apps/bench/suite.hpp"
 
 #include <catch2/catch.hpp>

@@ -232,7 +232,7 @@ TEST_CASE("a message cut short or damaged is refused or becomes another one, and
     REQUIRE(conversion.run(CdrReader(whole), out));
     for (std::size_t length = 0; length < whole.size(); ++length) {
         const Payload cut(whole.begin(),
-                        whole.begin() + static_cast<std::ptrdiff_t>(length)); // exact, for the sanitizer
+                          whole.begin() + static_cast<std::ptrdiff_t>(length)); // exact, for the sanitizer
         CdrWriter to_bytes(bytes);
         CHECK_FALSE(conversion.run(CdrReader(cut), to_bytes));
         CHECK_FALSE(conversion.error().empty());

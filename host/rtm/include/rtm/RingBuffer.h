@@ -170,7 +170,8 @@ class RingBuffer : public BufferBase<DataType> {
         block = policy == "block";
     }
     std::size_t wrapped_index(std::size_t index, long int n) const {
-        if (n == 1) return index + 1 == slots_.size() ? 0 : index + 1; // each message; a division takes longer
+        if (n == 1)
+            return index + 1 == slots_.size() ? 0 : index + 1; // each message; a division takes longer
         const long int size = static_cast<long int>(slots_.size());
         return static_cast<std::size_t>(((static_cast<long int>(index) + n) % size + size) % size);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-#include "apps/bench/harness/measurements.hpp"
 #include "apps/bench/harness/registry.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 
 #include <string>
 

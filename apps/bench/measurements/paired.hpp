@@ -3,7 +3,7 @@
 // window gives one ratio. On a guest whose cores wander between physical ones a cache line takes 80 ns in one second and 300
 // in the next: a floor that was measured a minute ago proves nothing.
 #pragma once
-#include "apps/bench/harness/measurements.hpp"
+#include "apps/bench/measurements/measurements.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
