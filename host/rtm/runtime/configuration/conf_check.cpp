@@ -30,13 +30,56 @@ bool is_section(const std::string& name) {
     });
 }
 
+const std::vector<std::string> own_context_types{"PeriodicExecutionContext", "ExtTrigExecutionContext",
+                                                 "SynchExtTriggerEC", "OpenHRPExecutionContext"};
+
+// The names X of the rows `ec.*.X`.
+std::vector<std::string> context_options() {
+    std::vector<std::string> names;
+    for (const auto& known : conf_keys())
+        if (const std::string name = known.name; name.starts_with("ec.*.")) names.push_back(name.substr(5));
+    return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// `type` itself if it may be the name of a context or a type of a library: the nearest type of ours otherwise.
+std::string meant_context_type(const std::string& type) {
+    const auto is_prefix = [&](const std::string& own) { return type.starts_with(own); };
+    if (std::any_of(own_context_types.begin(), own_context_types.end(), is_prefix)) return type;
+    const bool is_misspelt = !tandem::text::did_you_mean(type, own_context_types).empty();
+    return is_misspelt ? tandem::text::nearest_name(type, own_context_types) : type;
+}
+
+// What was meant by a key below `ec.`; empty when nothing is wrong with it. `ec.NAME.OPTION` is for the context of that name,
+// and a type that a library brings may have options of its own: an unknown option passes there unless it resembles one.
+std::string meant_context_key(const coil::vstring& parts) {
+    const std::string type = parts.size() > 2 ? parts[1] : own_context_types[0];
+    const std::string option =
+        coil::flatten(coil::vstring(parts.begin() + (parts.size() > 2 ? 2 : 1), parts.end()), ".");
+    const auto options = context_options();
+    const std::string meant_type = meant_context_type(type);
+    std::string meant = option;
+    if (!contains(options, option) &&
+        (contains(own_context_types, meant_type) || !tandem::text::did_you_mean(option, options).empty()))
+        meant = tandem::text::nearest_name(option, options);
+    const bool is_right = parts.size() > 2 && meant_type == type && meant == option;
+    return is_right ? "" : "ec." + meant_type + "." + meant;
+}
+
 // A key CATEGORY.TYPE.KEY or CATEGORY.INSTANCE.KEY configures a component, and only the component knows its
 // own keys: such keys pass, unless they are so close to a known key that a typing error is likely.
 std::optional<std::string> unknown_key_warning(const std::string& key) {
-    if (find_conf_key(key) != nullptr) return std::nullopt;
     constexpr std::size_t max_compared = 100; // the comparison takes time with the key's length
     constexpr std::size_t likely_typing_error = 2;
     const auto parts = coil::split(key, ".");
+    if (parts[0] == "ec" && parts.size() > 1 && key.size() <= max_compared) {
+        const std::string meant = meant_context_key(parts);
+        if (!meant.empty()) return "unknown key " + printable(key) + "; did you mean " + meant + "?";
+    }
+    if (find_conf_key(key) != nullptr) return std::nullopt;
     const std::string start = key.substr(0, max_compared);
     const std::string nearest = tandem::text::nearest_name(start, plain_keys());
     if (parts.size() >= 3 && !is_section(parts[0]) &&

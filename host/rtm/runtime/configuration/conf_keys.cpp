@@ -131,7 +131,20 @@ const std::vector<ConfKey>& conf_keys() {
         {"exec_cxt.priority", K::integer, true},
         {"exec_cxt.stack_size", K::integer, false},
         {"exec_cxt.interrupt", K::text, false},
-        {"ec.**", K::text, true},
+        {"ec.*.rate", K::hertz, true},
+        {"ec.*.phase", K::text, true},
+        {"ec.*.name", K::text, true},
+        {"ec.*.sync_transition", K::yes_no, true},
+        {"ec.*.sync_activation", K::yes_no, true},
+        {"ec.*.sync_deactivation", K::yes_no, true},
+        {"ec.*.sync_reset", K::yes_no, true},
+        {"ec.*.transition_timeout", K::seconds, true},
+        {"ec.*.activation_timeout", K::seconds, true},
+        {"ec.*.deactivation_timeout", K::seconds, true},
+        {"ec.*.reset_timeout", K::seconds, true},
+        {"ec.*.cpu_affinity", K::cpu_list, true},
+        {"ec.*.priority", K::integer, true},
+        {"ec.**", K::text, true}, // of contexts that libraries bring
         // Defaults for ports, by direction and name.
         {"port.**", K::text, true},
         // SDO services of a component.

@@ -50,7 +50,7 @@ std::vector<std::string> check_own_settings(RTObject_impl& component, const coil
     };
     std::vector<std::string> lines;
     for (const auto& key : own_settings.propertyNames()) {
-        if (starts_with(key, "exec_cxt.")) {
+        if (starts_with(key, "exec_cxt.") || starts_with(key, "ec.")) {
             const std::string error = setting_error(key, own_settings.getProperty(key));
             if (!error.empty()) lines.push_back(error);
         } else if (const std::string name = parameter_of(key); !name.empty() && !is_known(name)) {

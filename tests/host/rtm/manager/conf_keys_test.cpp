@@ -49,6 +49,30 @@ TEST_CASE("An unknown key is named with file, line and the nearest known key") {
     CHECK_THAT(lines[2], Contains(":4: unknown key rate"));
 }
 
+TEST_CASE("Misspelt keys and wrong values of one kind of execution context, or of one, are told as those of "
+          "all are") {
+    using Catch::Contains;
+    const auto lines =
+        check_text("ec.PeriodicExecutionContext.rate: 100\nec.PeriodicExecutionContext.rte: 100\n"
+                   "ec.PeriodicExecutonContext.rate: 100\nec.ec0.sync_transiton: NO\nec.rate: 100\n"
+                   "ec.OpenHRPExecutionContext.cycles: 3\n");
+    const std::vector<std::string> expected{
+        "unknown key ec.OpenHRPExecutionContext.cycles; did you mean ec.OpenHRPExecutionContext.",
+        "unknown key ec.PeriodicExecutionContext.rte; did you mean ec.PeriodicExecutionContext.rate?",
+        "unknown key ec.PeriodicExecutonContext.rate; did you mean ec.PeriodicExecutionContext.rate?",
+        "unknown key ec.ec0.sync_transiton; did you mean ec.ec0.sync_transition?",
+        "unknown key ec.rate; did you mean ec.PeriodicExecutionContext.rate?"};
+    REQUIRE(lines.size() == expected.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) CHECK_THAT(lines[i], Contains(expected[i]));
+    CHECK_THROWS_WITH(check_text("\nec.PeriodicExecutionContext.rate: abc\n"),
+                      Contains(":2: ec.PeriodicExecutionContext.rate is abc, expected a rate in Hz above 0"));
+    // A context that a library brings has options of its own, and a context may have any name.
+    CHECK(
+        check_text("ec.FieldbusContext.bus: can0\nec.FieldbusContext.cycle.us: 500\nec.ec1.cpu_affinity: 0\n"
+                   "ec.PeriodicExecutionContext0.rate: 5\n")
+            .empty());
+}
+
 TEST_CASE("A value that its key cannot have is refused with file, line and the expected values") {
     using Catch::Contains;
     CHECK_THROWS_WITH(check_text("\nmanager.shutdown_auto: maybe\n"),
