@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/connection_profile.hpp"
 #include "host/rtm/runtime/transport/registered_transports.hpp"
+#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
 #include <algorithm>
 #include <rtm/CORBA_SeqUtil.h>
 #include <rtm/Manager.h>
@@ -40,7 +41,8 @@ bool is_little_endian(const coil::Properties& connector_properties) {
     return preferred_byte_order(connector_properties) != "big";
 }
 
-std::string unsupported_reason(const coil::Properties& connector_properties) {
+std::string unsupported_reason(const ConnectorProfile& profile,
+                               const coil::Properties& connector_properties) {
     const std::string flow = coil::normalize(connector_properties.getProperty("dataflow_type", "push"));
     if (flow != "push" && flow != "pull") return "dataflow_type is " + flow + ", expected push or pull";
     const std::string type = coil::normalize(connector_properties.getProperty("interface_type"));
@@ -51,6 +53,9 @@ std::string unsupported_reason(const coil::Properties& connector_properties) {
         return "interface_type is " + type +
                ", expected corba_cdr, data_service, direct, shared_memory or one that a loaded library "
                "brings";
+    if (const std::string obstacle = type == "shared_memory" ? shared_memory_obstacle(profile) : "";
+        !obstacle.empty())
+        return obstacle;
     const std::string order = preferred_byte_order(connector_properties);
     if (!order.empty() && order != "big" && order != "little")
         return "serializer.cdr.endian is " + order + ", expected little or big";

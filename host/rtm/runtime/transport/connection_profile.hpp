@@ -19,8 +19,8 @@ ConnectorInfo connector_info(const ConnectorProfile& profile, const coil::Proper
 /// Also true when it names none, as in OpenRTM-aist.
 bool is_little_endian(const coil::Properties& connector_properties);
 
-/// Why a connection with these properties cannot be made, in one line; empty when it can.
-std::string unsupported_reason(const coil::Properties& connector_properties);
+/// Why a connection with this profile and these connector_properties() cannot be made, in one line; empty when it can.
+std::string unsupported_reason(const ConnectorProfile& profile, const coil::Properties& connector_properties);
 
 /// The object that the other port has published as a reference under `<key>_ref` or as an IOR under
 /// `<key>_ior`; nil when there is none. The caller owns the reference. Throws CORBA::SystemException when the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The interface type shared_memory: the object with the message, and peers that answer as OpenRTM-aist's do.
+#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
 #include "host/rtm/runtime/transport/shared_memory/shared_message.hpp"
 #include "tests/host/rtm/manager_fixture.hpp"
 #include "tests/host/rtm/remote_host.hpp"
@@ -98,6 +99,53 @@ TEST_CASE("Only objects that are named as OpenRTM-aist's are opened and removed"
         CHECK_FALSE(reader.open(name));
     reader.remove_name();
     CHECK(exists(foreign.name));
+}
+
+TEST_CASE(
+    "shared_memory with a port of another machine is refused in one line, in both directions and flows") {
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    auto& accumulator = fixture.create<Accumulator>("Accumulator");
+    // 192.0.2.0/24 is the network of examples (RFC 5737): nobody has such an address, and no call is made.
+    CORBA::Object_var object =
+        fixture.manager().theORB()->string_to_object("corbaloc:iiop:192.0.2.1:2810/port");
+    RTC::PortService_var elsewhere = RTC::PortService::_unchecked_narrow(object.in());
+    for (const char* flow : {"push", "pull"})
+        for (RTC::PortBase* port : std::vector<RTC::PortBase*>{&counter.out_, &accumulator.in_}) {
+            CAPTURE(flow, port->getName());
+            RTC::PortService_var here = port->getPortRef();
+            coil::Properties properties;
+            properties.setProperty("dataport.interface_type", "shared_memory");
+            properties.setProperty("dataport.dataflow_type", flow);
+            RTC::ConnectorProfile_var profile =
+                CORBA_RTCUtil::create_connector("shm", properties, here.in(), elsewhere.in());
+            CHECK(port->notify_connect(profile.inout()) == RTC::BAD_PARAMETER);
+            CHECK(port->connectError() == std::string(port->getName()) +
+                                              ": interface_type is shared_memory, for ports of one machine, "
+                                              "but a port of the connection is at "
+                                              "giop:tcp:192.0.2.1:2810; use corba_cdr");
+            CHECK(connection_count(*port) == 0);
+        }
+}
+
+TEST_CASE("The addresses of this machine are told from those of others") {
+    ManagerFixture fixture;
+    auto address_of = [&](const std::string& host) {
+        CORBA::Object_var object =
+            fixture.manager().theORB()->string_to_object(("corbaloc:iiop:" + host + ":2810/x").c_str());
+        return RTC::address_on_another_machine(object.in());
+    };
+    CHECK(address_of("127.0.0.1").empty());
+    CHECK(address_of("127.1.2.3").empty());
+    CHECK(address_of("localhost").empty());
+    CHECK(address_of("[::1]").empty());
+    CHECK(address_of("192.0.2.1") == "giop:tcp:192.0.2.1:2810");
+    CHECK(address_of("[2001:db8::1]") == "giop:tcp:[2001:db8::1]:2810"); // RFC 3849: for examples
+    // Of several addresses, as of a machine with several networks, one is enough.
+    CORBA::Object_var two =
+        fixture.manager().theORB()->string_to_object("corbaloc:iiop:192.0.2.1:2810,iiop:127.0.0.1:2810/x");
+    CHECK(RTC::address_on_another_machine(two.in()).empty());
+    CHECK(RTC::address_on_another_machine(CORBA::Object::_nil()).empty());
 }
 
 TEST_CASE("shared_memory drops the connection when the receiver dies and leaves no object behind") {

@@ -3,7 +3,11 @@
 #include "PortSharedMemorySkel.h"
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/shared_memory/shared_message.hpp"
+#include <cerrno>
+#include <cstring>
 #include <mutex>
+#include <rtm/SystemLogger.h>
+#include <utility>
 
 namespace RTC {
 namespace {
@@ -46,7 +50,9 @@ class SharedMemoryReaderServant : public SharedMemoryServant {
   public:
     void open_memory(CORBA::ULongLong, const char* name) override {
         std::lock_guard<std::mutex> lock(mutex_);
-        if (!object_.open(name)) throw CORBA::BAD_PARAM();
+        if (object_.open(name)) return;
+        report_failure(errno);
+        throw CORBA::BAD_PARAM();
     }
     void close_memory(CORBA::Boolean) override {
         std::lock_guard<std::mutex> lock(mutex_);
@@ -66,8 +72,18 @@ class SharedMemoryReaderServant : public SharedMemoryServant {
     }
 
   private:
+    // Once: the sender tries again with each message. OpenRTM-aist's does not even notice.
+    void report_failure(int error) {
+        if (std::exchange(has_reported_, true)) return;
+        const Logger rtclog("shared_memory");
+        RTC_ERROR(("the sender's shared memory object cannot be opened (%s): no message arrives; is the "
+                   "sender in another "
+                   "container, or of another user? Connect with interface_type=corba_cdr",
+                   std::strerror(error)));
+    }
     std::mutex mutex_;
     bool little_endian_ = true; // of the length; the sender tells it before the first message
+    bool has_reported_ = false;
     SharedMessageReader object_;
 };
 

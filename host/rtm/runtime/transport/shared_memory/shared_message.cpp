@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
+#include <cerrno>
 #include <coil/UUID.h>
 #include <cstdint>
 #include <fcntl.h>
@@ -69,6 +70,7 @@ void SharedMessageWriter::remove() {
 
 bool SharedMessageReader::open(const std::string& name) {
     close();
+    errno = EINVAL;
     if (!is_uuid(name)) return false;
     descriptor_ = ::shm_open(name.c_str(), O_RDONLY | O_CLOEXEC, 0);
     if (descriptor_ < 0) return false;

@@ -41,7 +41,8 @@ class SharedMessageReader {
     SharedMessageReader(const SharedMessageReader&) = delete;
     SharedMessageReader& operator=(const SharedMessageReader&) = delete;
 
-    /// False: the name is not a UUID, as OpenRTM-aist's are, or there is no such object that this user may read.
+    /// False: the name is not a UUID, as OpenRTM-aist's are, or there is no such object that this user may read;
+    /// errno says which.
     bool open(const std::string& name);
     void close();
     /// The message in the object; false when there is none, or its length is more than the object holds.

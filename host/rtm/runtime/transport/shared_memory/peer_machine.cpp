@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference alone says where a peer runs: a process of OpenRTM-aist, which knows no property of ours, has one, too.
+#include "host/rtm/runtime/transport/shared_memory/peer_machine.hpp"
+#include <algorithm>
+#include <cstring>
+#include <ifaddrs.h>
+#include <memory>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <omniORB4/giopEndpoint.h>
+#include <omniORB4/omniIOR.h>
+
+namespace RTC {
+namespace {
+
+const in_addr& ipv4(const sockaddr& address) {
+    return reinterpret_cast<const sockaddr_in&>(address).sin_addr;
+}
+const in6_addr& ipv6(const sockaddr& address) {
+    return reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+}
+
+bool is_loopback(const sockaddr& address) {
+    if (address.sa_family == AF_INET) return ntohl(ipv4(address).s_addr) >> 24U == IN_LOOPBACKNET;
+    return address.sa_family == AF_INET6 && IN6_IS_ADDR_LOOPBACK(&ipv6(address));
+}
+
+bool is_equal(const sockaddr& a, const sockaddr& b) {
+    if (a.sa_family != b.sa_family) return false;
+    if (a.sa_family == AF_INET) return ipv4(a).s_addr == ipv4(b).s_addr;
+    return a.sa_family == AF_INET6 && std::memcmp(&ipv6(a), &ipv6(b), sizeof(in6_addr)) == 0;
+}
+
+// Does a network interface of this machine have the address?
+bool has_interface(const sockaddr& address) {
+    ifaddrs* list = nullptr;
+    if (::getifaddrs(&list) != 0) return true; // nothing is known: not a reason to refuse
+    const std::unique_ptr<ifaddrs, void (*)(ifaddrs*)> owned(list, ::freeifaddrs);
+    for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next)
+        if (entry->ifa_addr != nullptr && is_equal(*entry->ifa_addr, address)) return true;
+    return false;
+}
+
+bool is_on_this_machine(const char* host) {
+    addrinfo* list = nullptr;
+    if (::getaddrinfo(host, nullptr, nullptr, &list) != 0) return false;
+    const std::unique_ptr<addrinfo, void (*)(addrinfo*)> owned(list, ::freeaddrinfo);
+    for (const addrinfo* entry = list; entry != nullptr; entry = entry->ai_next)
+        if (is_loopback(*entry->ai_addr) || has_interface(*entry->ai_addr)) return true;
+    return false;
+}
+
+} // namespace
+
+std::string address_on_another_machine(CORBA::Object_ptr object) {
+    if (CORBA::is_nil(object) || object->_PR_getobj() == nullptr) return "";
+    const omniIOR_var ior = object->_PR_getobj()->_getIOR();
+    const auto& addresses = ior->getIORInfo()->addresses();
+    // An address without a host is a socket of this machine's file system.
+    const bool is_here =
+        addresses.empty() || std::any_of(addresses.begin(), addresses.end(), [](auto* address) {
+            return address->host() == nullptr || is_on_this_machine(address->host());
+        });
+    return is_here ? "" : addresses[0]->address();
+}
+
+std::string shared_memory_obstacle(const ConnectorProfile& profile) {
+    for (CORBA::ULong i = 0; i < profile.ports.length(); ++i) {
+        const std::string address = address_on_another_machine(profile.ports[i]);
+        if (!address.empty())
+            return "interface_type is shared_memory, for ports of one machine, but a port of the connection "
+                   "is at " +
+                   address + "; use corba_cdr";
+    }
+    return "";
+}
+
+} // namespace RTC
