@@ -64,12 +64,14 @@ class HangingComponent : public RTC::DataFlowComponentBase {
 };
 
 /// Its InPort `dies` ends the process in notify_connect(), `hangs` does not return from it; `dies_late` and
-/// `hangs_late` do so in notify_disconnect().
+/// `hangs_late` do so in notify_disconnect(); `aborts` crashes with its first message, and the service `calculator` in
+/// set_mode().
 class BadPeer : public RTC::DataFlowComponentBase {
   public:
     explicit BadPeer(RTC::Manager* manager)
         : DataFlowComponentBase(manager), dies_("dies", value_), hangs_("hangs", value_),
-          dies_late_("dies_late", value_), hangs_late_("hangs_late", value_) {}
+          dies_late_("dies_late", value_), hangs_late_("hangs_late", value_), aborts_("aborts", value_),
+          calculator_port_("calculator") {}
     RTC::ReturnCode_t onInitialize() override {
         struct Die : RTC::ConnectionCallback {
             void operator()(RTC::ConnectorProfile&) override { std::_Exit(3); }
@@ -89,12 +91,24 @@ class BadPeer : public RTC::DataFlowComponentBase {
         hangs_late_.setOnUnsubscribeInterfaces(&hang);
         addInPort("dies_late", dies_late_);
         addInPort("hangs_late", hangs_late_);
+        struct Abort : RTC::ConnectorDataListenerT<RTC::TimedLong> {
+            ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedLong&) override { std::abort(); }
+        };
+        aborts_.addConnectorDataListener(RTC::ConnectorDataListenerType::ON_RECEIVED, new Abort);
+        addInPort("aborts", aborts_);
+        calculator_port_.registerProvider("calc", "Testing::Calculator", calculator_);
+        addPort(calculator_port_);
         return RTC::RTC_OK;
     }
 
   private:
+    struct AbortingCalculator : Calculator {
+        void set_mode(Testing::Mode) override { std::abort(); }
+    };
     RTC::TimedLong value_{};
-    RTC::InPort<RTC::TimedLong> dies_, hangs_, dies_late_, hangs_late_;
+    RTC::InPort<RTC::TimedLong> dies_, hangs_, dies_late_, hangs_late_, aborts_;
+    RTC::CorbaPort calculator_port_;
+    AbortingCalculator calculator_;
 };
 
 /// Misbehaves in the callback that the property `in` names, in the way that `how` names: std, int, corba: throws a

@@ -6,6 +6,7 @@
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/sdo/organization.hpp"
 #include "host/rtm/runtime/sdo/sdo_configuration.hpp"
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/ExecutionContextBase.h>
 #include <rtm/RTObject.h>
@@ -36,6 +37,7 @@ void RTObject_impl::becomeServant() {
 
 // The Configuration servant may still be in a call of a tool: its last reference deletes it.
 RTObject_impl::~RTObject_impl() {
+    set_servant_owner(this, nullptr);
     if (m_sdoConfiguration != nullptr) m_sdoConfiguration->_remove_ref();
 }
 

@@ -2,7 +2,9 @@
 // A component's ports, profile, properties and action listeners. OpenRTM-aist: RTObject_impl and PortAdmin.
 // A port gets the settings `port.inport.NAME.*` (outport, corbaport), and below them those of all ports of its
 // kind, `port.inport.dataport.*` or `port.corba.*`.
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <rtm/RTObject.h>
+#include <typeinfo>
 
 namespace RTC {
 
@@ -20,6 +22,7 @@ void RTObject_impl::setInstanceName(const char* instance_name) {
     m_properties["instance_name"] = instance_name;
     m_profile.instance_name = CORBA::string_dup(instance_name);
     rtclog.setName(instance_name);
+    set_servant_owner(this, std::make_shared<ServantOwner>(instance_name, &typeid(*this)));
 }
 
 std::vector<std::string> RTObject_impl::getNamingNames() {
@@ -45,6 +48,7 @@ void RTObject_impl::setProperties(const coil::Properties& prop) {
 bool RTObject_impl::addNamed(const char* name, PortBase& port) {
     // The owner's name becomes part of the port's full name (`Component.port`).
     port.setOwner(m_objref.in(), m_profile.instance_name);
+    set_servant_owner(&port, find_servant_owner(this));
     if (m_portAdmin.addPort(port)) {
         port.setPortConnectListenerHolder(&m_portConnectListeners);
         m_actionListeners.portaction_[0].forEach([&](auto& listener) { listener(port.getPortProfile()); });

@@ -3,6 +3,7 @@
 // createORBEndpoints(), initNaming() and ManagerServant::createINSManager().
 #include "host/rtm/runtime/configuration/format_name.hpp"
 #include "host/rtm/runtime/manager/manager_impl.hpp"
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>
 #include <omniORB4/omniPolicy.h>
 
@@ -81,6 +82,7 @@ coil::vstring manager_names(const Manager::Impl& impl) {
 void start_orb(Manager::Impl& impl) {
     coil::Argv argv(orb_arguments(impl.config));
     int argc = static_cast<int>(argv.size());
+    name_upcalls();
     try {
         impl.orb = CORBA::ORB_init(argc, argv.get(), "omniORB4");
         CORBA::Object_var object = impl.orb->resolve_initial_references("RootPOA");

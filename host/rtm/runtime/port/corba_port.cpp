@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // CorbaPort: service ports, whose providers publish IORs and whose consumers get them.
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <algorithm>
 #include <coil/stringutil.h>
 #include <rtm/CorbaPort.h>
 #include <rtm/Manager.h>
+#include <typeinfo>
 
 namespace RTC {
 namespace {
@@ -38,8 +40,10 @@ class CorbaPort::Provider {
     }
     ~Provider() { deactivate(); }
 
-    void activate() {
+    void activate(const std::string& component) {
         if (active_) return;
+        called_ = servant_;
+        set_servant_owner(called_, std::make_shared<ServantOwner>(component, &typeid(*servant_)));
         poa_->activate_object_with_id(id_.in(), servant_);
         active_ = true;
     }
@@ -51,6 +55,7 @@ class CorbaPort::Provider {
         } catch (const CORBA::Exception&) {
             // The ORB was shut down first: nothing is left to deactivate.
         }
+        set_servant_owner(called_, nullptr);
     }
     const std::string& descriptor() const { return descriptor_; }
     const std::string& ior() const { return ior_; }
@@ -61,6 +66,7 @@ class CorbaPort::Provider {
     PortableServer::POA_var poa_;
     PortableServer::ObjectId_var id_;
     std::string ior_;
+    const omniServant* called_ = nullptr; // the servant, as set_servant_owner() knows it
     bool active_ = false;
 };
 
@@ -98,7 +104,7 @@ bool CorbaPort::registerConsumer(const char* instance_name, const char* type_nam
 void CorbaPort::activateInterfaces() {
     for (auto& provider : m_providers) {
         try {
-            provider->activate();
+            provider->activate(m_ownerInstanceName);
         } catch (const CORBA::Exception& e) {
             RTC_ERROR(("provider %s cannot be activated: %s", provider->descriptor().c_str(), e._name()));
         }

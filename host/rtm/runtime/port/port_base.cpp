@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A port as a CORBA object: identity, profile, list of connection profiles. How it is connected is in
 // port_connect.cpp.
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <chrono>
 #include <coil/UUID.h>
 #include <coil/stringutil.h>
@@ -39,6 +40,7 @@ PortBase::~PortBase() { retire(); }
 void PortBase::retire() {
     if (m_retired) return;
     m_retired = true;
+    set_servant_owner(this, nullptr);
     try {
         m_poa->deactivate_object(m_oid.in());
         wait_for_calls_to_end(*this);

@@ -3,6 +3,7 @@
 // class Configuration_impl of SdoConfiguration.h, RTObject_impl. Errors are the specification's exceptions.
 #include "host/rtm/runtime/sdo/sdo_configuration.hpp"
 #include "host/rtm/runtime/configuration/parameter_values.hpp"
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <rtm/Manager.h>
 
 namespace SDOPackage {
@@ -41,12 +42,14 @@ Configuration_impl::Configuration_impl(RTC::RTObject_impl& owner, RTC::ConfigAdm
                                        std::shared_ptr<Organizations> organizations)
     : sets_(sets), services_(owner, RTC::Manager::instance().getConfig()),
       organizations_(std::move(organizations)), poa_(RTC::Manager::instance().getPOA()) {
+    RTC::set_servant_owner(this, RTC::find_servant_owner(&owner));
     id_ = poa_->activate_object(this);
 }
 
 // Ends the services, then refuses calls of tools.
 void Configuration_impl::retire() {
     services_.finalize();
+    RTC::set_servant_owner(this, nullptr);
     try {
         poa_->deactivate_object(id_.in());
     } catch (const CORBA::Exception&) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/transport/cdr_servants.hpp"
 #include "host/rtm/runtime/transport/shared_memory/shared_memory_endpoints.hpp"
+#include "host/rtm/runtime/upcall/servant_owners.hpp"
 #include <rtm/Manager.h>
 
 namespace RTC {
@@ -98,13 +99,16 @@ PortableServer::ServantBase* create_servant(const std::string& interface_type,
     return new OutPortCdrServant(std::move(buffer));
 }
 
-ServantHolder::ServantHolder(PortableServer::ServantBase* servant) : poa_(Manager::instance().getPOA()) {
+ServantHolder::ServantHolder(PortableServer::ServantBase* servant, const PortBase* port)
+    : poa_(Manager::instance().getPOA()), servant_(servant) {
     PortableServer::ServantBase_var owned(servant); // the POA holds a reference of its own after this
+    if (port != nullptr) set_servant_owner(servant, find_servant_owner(port));
     id_ = poa_->activate_object(servant);
     reference_ = poa_->id_to_reference(id_.in());
 }
 
 ServantHolder::~ServantHolder() {
+    set_servant_owner(servant_, nullptr);
     try {
         poa_->deactivate_object(id_.in());
     } catch (const CORBA::Exception&) {

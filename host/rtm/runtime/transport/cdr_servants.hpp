@@ -5,6 +5,7 @@
 #include "host/rtm/runtime/transport/pull_buffer.hpp"
 #include "host/rtm/runtime/transport/push_receiver.hpp"
 #include <memory>
+#include <rtm/PortBase.h>
 #include <rtm/idl/DataPortSkel.h>
 #include <rtm/idl/DataPort_OpenRTMSkel.h>
 
@@ -19,10 +20,11 @@ PortableServer::ServantBase* create_servant(const std::string& interface_type,
                                             std::shared_ptr<PullBuffer> buffer);
 
 /// Keeps a servant activated in the root POA during its own lifetime. Takes over the servant, which the POA
-/// deletes after the last call in it has ended. Construction throws CORBA::SystemException.
+/// deletes after the last call in it has ended; its calls belong to the component of `port`, unless that is NULL.
+/// Construction throws CORBA::SystemException.
 class ServantHolder {
   public:
-    explicit ServantHolder(PortableServer::ServantBase* servant);
+    explicit ServantHolder(PortableServer::ServantBase* servant, const PortBase* port = nullptr);
     ~ServantHolder();
     ServantHolder(const ServantHolder&) = delete;
     ServantHolder& operator=(const ServantHolder&) = delete;
@@ -33,6 +35,7 @@ class ServantHolder {
 
   private:
     PortableServer::POA_var poa_;
+    const omniServant* servant_; // of the POA
     PortableServer::ObjectId_var id_;
     CORBA::Object_var reference_;
 };

@@ -64,7 +64,7 @@ InPortPushConnector::InPortPushConnector(InPortBase& port, ConnectorInfo& info, 
                                          bool owns_buffer, std::shared_ptr<DirectBufferBase> direct_buffer)
     : InPortConnector(info, port.getListeners(), buffer), owns_buffer_(owns_buffer),
       receiver_(std::make_shared<PushReceiver>(port, info, *buffer, direct_buffer)),
-      servant_(create_servant(corba_interface_type(info.properties), receiver_, m_littleEndian)) {
+      servant_(create_servant(corba_interface_type(info.properties), receiver_, m_littleEndian), &port) {
     m_inPlace = receiver_->inPlace();
     m_directBuffer = std::move(direct_buffer);
 }

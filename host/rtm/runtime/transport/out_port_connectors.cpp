@@ -125,7 +125,7 @@ bool OutPortPushConnector::writeDirect(const DirectWriter& writer, DataPortStatu
 OutPortPullConnector::OutPortPullConnector(OutPortBase& port, ConnectorInfo& info)
     : OutPortConnector(info, port.getListeners()),
       pull_buffer_(std::make_shared<PullBuffer>(*port.getListeners(), info)),
-      servant_(create_servant(corba_interface_type(info.properties), pull_buffer_)) {}
+      servant_(create_servant(corba_interface_type(info.properties), pull_buffer_), &port) {}
 
 OutPortPullConnector::~OutPortPullConnector() {
     provider_.reset(); // first: the transport reads from this connector until its provider is gone
