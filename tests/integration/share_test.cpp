@@ -46,6 +46,17 @@ struct Shared : TwoHosts {
     std::string port;
 };
 
+/// Two shared OPRoS components of one type, started; both are seen as ACTIVE RTCs.
+struct MotorAndPump : Shared {
+    explicit MotorAndPump(const std::string& pump_properties = "") : Shared("Motor, Pump") {
+        add_component("Motor", "MotorComp");
+        add_component("Pump", "MotorComp", pump_properties);
+        start();
+        REQUIRE(shows("Motor", "ACTIVE"));
+        REQUIRE(shows("Pump", "ACTIVE"));
+    }
+};
+
 } // namespace
 
 TEST_CASE("a shared OPRoS component is an RTC with ports, parameters and state") {
@@ -90,12 +101,7 @@ TEST_CASE("a shared OPRoS component is activated, deactivated, configured and fe
 }
 
 TEST_CASE("data of shared OPRoS components go where tools of RTM connect them to") {
-    Shared hosts("Motor, Pump");
-    hosts.add_component("Motor", "MotorComp");
-    hosts.add_component("Pump", "MotorComp", TwoHosts::property("gain", "10"));
-    hosts.start();
-    REQUIRE(hosts.shows("Motor", "ACTIVE"));
-    REQUIRE(hosts.shows("Pump", "ACTIVE"));
+    MotorAndPump hosts(TwoHosts::property("gain", "10"));
     CHECK(hosts.good({"conf", "Pump"}, "gain=10"));
     CHECK(hosts.good({"connect", "Motor:torque", "Pump:speed"}));
     for (int round = 1; round <= 3; ++round) {
@@ -111,11 +117,7 @@ TEST_CASE("data of shared OPRoS components go where tools of RTM connect them to
 }
 
 TEST_CASE("what fails in a shared OPRoS component is an error of its RTC, and the reverse") {
-    Shared hosts("Motor, Pump");
-    hosts.add_component("Motor", "MotorComp");
-    hosts.add_component("Pump", "MotorComp");
-    hosts.start();
-    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    MotorAndPump hosts;
     const auto fails = [&](const std::string& callback) {
         return hosts.good({"conf", "Motor", "fails=" + callback});
     };
@@ -150,12 +152,7 @@ TEST_CASE("what fails in a shared OPRoS component is an error of its RTC, and th
 }
 
 TEST_CASE("an OPRoS host that is killed shows in its RTCs, and is followed when it comes back") {
-    Shared hosts("Motor, Pump");
-    hosts.add_component("Motor", "MotorComp");
-    hosts.add_component("Pump", "MotorComp");
-    hosts.start();
-    REQUIRE(hosts.shows("Motor", "ACTIVE"));
-    REQUIRE(hosts.shows("Pump", "ACTIVE"));
+    MotorAndPump hosts;
     CHECK(hosts.good({"deactivate", "Pump"}));
     CHECK(hosts.good({"conf", "Motor", "gain=5"}));
     CHECK(hosts.good({"connect", "Motor:torque", "Pump:speed"}));
@@ -176,12 +173,7 @@ TEST_CASE("an OPRoS host that is killed shows in its RTCs, and is followed when 
 }
 
 TEST_CASE("an RTC that exits destroys the OPRoS component, and only that") {
-    Shared hosts("Motor, Pump");
-    hosts.add_component("Motor", "MotorComp");
-    hosts.add_component("Pump", "MotorComp");
-    hosts.start();
-    REQUIRE(hosts.shows("Motor", "ACTIVE"));
-    REQUIRE(hosts.shows("Pump", "ACTIVE"));
+    MotorAndPump hosts;
     CHECK(hosts.good({"exit", "Motor"}));
     CHECK(hosts.says("opros", "Motor destroyed"));
     CHECK(hosts.shows("Motor", ""));

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/build/component_folder.hpp"
 #include "apps/tandem/output/format.hpp"
+#include "apps/tandem/output/write_file.hpp"
 
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <set>
 #include <stdexcept>
@@ -14,13 +13,6 @@ namespace tandem::command {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Flushed before it is checked: a full disk shows only when the bytes leave the buffer.
-void write_file(const fs::path& file, const std::string& text) {
-    std::ofstream stream(file);
-    stream << text << std::flush;
-    if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
-}
 
 // Keywords of C++20 and macros that every source sees; std, because no class may have its name.
 const std::set<std::string_view> cpp_keywords{

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/link/join_folder.hpp"
+#include "apps/tandem/output/write_file.hpp"
 
 #include "host/opros/engine/load/plugin_dirs.hpp"
 
@@ -15,12 +16,6 @@ namespace tandem::command {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_file(const fs::path& file, const std::string& text) {
-    std::ofstream stream(file);
-    stream << text << std::flush;
-    if (!stream) throw std::runtime_error(file.string() + " cannot be written: " + std::strerror(errno));
-}
 
 // A copy, so that its properties can be set for this link.
 void copy_adaptor_profile(const fs::path& folder) {

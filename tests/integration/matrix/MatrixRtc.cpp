@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends back what it receives, of each kind.
 #include "KindsSkel.h"
+#include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
@@ -54,30 +55,4 @@ class MatrixRtc : public RTC::DataFlowComponentBase {
     std::vector<std::function<void()>> echoes_;
 };
 
-extern "C" void MatrixRtcInit(RTC::Manager* manager) {
-    static const char* const spec[] = {"implementation_id",
-                                       "MatrixRtc",
-                                       "type_name",
-                                       "MatrixRtc",
-                                       "description",
-                                       "test",
-                                       "version",
-                                       "1.0",
-                                       "vendor",
-                                       "Tandem",
-                                       "category",
-                                       "test",
-                                       "activity_type",
-                                       "PERIODIC",
-                                       "kind",
-                                       "DataFlowComponent",
-                                       "max_instance",
-                                       "0",
-                                       "language",
-                                       "C++",
-                                       "lang_type",
-                                       "compile",
-                                       ""};
-    coil::Properties profile(spec);
-    manager->registerFactory(profile, RTC::Create<MatrixRtc>, RTC::Delete<MatrixRtc>);
-}
+extern "C" void MatrixRtcInit(RTC::Manager* manager) { register_rtc<MatrixRtc>(manager, "MatrixRtc"); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers each alarm with one of twice the level.
 #include "AlarmSkel.h"
+#include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
@@ -38,30 +39,4 @@ class AlarmRtc : public RTC::DataFlowComponentBase {
     RTC::OutPort<TestAlarm::TimedAlarm> answerOut_;
 };
 
-extern "C" void AlarmRtcInit(RTC::Manager* manager) {
-    static const char* const spec[] = {"implementation_id",
-                                       "AlarmRtc",
-                                       "type_name",
-                                       "AlarmRtc",
-                                       "description",
-                                       "test",
-                                       "version",
-                                       "1.0",
-                                       "vendor",
-                                       "Tandem",
-                                       "category",
-                                       "test",
-                                       "activity_type",
-                                       "PERIODIC",
-                                       "kind",
-                                       "DataFlowComponent",
-                                       "max_instance",
-                                       "0",
-                                       "language",
-                                       "C++",
-                                       "lang_type",
-                                       "compile",
-                                       ""};
-    coil::Properties profile(spec);
-    manager->registerFactory(profile, RTC::Create<AlarmRtc>, RTC::Delete<AlarmRtc>);
-}
+extern "C" void AlarmRtcInit(RTC::Manager* manager) { register_rtc<AlarmRtc>(manager, "AlarmRtc"); }

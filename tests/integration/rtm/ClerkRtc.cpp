@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks a dictionary in each cycle until it has an answer, then once about a word that it does not have.
 #include "DictionaryStub.h"
+#include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/CorbaConsumer.h>
 #include <rtm/CorbaPort.h>
@@ -41,30 +42,4 @@ class ClerkRtc : public RTC::DataFlowComponentBase {
     RTC::CorbaConsumer<TestDictionary::Dictionary> dictionary_;
 };
 
-extern "C" void ClerkRtcInit(RTC::Manager* manager) {
-    static const char* const specification[] = {"implementation_id",
-                                                "ClerkRtc",
-                                                "type_name",
-                                                "ClerkRtc",
-                                                "description",
-                                                "a clerk",
-                                                "version",
-                                                "1.0",
-                                                "vendor",
-                                                "test",
-                                                "category",
-                                                "test",
-                                                "activity_type",
-                                                "PERIODIC",
-                                                "kind",
-                                                "DataFlowComponent",
-                                                "max_instance",
-                                                "0",
-                                                "language",
-                                                "C++",
-                                                "lang_type",
-                                                "compile",
-                                                ""};
-    coil::Properties profile(specification);
-    manager->registerFactory(profile, RTC::Create<ClerkRtc>, RTC::Delete<ClerkRtc>);
-}
+extern "C" void ClerkRtcInit(RTC::Manager* manager) { register_rtc<ClerkRtc>(manager, "ClerkRtc"); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends back what it hears, and provides a dictionary.
 #include "DictionarySkel.h"
+#include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
@@ -84,30 +85,4 @@ class EchoRtc : public RTC::DataFlowComponentBase {
     DictionaryService dictionary_;
 };
 
-extern "C" void EchoRtcInit(RTC::Manager* manager) {
-    static const char* const spec[] = {"implementation_id",
-                                       "EchoRtc",
-                                       "type_name",
-                                       "EchoRtc",
-                                       "description",
-                                       "test",
-                                       "version",
-                                       "1.0",
-                                       "vendor",
-                                       "Tandem",
-                                       "category",
-                                       "test",
-                                       "activity_type",
-                                       "PERIODIC",
-                                       "kind",
-                                       "DataFlowComponent",
-                                       "max_instance",
-                                       "0",
-                                       "language",
-                                       "C++",
-                                       "lang_type",
-                                       "compile",
-                                       ""};
-    coil::Properties profile(spec);
-    manager->registerFactory(profile, RTC::Create<EchoRtc>, RTC::Delete<EchoRtc>);
-}
+extern "C" void EchoRtcInit(RTC::Manager* manager) { register_rtc<EchoRtc>(manager, "EchoRtc"); }

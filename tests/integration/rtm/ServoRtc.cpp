@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends a number in each cycle; its parameter `fails` makes that fail.
+#include "tests/integration/rtm/register_rtc.hpp"
+
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
@@ -37,30 +39,4 @@ class ServoRtc : public RTC::DataFlowComponentBase {
     RTC::OutPort<RTC::TimedDouble> out_;
 };
 
-extern "C" void ServoRtcInit(RTC::Manager* manager) {
-    static const char* const specification[] = {"implementation_id",
-                                                "ServoRtc",
-                                                "type_name",
-                                                "ServoRtc",
-                                                "description",
-                                                "a servo",
-                                                "version",
-                                                "1.0",
-                                                "vendor",
-                                                "test",
-                                                "category",
-                                                "test",
-                                                "activity_type",
-                                                "PERIODIC",
-                                                "kind",
-                                                "DataFlowComponent",
-                                                "max_instance",
-                                                "0",
-                                                "language",
-                                                "C++",
-                                                "lang_type",
-                                                "compile",
-                                                ""};
-    coil::Properties profile(specification);
-    manager->registerFactory(profile, RTC::Create<ServoRtc>, RTC::Delete<ServoRtc>);
-}
+extern "C" void ServoRtcInit(RTC::Manager* manager) { register_rtc<ServoRtc>(manager, "ServoRtc"); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends back a user's own structures, changed in each member.
 #include "SurveySkel.h"
+#include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>
@@ -83,30 +84,4 @@ class SurveyRtc : public RTC::DataFlowComponentBase {
     SurveyService surveyor_;
 };
 
-extern "C" void SurveyRtcInit(RTC::Manager* manager) {
-    static const char* const spec[] = {"implementation_id",
-                                       "SurveyRtc",
-                                       "type_name",
-                                       "SurveyRtc",
-                                       "description",
-                                       "test",
-                                       "version",
-                                       "1.0",
-                                       "vendor",
-                                       "Tandem",
-                                       "category",
-                                       "test",
-                                       "activity_type",
-                                       "PERIODIC",
-                                       "kind",
-                                       "DataFlowComponent",
-                                       "max_instance",
-                                       "0",
-                                       "language",
-                                       "C++",
-                                       "lang_type",
-                                       "compile",
-                                       ""};
-    coil::Properties profile(spec);
-    manager->registerFactory(profile, RTC::Create<SurveyRtc>, RTC::Delete<SurveyRtc>);
-}
+extern "C" void SurveyRtcInit(RTC::Manager* manager) { register_rtc<SurveyRtc>(manager, "SurveyRtc"); }

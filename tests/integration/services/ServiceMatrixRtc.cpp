@@ -2,6 +2,7 @@
 // Provides every operation of the matrix twice on one port, requires it on the same port, and calls what it requires
 // once somebody provides it.
 #include "MatrixSkel.h"
+#include "tests/integration/rtm/register_rtc.hpp"
 
 #include "cells.h"
 
@@ -201,17 +202,5 @@ class ServiceMatrixRtc : public RTC::DataFlowComponentBase {
 };
 
 extern "C" void ServiceMatrixRtcInit(RTC::Manager* manager) {
-    static const char* const spec[] = {"implementation_id",
-                                       "ServiceMatrixRtc",
-                                       "type_name",
-                                       "ServiceMatrixRtc",
-                                       "max_instance",
-                                       "0",
-                                       "language",
-                                       "C++",
-                                       "lang_type",
-                                       "compile",
-                                       ""};
-    coil::Properties profile(spec);
-    manager->registerFactory(profile, RTC::Create<ServiceMatrixRtc>, RTC::Delete<ServiceMatrixRtc>);
+    register_rtc<ServiceMatrixRtc>(manager, "ServiceMatrixRtc");
 }

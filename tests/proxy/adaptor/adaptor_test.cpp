@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // AdaptorComp, driven as a host drives it, against a peer that is only a link.
 #include "chair_service.hpp"
+#include "provided_port_connector.hpp"
 #include "proxy/adaptor/adaptor_comp.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/wire/time.hpp"
@@ -10,7 +11,6 @@
 #include <InputDataPort.h>
 #include <MethodInvokeException.h>
 #include <OutputDataPort.h>
-#include <ServicePortConnector.h>
 
 #include <fmt/format.h>
 
@@ -80,20 +80,6 @@ struct Peer : link::LinkHandler {
     std::vector<std::string> received;
     std::string refused; // guarded by mutex
     link::Link link;
-};
-
-/// Calls a dynamic provided port as the host's connector does.
-struct Connector : ServicePortConnector {
-    explicit Connector(ProvidedServicePort& port) : port(port) {}
-    ReturnType requestService(const std::string& name, std::vector<opros_params>& params,
-                              opros_params& result, int) override {
-        std::string method = name;
-        return port.callService(method, params, result);
-    }
-    ReturnType responseService(std::string&, std::string&, std::string&) override {
-        return OPROS_UNSUPPORTED_METHOD;
-    }
-    ProvidedServicePort& port;
 };
 
 struct Scene {
@@ -316,7 +302,7 @@ TEST_CASE("a required port calls the peer, and learns why a call failed") {
     Scene scene("required");
     auto& joystick = scene.port<ProvidedServicePort>("joystick");
     ChairRequired required;
-    Connector connector(joystick);
+    ProvidedPortConnector connector(joystick);
     for (auto at = required.getFirst(); at != required.getEnd(); ++at) {
         REQUIRE(joystick.bindMethod(at->second) == "");
         dynamic_cast<RequiredMethodInterface&>(*at->second).Connect(&connector);

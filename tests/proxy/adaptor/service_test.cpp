@@ -104,19 +104,6 @@ struct ArmProvided : ProvidedServicePort {
     }
 };
 
-struct Connector : ServicePortConnector {
-    explicit Connector(ProvidedServicePort& port) : port(port) {}
-    ReturnType requestService(const std::string& name, std::vector<opros_params>& params,
-                              opros_params& result, int) override {
-        std::string method = name;
-        return port.callService(method, params, result);
-    }
-    ReturnType responseService(std::string&, std::string&, std::string&) override {
-        return OPROS_UNSUPPORTED_METHOD;
-    }
-    ProvidedServicePort& port;
-};
-
 /// An OPRoS component's required port, connected to the mirror of what the other side of a link provides.
 struct Scene {
     explicit Scene(const std::string& what)
@@ -134,7 +121,7 @@ struct Scene {
     std::string name;
     std::unique_ptr<link::test::LinkSide> here, peer;
     adaptor::MirrorProvidedPort mirror;
-    Connector connector;
+    ProvidedPortConnector connector;
     ArmRequired required;
     std::map<std::string, std::string> refusals;
 };
