@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DCOMPILER=... -DSTANDARD=14 -DINCLUDE=dir (-DSOURCE=file | -DFOLDER=folder -DSCRATCH=file) -P compile.cmake
-# Compiles the source, or every header of the folder for itself, without a warning. FLAGS: further ones, with blanks
+# cmake -DCOMPILER=... -DSTANDARD=14 -DINCLUDE=dir (-DSOURCE=file | -DFOLDER=folder -DSCRATCH=file [-DEACH=ON])
+#   -P compile.cmake
+# Compiles the source without a warning, or the headers of the folder: all in alphabetical order, then all in the
+# reverse order, or with EACH every one by itself, which takes a minute for a folder. FLAGS: further ones, with blanks
 # between.
 separate_arguments(FLAGS)
 set(command ${COMPILER} -std=c++${STANDARD} -Wall -Wextra -Werror -fsyntax-only -I${INCLUDE} ${FLAGS})
@@ -17,8 +19,18 @@ else()
   if(NOT headers)
     message(FATAL_ERROR "no header in ${INCLUDE}/${FOLDER}")
   endif()
-  file(WRITE ${SCRATCH} "")
-  foreach(header ${headers})
-    compile(-include ${header} -x c++ ${SCRATCH})
+  if(EACH)
+    file(WRITE ${SCRATCH} "")
+    foreach(header ${headers})
+      compile(-include ${header} -x c++ ${SCRATCH})
+    endforeach()
+    return()
+  endif()
+  foreach(order ASCENDING DESCENDING)
+    list(SORT headers ORDER ${order})
+    list(TRANSFORM headers REPLACE "(.+)" "#include <\\1>\n" OUTPUT_VARIABLE includes)
+    list(JOIN includes "" text)
+    file(WRITE ${SCRATCH} "${text}")
+    compile(${SCRATCH})
   endforeach()
 endif()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends back what it receives, of each kind.
+#include "../rtm/register_rtc.hpp"
 #include "KindsSkel.h"
-#include "tests/integration/rtm/register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers each alarm with one of twice the level.
 #include "AlarmSkel.h"
-#include "tests/integration/rtm/register_rtc.hpp"
+#include "register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>

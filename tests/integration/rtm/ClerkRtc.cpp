@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Asks a dictionary in each cycle until it has an answer, then once about a word that it does not have.
 #include "DictionaryStub.h"
-#include "tests/integration/rtm/register_rtc.hpp"
+#include "register_rtc.hpp"
 
 #include <rtm/CorbaConsumer.h>
 #include <rtm/CorbaPort.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends back what it hears, and provides a dictionary.
 #include "DictionarySkel.h"
-#include "tests/integration/rtm/register_rtc.hpp"
+#include "register_rtc.hpp"
 
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>

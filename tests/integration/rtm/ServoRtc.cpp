@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends a number in each cycle; its parameter `fails` makes that fail.
-#include "tests/integration/rtm/register_rtc.hpp"
+#include "register_rtc.hpp"
 
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>

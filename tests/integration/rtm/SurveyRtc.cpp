@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends back a user's own structures, changed in each member.
 #include "SurveySkel.h"
-#include "tests/integration/rtm/register_rtc.hpp"
+#include "register_rtc.hpp"
 
 #include <rtm/CorbaPort.h>
 #include <rtm/DataFlowComponentBase.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Provides every operation of the matrix twice on one port, requires it on the same port, and calls what it requires
 // once somebody provides it.
+#include "../rtm/register_rtc.hpp"
 #include "MatrixSkel.h"
-#include "tests/integration/rtm/register_rtc.hpp"
 
 #include "cells.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The mirrors of service ports against a link whose other side is only a table and a function.
+#include "provided_port_connector.hpp"
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
