@@ -6,11 +6,21 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace tandem::command {
 
 /// Adds a sub-command. `brief`: its line in the parent's help; `details`: the text below its own options.
 CLI::App* add_command(CLI::App& parent, const char* name, const char* brief, const char* details);
+
+/// Adds --plugin-path: folders to search before the default ones.
+void add_plugin_path(CLI::App* command, std::vector<std::filesystem::path>& folders);
+
+/// Adds an option that takes a time between 0.1 s and an hour.
+void add_seconds(CLI::App* command, const char* name, double& seconds, const char* description);
+
+/// Adds --initialize, --timeout and --json of a command that creates components to see their ports.
+void add_inspection_options(CLI::App* command, bool& initialize, double& timeout_s, bool& json);
 
 /// Creates the folder parent/name with a component that builds, and returns the exit code.
 using CreateComponent = int (*)(const std::string& name, const std::filesystem::path& parent);

@@ -26,13 +26,7 @@ void add_profile(CLI::App& link, Action& selected) {
     command->add_option("--type", options->type, "component type, when the RTC's module has several")
         ->type_name("NAME");
     command->add_option("--link", options->link, "name of the link (as the folder)")->type_name("NAME");
-    command->add_flag(
-        "--initialize", options->initialize,
-        "run onInitialize() of the OPRoS component in a child process, for ports created there");
-    command->add_option("--timeout", options->timeout_s, "time limit for the components' code (10)")
-        ->type_name("SECONDS")
-        ->check(CLI::Range(0.1, 3600.));
-    command->add_flag("--json", options->json, "print JSON instead of text");
+    add_inspection_options(command, options->initialize, options->timeout_s, options->json);
     command->callback([=, &selected] { selected = [options] { return link_profile(*options); }; });
 }
 
@@ -45,16 +39,8 @@ void add_check(CLI::App& link, Action& selected) {
         "Signatures are those of docs/wire_format.md; of services, operations as each model writes them.\n"
         "Exit code 1 if a connection of the application cannot be made.");
     command->add_option("DIR", options->folder, "folder with opros/ and rtm/")->required();
-    command->add_option("--plugin-path", options->plugin_dirs, "folder with component libraries (repeatable)")
-        ->type_name("DIR")
-        ->allow_extra_args(false);
-    command->add_flag(
-        "--initialize", options->initialize,
-        "run onInitialize() of the OPRoS components in a child process, for ports created there");
-    command->add_option("--timeout", options->timeout_s, "time limit for the components' code (10)")
-        ->type_name("SECONDS")
-        ->check(CLI::Range(0.1, 3600.));
-    command->add_flag("--json", options->json, "print JSON instead of text");
+    add_plugin_path(command, options->plugin_dirs);
+    add_inspection_options(command, options->initialize, options->timeout_s, options->json);
     command->callback([=, &selected] { selected = [options] { return link_check(*options); }; });
 }
 

@@ -13,16 +13,8 @@ namespace {
 // `what` describes FILE, which is the only difference between the two commands.
 void add_inspect_options(CLI::App* command, InspectOptions& options, const char* what) {
     command->add_option("FILE", options.file, what)->required();
-    command->add_option("--plugin-path", options.plugin_dirs, "folder with component libraries (repeatable)")
-        ->type_name("DIR")
-        ->allow_extra_args(false);
-    command->add_flag(
-        "--initialize", options.initialize,
-        "run onInitialize() in the child process, for components that create their ports there");
-    command->add_option("--timeout", options.timeout_s, "time limit for the component's code (10)")
-        ->type_name("SECONDS")
-        ->check(CLI::Range(0.1, 3600.));
-    command->add_flag("--json", options.json, "print JSON instead of text");
+    add_plugin_path(command, options.plugin_dirs);
+    add_inspection_options(command, options.initialize, options.timeout_s, options.json);
 }
 
 // Folders of the command line come first, as in opros_host.

@@ -22,16 +22,10 @@ void add_run_command(CLI::App& tandem, Action& selected) {
     command->add_option("--restart", options->restart, "start each host that dies again, up to N times (0)")
         ->type_name("N")
         ->check(CLI::Range(0, 1000000));
-    command->add_option("--plugin-path", options->plugin_dirs, "folder with component libraries (repeatable)")
-        ->type_name("DIR")
-        ->allow_extra_args(false);
-    command->add_option("--wait", options->wait_s, "time limit for the hosts to become ready (60)")
-        ->type_name("SECONDS")
-        ->check(CLI::Range(0.1, 3600.));
-    command
-        ->add_option("--grace", options->grace_s, "time limit for the hosts' end; then they are killed (20)")
-        ->type_name("SECONDS")
-        ->check(CLI::Range(0.1, 3600.));
+    add_plugin_path(command, options->plugin_dirs);
+    add_seconds(command, "--wait", options->wait_s, "time limit for the hosts to become ready (60)");
+    add_seconds(command, "--grace", options->grace_s,
+                "time limit for the hosts' end; then they are killed (20)");
     auto* lockstep = command->add_flag(
         "--lockstep", options->lockstep,
         "run the cycles of all components one after the other, by their periods, as fast as they go");
