@@ -82,6 +82,7 @@ std::vector<std::string> PathTrace::functions() {
     std::stable_sort(sorted.begin(), sorted.end(),
                      [](const auto& a, const auto& b) { return a.second > b.second; });
     std::vector<std::string> out;
+    out.reserve(sorted.size());
     for (const auto& [function, count] : sorted) out.push_back(fmt::format("{:>5} {}", count, function));
     return out;
 }

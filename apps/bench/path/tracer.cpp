@@ -24,7 +24,8 @@ constexpr unsigned char int3 = 0xcc;
 
 /// Throws std::runtime_error; ptrace() fails only where it is not permitted, or when the process has been killed.
 void trace(__ptrace_request request, pid_t thread, std::uintptr_t data) {
-    if (ptrace(request, thread, nullptr, reinterpret_cast<void*>(data)) != 0)
+    auto* const pointer = reinterpret_cast<void*>(data); // NOLINT(performance-no-int-to-ptr)
+    if (ptrace(request, thread, nullptr, pointer) != 0)
         throw std::runtime_error(fmt::format("ptrace of thread {} failed: {}", thread, std::strerror(errno)));
 }
 
@@ -50,7 +51,8 @@ bool is_asleep(pid_t thread) {
 } // namespace
 
 std::size_t read_memory(pid_t process, std::uint64_t address, void* buffer, std::size_t bytes) {
-    const iovec local{buffer, bytes}, remote{reinterpret_cast<void*>(address), bytes};
+    auto* const there = reinterpret_cast<void*>(address); // NOLINT(performance-no-int-to-ptr)
+    const iovec local{buffer, bytes}, remote{there, bytes};
     const ssize_t got = process_vm_readv(process, &local, 1, &remote, 1, 0);
     return got < 0 ? 0 : static_cast<std::size_t>(got);
 }

@@ -60,6 +60,7 @@ std::string join(const Names& names) {
 fs::path select_module(const std::vector<fs::path>& modules, const fs::path& place) {
     if (modules.size() == 1) return fs::absolute(modules.front()).lexically_normal();
     std::vector<std::string> names;
+    names.reserve(modules.size());
     for (const auto& each : modules) names.push_back(each.string());
     throw std::runtime_error(place.string() + " has several RTC modules: " + join(names) +
                              "; name one of them in its place");

@@ -68,7 +68,7 @@ std::string settings_taken_over(const fs::path& conf, std::vector<std::string>& 
     settings.load(stream);
     std::string text;
     for (auto& key : settings.propertyNames()) {
-        const std::string value = settings.getProperty(key);
+        const auto& value = settings.getProperty(key);
         if (value.empty()) continue;
         if (key.ends_with(".config_file"))
             text += key + ": " + (conf.parent_path() / value).string() + "\n";
@@ -82,8 +82,8 @@ std::string settings_taken_over(const fs::path& conf, std::vector<std::string>& 
 
 } // namespace
 
-JoinFolder::JoinFolder(fs::path path, std::string link)
-    : path_(fs::absolute(std::move(path)).lexically_normal()), link_(std::move(link)) {
+JoinFolder::JoinFolder(const fs::path& path, std::string link)
+    : path_(fs::absolute(path).lexically_normal()), link_(std::move(link)) {
     if (path_.filename().empty()) path_ = path_.parent_path(); // it was written as DIR/
     std::error_code error;
     if (fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_, error)))

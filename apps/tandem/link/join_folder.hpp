@@ -18,7 +18,7 @@ constexpr char adaptor_name[] = "Adaptor";
 class JoinFolder {
   public:
     /// Throws std::runtime_error if the folder exists and is not empty, or cannot be made.
-    JoinFolder(std::filesystem::path path, std::string link);
+    JoinFolder(const std::filesystem::path& path, std::string link);
     ~JoinFolder();
     JoinFolder(const JoinFolder&) = delete;
     JoinFolder& operator=(const JoinFolder&) = delete;

@@ -46,7 +46,7 @@ void read_cmake_variables(const std::string& command, const Words& words, Variab
 
 // NAME or NAME=VALUE of an argument of add_definitions(), whose quotes of a string literal have been escaped for CMake
 // and for the shell; "" if it is another option.
-std::string to_definition(std::string word) {
+std::string to_definition(const std::string& word) {
     const auto unescaped = [](std::string text) {
         text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c == '"' || c == '\\'; }),
                    text.end());
