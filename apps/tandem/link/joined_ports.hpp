@@ -14,6 +14,7 @@
 namespace tandem::command {
 
 /// A component of the application: an OPRoS component, or the RTC that an AdaptorComp stands for.
+// NOLINTNEXTLINE(bugprone-exception-escape): the check takes the assertions of nlohmann's move constructor for throws
 struct JoinedComponent {
     engine::Subcomponent entry;
     nlohmann::json ports; ///< as describe_component() gives them, with a "signature" of what crosses the link
