@@ -41,14 +41,14 @@ bool Segment::superseded() const {
 
 RingHandle Segment::add_ring(const std::string& name, const RingOptions& options) {
     const RingMemory bytes = ring_memory(name, options);
-    return create_ring(
-        mapping_, directory_.add(name, layout::ObjectKind::ring, bytes.total, bytes.without_chunks), options);
+    return create_ring(mapping_, directory_.add(name, layout::ObjectKind::ring, bytes.total, bytes.idle),
+                       options);
 }
 
 CallQueueHandle Segment::add_call_queue(const std::string& name, const CallQueueOptions& options) {
-    const std::uint64_t bytes = call_queue_bytes(name, options);
-    return create_call_queue(mapping_, directory_.add(name, layout::ObjectKind::call_queue, bytes, bytes),
-                             options);
+    const CallQueueMemory bytes = call_queue_memory(name, options);
+    return create_call_queue(
+        mapping_, directory_.add(name, layout::ObjectKind::call_queue, bytes.total, bytes.idle), options);
 }
 
 std::span<std::byte> Segment::add_blob(const std::string& name, std::size_t bytes) {

@@ -18,8 +18,8 @@ struct JoinOptions {
     /// The same in the peer's arena, if this side creates the segment.
     std::size_t peer_chunk_pool_bytes = 0;
     /// If this side creates the segment: no memory of the arenas is reserved in advance (only whether there
-    /// is room for arena_bytes each is checked). An object gets its memory when it is added, a chunk when it
-    /// is first used.
+    /// is room for arena_bytes each is checked). An object gets its memory when it is added, but the records of a
+    /// ring, chunks, and what holds long calls get theirs when they are first used.
     bool sparse = false;
     std::uint64_t contract =
         0;             ///< version of the users' own agreement; a segment with another one is refused

@@ -17,7 +17,7 @@
 
 namespace tandem::shm {
 
-enum class CallStart { ok, overload, closed };
+enum class CallStart { ok, overload, closed, no_memory };
 
 /// [any-thread, any number at once] The calling end of a queue. A ticket is used by one thread.
 template <class A>
@@ -44,6 +44,10 @@ class CallCaller {
         const std::uint32_t slot = claim(preferred);
         if (slot == no_slot) return CallStart::overload;
         auto& own = slots_[slot];
+        if (!view_.prepare_overflow(slot, bytes, view_.argument_room, own.has_overflow)) {
+            release(slot, idle);
+            return CallStart::no_memory;
+        }
         auto& request = view_.slots[slot].request;
         own.sequence =
             own.sequence == call_sequence_mask ? 1 : own.sequence + 1; // 0 is a slot never replied to
@@ -145,6 +149,7 @@ class CallCaller {
     struct alignas(64) Slot {
         typename A::template Atomic<std::uint32_t> owner{idle}; // idle, claimed, or parked(sequence)
         std::uint64_t sequence = 0, calls = 0;                  // of the thread that has claimed it
+        bool has_overflow = false;                              // its buffer has memory
     };
 
     /// Goes round several times before it says that there is no slot, because while it looks, slots that it

@@ -90,6 +90,11 @@ CallStatus CallClient::State::begin(std::span<const std::byte> arguments, std::c
         return CallStatus::ok;
     case CallStart::closed:
         return CallStatus::shut_down;
+    case CallStart::no_memory:
+        return fail_with(CallStatus::overload,
+                         "arguments of " + std::to_string(arguments.size()) +
+                             " bytes find no memory in /dev/shm",
+                         results);
     case CallStart::overload:
         break;
     }

@@ -2,6 +2,7 @@
 #include "shm/call/call_queue.hpp"
 
 #include "shm/os/error.hpp"
+#include "shm/segment/segment_file.hpp"
 
 #include <new>
 
@@ -19,6 +20,15 @@ std::uint64_t overflow_size(std::uint64_t max_bytes) {
     return max_bytes > room ? round_up(max_bytes - room, layout::line_pair) : 0;
 }
 
+std::uint64_t without_overflow(std::uint32_t slots) {
+    return slots_offset + slots * sizeof(layout::CallSlot);
+}
+
+bool allocate_overflow(const CallView& queue, std::uint32_t slot) {
+    const std::uint64_t bytes = queue.overflow_cells * word_bytes;
+    return try_reserve(queue.file, queue.overflow_in_file + slot * bytes, bytes);
+}
+
 CallQueueHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                             const CallQueueOptions& options) {
     std::byte* at = memory.data();
@@ -26,14 +36,16 @@ CallQueueHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<st
     found.view.header = reinterpret_cast<layout::CallQueueHeader*>(at);
     found.times = reinterpret_cast<layout::CallTimes*>(at + sizeof(layout::CallQueueHeader));
     found.view.slots = reinterpret_cast<layout::CallSlot*>(at + slots_offset);
-    found.view.overflow =
-        reinterpret_cast<RealAtomics::Cell*>(at + slots_offset + options.slots * sizeof(layout::CallSlot));
+    found.view.overflow = reinterpret_cast<RealAtomics::Cell*>(at + without_overflow(options.slots));
     found.view.slot_count = options.slots;
     found.view.max_bytes = options.max_bytes;
     found.view.overflow_cells = overflow_size(options.max_bytes) / word_bytes;
     found.callers = options.callers;
     found.mapping = std::move(mapping);
-    found.mapping->touch(memory);
+    if (found.mapping->sparse()) found.view.allocate_overflow = allocate_overflow;
+    found.view.file = found.mapping->fd();
+    found.view.overflow_in_file = found.mapping->offset_in_file(at + without_overflow(options.slots));
+    found.mapping->touch(memory.first(without_overflow(options.slots)));
     return found;
 }
 
@@ -54,12 +66,12 @@ std::uint64_t call_queue_size(const CallQueueOptions& options) {
     return slots_offset + options.slots * (sizeof(layout::CallSlot) + overflow_size(options.max_bytes));
 }
 
-std::uint64_t call_queue_bytes(const std::string& name, const CallQueueOptions& options) {
+CallQueueMemory call_queue_memory(const std::string& name, const CallQueueOptions& options) {
     const std::uint64_t bytes = call_queue_size(options);
     if (bytes == 0)
         throw Error("call queue '" + name + "': 1 to " + std::to_string(max_slots) +
                     " slots and max_bytes up to 1 GiB expected");
-    return bytes;
+    return {bytes, without_overflow(options.slots)};
 }
 
 CallQueueHandle create_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,

@@ -65,8 +65,12 @@ std::uint64_t call_queue_size(const CallQueueOptions& options);
 
 // Used by Segment.
 
-/// call_queue_size(), but throws Error instead of returning 0.
-std::uint64_t call_queue_bytes(const std::string& name, const CallQueueOptions& options);
+/// Bytes that a call queue takes in an arena. idle: those that it needs before the first call whose arguments or
+/// results do not fit into a slot. Throws Error for options that no call queue can have.
+struct CallQueueMemory {
+    std::uint64_t total, idle;
+};
+CallQueueMemory call_queue_memory(const std::string& name, const CallQueueOptions& options);
 CallQueueHandle create_call_queue(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                                   const CallQueueOptions& options);
 /// Throws Error if the memory, which the peer may have written, does not hold a sound call queue.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/call/call_server_state.hpp"
 
+#include <string_view>
+
 namespace tandem::shm {
 
 std::optional<TakenCall> IncomingCall::State::take_runnable(bool& polling) {
@@ -52,6 +54,11 @@ void IncomingCall::State::answer(const TakenCall& call, CallStatus status, std::
     if (is_timed(call.word) && !measuring.exchange(true, std::memory_order_acquire)) {
         queue.times->service.add(now_ns() - call.taken_ns);
         measuring.store(false, std::memory_order_release);
+    }
+    constexpr std::string_view no_memory = "the results find no memory in /dev/shm";
+    if (!worker.has_memory(call, bytes.size())) {
+        status = CallStatus::exception;
+        bytes = std::as_bytes(std::span(no_memory));
     }
     if (worker.answer(call, static_cast<std::uint32_t>(status), bytes.data(), bytes.size()))
         queue.view.header->caller_wakes.fetch_add(1, std::memory_order_relaxed);

@@ -35,11 +35,21 @@ struct BasicCallView {
     std::uint32_t slot_count = 0;
     std::uint64_t max_bytes = 0;
     std::uint64_t overflow_cells = 0; ///< of each buffer
+    /// In a sparse segment: gives a slot's buffer memory. False: /dev/shm has none left.
+    bool (*allocate_overflow)(const BasicCallView&, std::uint32_t slot) = nullptr;
+    int file = -1;
+    std::uint64_t overflow_in_file = 0; ///< offset of the first buffer in the segment's file
 
     static constexpr std::size_t line = 64;
     static constexpr std::size_t argument_room = 11 * word_bytes; ///< in the slot itself
     static constexpr std::size_t result_room = 14 * word_bytes;
 
+    /// Whether the slot's buffer has memory for what the slot has no room for. `has_memory`: of that slot, as the calling
+    /// side knows it.
+    bool prepare_overflow(std::uint32_t slot, std::size_t bytes, std::size_t room, bool& has_memory) const {
+        if (bytes <= room || has_memory || allocate_overflow == nullptr) return true;
+        return has_memory = allocate_overflow(*this, slot);
+    }
     typename A::Cell* overflow_of(std::uint32_t slot) const { return overflow + slot * overflow_cells; }
 
     // Request the second line of a request or reply, which is written before the first one: a worker does so

@@ -15,6 +15,7 @@
 #include "shm/wait/sleep_until.hpp"
 
 #include <climits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,7 +27,8 @@ class CallWorker {
   public:
     explicit CallWorker(const BasicCallView<A>& view)
         : view_(view), words_per_slot_(round_up(view.max_bytes, word_bytes) / word_bytes),
-          copies_(words_per_slot_ * view.slot_count), busy_(view.slot_count) {}
+          copies_(std::make_unique_for_overwrite<std::uint64_t[]>(words_per_slot_ * view.slot_count)),
+          busy_(view.slot_count), slots_(view.slot_count) {}
 
     /// Takes the call that waits longest, to be answered. `polling`: this worker is the one that polls; when
     /// it has got a call, it no longer is.
@@ -60,6 +62,11 @@ class CallWorker {
             busy_[slot].store(0, std::memory_order_release);
         }
         return std::nullopt;
+    }
+
+    /// Whether there is memory for results of that length.
+    bool has_memory(const TakenCall& taken, std::size_t bytes) {
+        return view_.prepare_overflow(taken.slot, bytes, view_.result_room, slots_[taken.slot].has_overflow);
     }
 
     /// Ends a call that was taken. True: that took a system call.
@@ -203,8 +210,14 @@ class CallWorker {
 
     BasicCallView<A> view_;
     std::size_t words_per_slot_;
-    std::vector<std::uint64_t> copies_;
+    /// What this process knows of a slot, for the worker that is in it.
+    struct Slot {
+        bool has_overflow = false; // its buffer has memory
+    };
+
+    std::unique_ptr<std::uint64_t[]> copies_;                      // takes no memory before it is used
     std::vector<typename A::template Atomic<std::uint32_t>> busy_; // 1 = a worker is in the slot
+    std::vector<Slot> slots_;
     typename A::template Atomic<std::uint32_t> has_poller_{0}, waits_ended_{0};
 };
 

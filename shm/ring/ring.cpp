@@ -37,7 +37,8 @@ struct Sizes {
         const std::uint64_t without_chunks = chunk_words_offset() + chunks * sizeof(layout::ChunkWords);
         // One page more than the chunks need, so that they can begin at a page wherever the ring lies.
         const std::uint64_t chunk_pages = chunks == 0 ? 0 : chunks * chunk_bytes + layout::page;
-        return {without_chunks + chunk_pages, without_chunks};
+        // Readers look at the first line only, until there is a record.
+        return {without_chunks + chunk_pages, without_chunks, sizeof(layout::RingHeader) + layout::line};
     }
 };
 
@@ -57,11 +58,16 @@ Sizes sizes_of(const std::string& name, const RingOptions& options) {
 }
 
 /// Also makes the pages now, rather than one by one by page faults while the payload is written.
-bool allocate_chunk(const RingView<RealAtomics>& ring, std::uint32_t chunk, std::uint64_t bytes) {
-    if (!try_reserve(ring.file, ring.chunks_in_file + chunk * ring.chunk_bytes, bytes)) return false;
-    madvise(ring.chunk(chunk), bytes,
+bool allocate(int file, std::uint64_t offset, std::byte* memory, std::uint64_t bytes) {
+    if (!try_reserve(file, offset, bytes)) return false;
+    const std::uint64_t before = reinterpret_cast<std::uintptr_t>(memory) % layout::page;
+    madvise(memory - before, before + bytes,
             MADV_POPULATE_WRITE); // kernels before 5.14 refuse, and make them one by one
     return true;
+}
+
+bool allocate_chunk(const RingView<RealAtomics>& ring, std::uint32_t chunk, std::uint64_t bytes) {
+    return allocate(ring.file, ring.chunks_in_file + chunk * ring.chunk_bytes, ring.chunk(chunk), bytes);
 }
 
 RingHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
@@ -83,7 +89,7 @@ RingHandle make_handle(std::shared_ptr<const Mapping> mapping, std::span<std::by
         view.file = mapping->fd();
         view.chunks_in_file = mapping->offset_in_file(view.chunks);
     }
-    mapping->touch(memory.first(sizes.memory().without_chunks));
+    mapping->touch(memory.first(sizes.memory().idle));
     return {std::move(mapping), view, static_cast<Side>(sizes.writer)};
 }
 
@@ -113,6 +119,14 @@ RingHandle open_ring(std::shared_ptr<const Mapping> mapping, std::span<std::byte
     if (!sizes.valid() || memory.size() != sizes.memory().total)
         throw Error(mapping->path() + ": ring '" + name + "' is damaged; restart the side that made it");
     return make_handle(std::move(mapping), memory, sizes);
+}
+
+bool give_memory(const RingHandle& ring) {
+    const auto& view = ring.view;
+    auto* begin = reinterpret_cast<std::byte*>(view.shared);
+    const Sizes sizes{view.capacity, view.max_record, view.chunk_bytes, view.chunk_count, 0};
+    return allocate(ring.mapping->fd(), ring.mapping->offset_in_file(begin), begin,
+                    sizes.memory().without_chunks);
 }
 
 RingCounters read_counters(const RingHandle& ring) {

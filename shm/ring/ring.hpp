@@ -49,12 +49,15 @@ RingCounters read_counters(const RingHandle& ring); ///< [any-process] Costs the
 
 // Used by Segment.
 
-/// Bytes that a ring takes in an arena; without_chunks: those that are used from the start. Throws Error for
-/// options that no ring can have.
+/// Bytes that a ring takes in an arena. without_chunks: those of the header and the records. idle: those that it
+/// needs before the first message. Throws Error for options that no ring can have.
 struct RingMemory {
-    std::uint64_t total, without_chunks;
+    std::uint64_t total, without_chunks, idle;
 };
 RingMemory ring_memory(const std::string& name, const RingOptions& options);
+
+/// In a sparse segment, before the first message: gives the records their memory. False: /dev/shm has none left.
+bool give_memory(const RingHandle& ring);
 
 RingHandle create_ring(std::shared_ptr<const Mapping> mapping, std::span<std::byte> memory,
                        const RingOptions& options);

@@ -14,9 +14,9 @@
 #include "shm/ring/record_parser.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace tandem::shm {
 
@@ -77,16 +77,16 @@ class alignas(layout::line_pair) RingConsumer {
     std::uint64_t received_, bytes_;
     mutable ReaderBackoff<A> backoff_;
     ChunkLease<A> lease_;
-    std::vector<std::uint64_t> scratch_;
-    std::uint64_t skipped_; // from here on rarely needed
+    std::unique_ptr<std::uint64_t[]> scratch_; // takes no memory before it is used
+    std::uint64_t skipped_;                    // from here on rarely needed
     std::uint64_t stamp_ = 0;
     ChunkReference reference_{};
 };
 
 template <class A>
 RingConsumer<A>::RingConsumer(const RingView<A>& ring)
-    : ring_(ring),
-      scratch_(std::max(round_up(ring.max_record, word_bytes), first_line_payload) / word_bytes) {
+    : ring_(ring), scratch_(std::make_unique_for_overwrite<std::uint64_t[]>(
+                       std::max(round_up(ring.max_record, word_bytes), first_line_payload) / word_bytes)) {
     auto& shared = *ring_.shared;
     position_ = shared.tail.load(std::memory_order_acquire);
     received_ = shared.received.load(std::memory_order_relaxed);
@@ -125,15 +125,15 @@ inline std::optional<Record> RingConsumer<A>::read_next(std::uint64_t word, bool
     if (newest && A::load(*ring_.cell(end), std::memory_order_acquire) != 0) return read_slowly(newest);
     // Always the whole first line: a copy of fixed length is quicker, and scratch_ has room for it.
     const auto* cells = ring_.cell(position_);
-    A::copy_atomic_from_shared(scratch_.data(), cells + 2, first_line_payload);
+    A::copy_atomic_from_shared(scratch_.get(), cells + 2, first_line_payload);
     if (length > first_line_payload)
-        A::copy_atomic_from_shared(scratch_.data() + first_line_payload / word_bytes, cells + 8,
+        A::copy_atomic_from_shared(scratch_.get() + first_line_payload / word_bytes, cells + 8,
                                    length - first_line_payload);
     const std::uint64_t stamp = A::load(*(cells + 1), std::memory_order_acquire);
     std::uint64_t from = position_;
     if (!move_tail(from, end)) return read_slowly(newest);
     count(sequence_ + 1, length);
-    return Record{{reinterpret_cast<const std::byte*>(scratch_.data()), length}, sequence_, stamp};
+    return Record{{reinterpret_cast<const std::byte*>(scratch_.get()), length}, sequence_, stamp};
 }
 
 template <class A>
@@ -179,7 +179,7 @@ template <class A>
 bool RingConsumer<A>::copy_payload(const ParsedRecord& parsed) {
     const auto* payload = ring_.cell(parsed.start + layout::record_header);
     const bool in_chunk = parsed.commit.kind == layout::RecordKind::chunk;
-    void* to = in_chunk ? static_cast<void*>(&reference_) : scratch_.data();
+    void* to = in_chunk ? static_cast<void*>(&reference_) : scratch_.get();
     A::copy_atomic_from_shared(to, payload, parsed.commit.length);
     stamp_ = A::load(*ring_.cell(parsed.start + word_bytes), std::memory_order_acquire);
     return !in_chunk || (reference_.chunk < ring_.chunk_count && reference_.bytes <= ring_.chunk_bytes);
@@ -225,7 +225,7 @@ Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequen
     if (skipped != 0) ChunkLease<A>::give_back_skipped(ring_, sequence);
     if (in_chunk) lease_.take(ring_, reference_.chunk, sequence);
     const std::byte* bytes = in_chunk ? ring_.chunk(static_cast<std::uint32_t>(reference_.chunk))
-                                      : reinterpret_cast<const std::byte*>(scratch_.data());
+                                      : reinterpret_cast<const std::byte*>(scratch_.get());
     const std::size_t length = in_chunk ? reference_.bytes : parsed.commit.length;
     skipped_ += skipped;
     ring_.shared->skipped.store(skipped_, std::memory_order_relaxed);

@@ -3,6 +3,7 @@
 
 #include "shm/os/error.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace tandem::shm {
@@ -11,15 +12,17 @@ template class RingProducer<RealAtomics>;
 
 namespace {
 
-std::vector<std::uint64_t> scratch_for(const RingView<RealAtomics>& ring) {
+/// Not filled, so that it takes no memory before it is used.
+std::unique_ptr<std::uint64_t[]> scratch_for(const RingView<RealAtomics>& ring) {
     const std::size_t words = round_up(ring.max_record, word_bytes) / word_bytes;
-    return std::vector<std::uint64_t>(std::max<std::size_t>(words, 1)); // never empty: data() is not nullptr
+    return std::make_unique_for_overwrite<std::uint64_t[]>(std::max<std::size_t>(words, 1));
 }
 
 } // namespace
 
 RingWriter::RingWriter(RingHandle ring)
-    : ring_(std::move(ring)), producer_(ring_.view), scratch_(scratch_for(ring_.view)) {
+    : ring_(std::move(ring)), producer_(ring_.view), scratch_(scratch_for(ring_.view)),
+      has_memory_(!ring_.mapping->sparse()) {
     const std::string& path = ring_.mapping->path();
     if (ring_.writer != ring_.mapping->side())
         throw Error(path + ": a ring written by side " + name_of(ring_.writer) +
@@ -32,13 +35,19 @@ RingWriter::RingWriter(RingHandle ring)
                     ": a ring with chunks takes one writer in its life; leave the segment and join again");
 }
 
+bool RingWriter::take_memory() { return has_memory_ = give_memory(ring_); }
+
 std::span<std::byte> RingWriter::reserve(std::size_t bytes) {
+    if (!has_memory_ && !take_memory()) {
+        producer_.refuse();
+        return {};
+    }
     using Reservation = RingProducer<RealAtomics>::Reservation;
     switch (producer_.reserve(bytes)) {
     case Reservation::chunk:
         return {producer_.chunk(), bytes};
     case Reservation::scratch:
-        return {reinterpret_cast<std::byte*>(scratch_.data()), bytes};
+        return {reinterpret_cast<std::byte*>(scratch_.get()), bytes};
     case Reservation::refused:
         break;
     }
@@ -48,7 +57,7 @@ std::span<std::byte> RingWriter::reserve(std::size_t bytes) {
 bool RingWriter::commit(std::size_t used, std::uint64_t stamp_ns) {
     if (!producer_.is_open() || used > producer_.reserved_bytes())
         throw std::logic_error("RingWriter::commit: more than was reserved");
-    return producer_.commit(scratch_.data(), used, stamp_ns);
+    return producer_.commit(scratch_.get(), used, stamp_ns);
 }
 
 } // namespace tandem::shm

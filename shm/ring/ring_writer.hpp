@@ -3,14 +3,14 @@
 #include "shm/ring/ring.hpp"
 #include "shm/ring/ring_producer.hpp"
 
-#include <vector>
+#include <memory>
 
 namespace tandem::shm {
 
 extern template class RingProducer<RealAtomics>;
 
-/// [one thread] The writing end of a ring. Allocates nothing and makes no system call, but for the first use
-/// of a chunk in a sparse segment. It does not ring the doorbell: the user does, once after a batch.
+/// [one thread] The writing end of a ring. Allocates nothing and makes no system call, but for the first message
+/// and the first use of a chunk in a sparse segment. It does not ring the doorbell: the user does, once after a batch.
 class RingWriter {
   public:
     /// Throws Error if this side is not the ring's writer, the ring is damaged, or it has chunks and another
@@ -31,6 +31,7 @@ class RingWriter {
 
     /// reserve(), copy, commit(). False: dropped.
     bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
+        if (!has_memory_ && !take_memory()) return producer_.refuse();
         return producer_.write(bytes.data(), bytes.size(), stamp_ns);
     }
 
@@ -41,9 +42,13 @@ class RingWriter {
     RingCounters counters() const { return read_counters(ring_); }
 
   private:
+    bool take_memory();
+
     RingHandle ring_;
     RingProducer<RealAtomics> producer_;
-    std::vector<std::uint64_t> scratch_; // payloads up to max_record are made here, see ring_producer.hpp
+    std::unique_ptr<std::uint64_t[]>
+        scratch_;     // payloads up to max_record are made here, see ring_producer.hpp
+    bool has_memory_; // the ring's data; in a sparse segment from the first message on
 };
 
 } // namespace tandem::shm

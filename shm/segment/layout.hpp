@@ -19,7 +19,8 @@
 //        | arena of second           |
 //        +---------------------------+  total_bytes = size of the file
 //
-// Memory is reserved and touched at creation; in a sparse segment, when an object is added or a chunk first used.
+// Memory is reserved and touched at creation. In a sparse segment, an object's header when it is added, the records of a
+// ring with the first message, a chunk and a call's overflow buffer when they are first used.
 //
 // Bytes 0 to 2 of the file serve as locks (liveness.hpp); their values mean nothing.
 //

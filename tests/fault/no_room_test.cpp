@@ -2,6 +2,8 @@
 // A /dev/shm that is too small, and a user to whom a segment does not belong.
 #include "../shm/fixture.hpp"
 #include "../shm/small_shm.hpp"
+#include "shm/call/call_client.hpp"
+#include "shm/call/call_server.hpp"
 
 #include <sys/resource.h>
 
@@ -68,6 +70,71 @@ TEST_CASE(
         const auto counters = writer.counters();
         if (counters.sent != 3 || counters.refused != 2 || counters.received != 1) return 3;
         return sent(fits) && text_of(reader.read()->bytes) == fits && !sent(not_at_all) ? 0 : 4;
+    });
+    const int result = child.wait();
+    if (result == not_permitted)
+        WARN("skipped: this process may not mount a file system of its own");
+    else
+        CHECK(result == 0);
+}
+
+TEST_CASE(
+    "a ring of a sparse segment takes memory with its first message, which is refused if there is none") {
+    Child child([&] {
+        if (!enter_small_shm()) return not_permitted;
+        JoinOptions options = small(64 * 1024);
+        options.sparse = true;
+        Link link;
+        options.chunk_pool_bytes = std::size_t{4} << 20;
+        const auto first = join(link, Side::first, options);
+        options.chunk_pool_bytes = 0;
+        const auto second = join(link, Side::second, options);
+        RingWriter large(first->add_ring("large", {.max_record = 1000, .capacity = std::size_t{2} << 20}));
+        RingWriter fits(first->add_ring("fits", {.max_record = 1000, .capacity = 64 * 1024}));
+        first->publish();
+        RingReader large_reader(*second->find_ring(Side::first, "large"));
+        RingReader fits_reader(*second->find_ring(Side::first, "fits"));
+        const auto sent = [](RingWriter& writer) { return writer.write(bytes_of("message"), 0); };
+        if (sent(large) || large.reserve(10).data() != nullptr || large_reader.read()) return 1;
+        const auto counters = large.counters();
+        if (counters.sent != 2 || counters.refused != 2) return 2;
+        return sent(fits) && text_of(fits_reader.read()->bytes) == "message" ? 0 : 3;
+    });
+    const int result = child.wait();
+    if (result == not_permitted)
+        WARN("skipped: this process may not mount a file system of its own");
+    else
+        CHECK(result == 0);
+}
+
+TEST_CASE(
+    "a call queue of a sparse segment takes memory with its first long call, which fails if there is none") {
+    Child child([&] {
+        if (!enter_small_shm()) return not_permitted;
+        JoinOptions options = small(64 * 1024);
+        options.sparse = true;
+        Link link;
+        options.peer_chunk_pool_bytes = std::size_t{8} << 20;
+        const auto first = join(link, Side::first, options);
+        options.peer_chunk_pool_bytes = 0;
+        options.chunk_pool_bytes = std::size_t{8} << 20;
+        const auto second = join(link, Side::second, options);
+        CallServer server(second->add_call_queue(
+            "q", {.callers = Side::first, .slots = 2, .max_bytes = std::size_t{3} << 20}));
+        second->publish();
+        CallClient client(*first->find_call_queue(Side::second, "q"));
+        const std::string long_text(1000, 'a');
+        if (const Reply reply = client.call(bytes_of(long_text), 1s);
+            reply.status != CallStatus::overload ||
+            reply.text() != "arguments of 1000 bytes find no memory in /dev/shm")
+            return 1;
+        std::thread worker([&] { server.take(10s)->reply(CallStatus::ok, long_text); });
+        const Reply reply = client.call(bytes_of("short"), 10s);
+        worker.join();
+        return reply.status == CallStatus::exception &&
+                       reply.text() == "the results find no memory in /dev/shm"
+                   ? 0
+                   : 2;
     });
     const int result = child.wait();
     if (result == not_permitted)

@@ -32,7 +32,8 @@ std::shared_ptr<LinkSession> SessionJoiner::join() const {
     const auto table = encode(own_ports_);
     shm::CallQueueOptions queue;
     queue.callers = shm::other(side_);
-    const std::size_t needed = plan.object_bytes + object_bytes(shm::call_queue_bytes(calls_name, queue)) +
+    const std::size_t needed = plan.object_bytes +
+                               object_bytes(shm::call_queue_memory(calls_name, queue).total) +
                                object_bytes(table.size()) + object_bytes(sizeof(LargeMessageLimits));
 
     shm::JoinOptions join_options;
