@@ -126,8 +126,10 @@ std::string PeerSupervisor::bind_to_peer(LinkSession& session) {
 
 void PeerSupervisor::disconnect(const std::string& reason) {
     const bool was_up = state_.end_session();
-    if (was_up && !reason.empty()) spdlog::warn("link '{}' is down: {}", options_.name, reason);
-    channels_.unbind_all();
+    const std::uint64_t unread = channels_.unbind_all();
+    if (was_up && !reason.empty())
+        spdlog::warn("link '{}' is down: {}{}", options_.name, reason,
+                     unread == 0 ? "" : fmt::format("; {} messages under way are lost", unread));
     if (!was_up || state_.is_closing()) return; // whoever closes the link knows that it goes down
     handler_.link_state_changed(false);
     tasks_.post([this] { handler_.peer_disconnected(); });

@@ -109,10 +109,12 @@ void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter 
     send_last_again();
 }
 
-void ChannelWriter::unbind() {
+std::uint64_t ChannelWriter::unbind() {
     const std::lock_guard lock(mutex_);
+    const std::uint64_t unread = bound_ ? bound_->ring.counters().waiting() : 0;
     bound_.reset();
     set_peer_listens(false);
+    return unread;
 }
 
 // ---- ChannelReader
@@ -170,9 +172,11 @@ void ChannelReader::bind(std::shared_ptr<shm::Segment> segment, shm::RingReader 
     silent_ = false;
 }
 
-void ChannelReader::unbind() {
+std::uint64_t ChannelReader::unbind() {
     const std::lock_guard lock(mutex_);
+    const std::uint64_t unread = bound_ ? bound_->ring.counters().waiting() : 0;
     bound_.reset();
+    return unread;
 }
 
 } // namespace tandem::link

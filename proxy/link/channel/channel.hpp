@@ -99,7 +99,8 @@ class ChannelWriter {
     void set_peer_listens(bool listens) { peer_listens_.store(listens, std::memory_order_relaxed); }
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingWriter);
-    void unbind();
+    /// Returns how many messages lie in the ring, which the peer has not read.
+    std::uint64_t unbind();
 
   private:
     bool publish(std::span<const std::byte> message, std::uint64_t stamp);
@@ -157,7 +158,8 @@ class ChannelReader {
     std::chrono::milliseconds deadline() const;
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingReader);
-    void unbind();
+    /// Returns how many messages lie in the ring, which nobody will read.
+    std::uint64_t unbind();
 
   private:
     mutable rt::ShortMutex mutex_;

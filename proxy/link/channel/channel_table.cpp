@@ -36,10 +36,12 @@ void ChannelTable::bind(const std::shared_ptr<shm::Segment>& segment, const Port
     }
 }
 
-void ChannelTable::unbind_all() {
+std::uint64_t ChannelTable::unbind_all() {
     const std::lock_guard lock(mutex_);
-    for (auto& [name, writer] : writers_) writer.unbind();
-    for (auto& [name, reader] : readers_) reader.unbind();
+    std::uint64_t unread = 0;
+    for (auto& [name, writer] : writers_) unread += writer.unbind();
+    for (auto& [name, reader] : readers_) unread += reader.unbind();
+    return unread;
 }
 
 void ChannelTable::check_deadlines() {

@@ -22,7 +22,8 @@ class ChannelTable {
     /// whose ports they are, and which created the rings. Throws LinkError if a port has no ring, shm::Error
     /// if a ring is damaged; channels that were bound before stay bound until unbind_all().
     void bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports, shm::Side owner);
-    void unbind_all();
+    /// Returns how many messages were under way, which nobody will read.
+    std::uint64_t unbind_all();
 
     /// Logs each port whose sender has been silent for longer than its deadline, once for each silence.
     void check_deadlines();
