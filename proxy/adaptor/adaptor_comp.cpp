@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <thread>
 
 namespace tandem::adaptor {
 namespace control = link::control;
@@ -102,22 +103,35 @@ void AdaptorComp::create_link() {
 }
 
 ReturnType AdaptorComp::onStart() {
-    try {
-        link_->wait_until_up(settings_.wait, peer_name);
-    } catch (const link::LinkError& error) {
-        spdlog::error("{}: {}", getId(), error.what());
-        return OPROS_CALL_API_ERROR;
-    }
     if (const std::string refused = first_refusal(); settings_.strict && !refused.empty()) {
         spdlog::error("{}: strict: {}", getId(), refused);
         return OPROS_CALL_API_ERROR;
     }
     rtc_failed_ = false;
-    const auto code = drive_rtc(control::activate);
+    bool activated = false;
+    try {
+        activated = activate_rtc() == CallStatus::ok;
+    } catch (const link::LinkError& error) {
+        spdlog::error("{}: {}", getId(), error.what());
+    }
     // The RTC may have gone to ERROR between its activation and this line; the report came to serve().
-    started_ = code == OPROS_SUCCESS && !rtc_failed_;
+    started_ = activated && !rtc_failed_;
     publish_link_state();
-    return started_ || code != OPROS_SUCCESS ? code : OPROS_CALL_API_ERROR;
+    return started_ ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
+}
+
+/// Activates the RTC of whichever peer is there: one that goes meanwhile is waited for as one that has not come. Throws
+/// LinkError if none comes.
+CallStatus AdaptorComp::activate_rtc() {
+    const auto deadline = std::chrono::steady_clock::now() + settings_.wait;
+    for (;;) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+            deadline - std::chrono::steady_clock::now());
+        link_->wait_until_up(std::max(left, 0ms), peer_name);
+        const auto status = drive_rtc(control::activate);
+        if (!peer_has_gone(status) || left <= 0ms) return status;
+        std::this_thread::sleep_for(1ms); // until the link knows, too
+    }
 }
 
 /// Why the first connection that was refused was refused; empty if there is none.
@@ -132,11 +146,14 @@ std::string AdaptorComp::first_refusal() const {
 ReturnType AdaptorComp::onStop() {
     started_ = false;
     // A peer that has gone, or goes meanwhile because both hosts are ended at once, has nothing left to deactivate.
-    return link_->is_up() ? drive_rtc(control::deactivate) : OPROS_SUCCESS;
+    const auto status = link_->is_up() ? drive_rtc(control::deactivate) : CallStatus::ok;
+    return status == CallStatus::ok || peer_has_gone(status) ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
 }
 
-ReturnType AdaptorComp::onReset() { return drive_rtc(control::reset); }
-ReturnType AdaptorComp::onRecover() { return drive_rtc(control::reset); }
+ReturnType AdaptorComp::onReset() { return onRecover(); }
+ReturnType AdaptorComp::onRecover() {
+    return drive_rtc(control::reset) == CallStatus::ok ? OPROS_SUCCESS : OPROS_CALL_API_ERROR;
+}
 
 ReturnType AdaptorComp::onError() {
     started_ = false;
@@ -256,9 +273,12 @@ void AdaptorComp::peer_connected() {
     shared_->peer_connected();
     if (!started_) return;
     spdlog::info("{}: link '{}' is up again", getId(), settings_.link);
-    for (int attempt = 0; attempt < activation_attempts && started_ && link_->is_up(); ++attempt)
-        if (drive_rtc(control::activate) == OPROS_SUCCESS) return;
-    // If the link went down meanwhile, the next peer gets the same attempts.
+    for (int attempt = 0; attempt < activation_attempts && started_ && link_->is_up(); ++attempt) {
+        const auto status = drive_rtc(control::activate);
+        // A peer that has gone again is no failure, even while the link does not know yet: the next one gets the same
+        // attempts.
+        if (status == CallStatus::ok || peer_has_gone(status)) return;
+    }
     if (link_->is_up() && started_.exchange(false)) stopOnError();
 }
 
@@ -306,33 +326,31 @@ Reply AdaptorComp::send_command(std::string_view command, std::span<const std::b
     return link_->call({"", command, "", arguments}, timeout_of(command));
 }
 
-/// Tells the peer which operations are provided here for the services that the RTC requires. Returns an empty
-/// string or why the peer could not be told. A service that the peer refuses is left out, unless the user is strict.
-std::string AdaptorComp::publish_bindings() {
+/// Tells the peer which operations are provided here for the services that the RTC requires. Returns the failure if
+/// the peer could not be told. A service that the peer refuses is left out, unless the user is strict.
+Reply AdaptorComp::publish_bindings() {
     for (const auto* port : required_) {
         const auto reply = send_command(
             control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
         if (reply.status == CallStatus::ok) continue;
-        const std::string error = describe_failure(reply, settings_.call_timeout);
-        if (settings_.strict || reply.status != CallStatus::exception) return error;
-        spdlog::error("{}: {}; this service is left out, the others work", getId(), error);
+        if (settings_.strict || reply.status != CallStatus::exception) return reply;
+        spdlog::error("{}: {}; this service is left out, the others work", getId(),
+                      describe_failure(reply, settings_.call_timeout));
     }
-    return "";
+    return {};
 }
 
-/// Executes a life-cycle command on the RTC; logs one line if that fails.
-ReturnType AdaptorComp::drive_rtc(std::string_view command) {
+/// Executes a life-cycle command on the RTC; logs one line if that fails, unless the peer has gone, of which the link tells.
+CallStatus AdaptorComp::drive_rtc(std::string_view command) {
     // The RTC may call a service from its onActivated on, so the operations must be known before.
-    std::string error = command == control::activate ? publish_bindings() : "";
-    if (error.empty()) {
-        const auto reply = send_command(command);
-        if (reply.status == CallStatus::ok) return OPROS_SUCCESS;
-        if (command == control::deactivate && peer_has_gone(reply.status)) return OPROS_SUCCESS;
-        error = describe_failure(reply, timeout_of(command));
-    }
-    spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
-                  peer_ports_.component_names(), error);
-    return OPROS_CALL_API_ERROR;
+    Reply reply = command == control::activate ? publish_bindings() : Reply{};
+    const bool bound = reply.status == CallStatus::ok;
+    if (bound) reply = send_command(command);
+    if (reply.status != CallStatus::ok && (command == control::reset || !peer_has_gone(reply.status)))
+        spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
+                      peer_ports_.component_names(),
+                      describe_failure(reply, bound ? timeout_of(command) : settings_.call_timeout));
+    return reply.status;
 }
 
 /// Called by a MirrorOutPort under the lock of the input port that is connected with it: does not wait.

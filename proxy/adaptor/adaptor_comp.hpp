@@ -66,11 +66,12 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     link::PortPolicy policy_of(const std::string& port) const;
     MirrorRequiredPort* find_required_port(std::string_view name);
 
-    ReturnType drive_rtc(std::string_view command);
+    link::CallStatus drive_rtc(std::string_view command);
+    link::CallStatus activate_rtc();
     link::Reply send_command(std::string_view command, std::span<const std::byte> arguments = {});
     std::chrono::milliseconds timeout_of(std::string_view command) const;
-    /// Returns why the peer refused the operations, in one line; empty when it accepted them.
-    std::string publish_bindings();
+    /// Returns the failure if the peer refused the operations.
+    link::Reply publish_bindings();
     void listen_to(const std::string& port, DataPortListener* listener);
     void publish_listened_ports();
     void publish_link_state();

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <thread>
 #include <unistd.h>
 
@@ -29,8 +30,10 @@ constexpr auto soon = 10s;
 
 /// The other side without RTM: records what it receives.
 struct Peer : link::LinkHandler {
-    explicit Peer(const std::string& name)
-        : link(shm::Side::second, {name},
+    /// `activation`: how it answers to "activate".
+    explicit Peer(const std::string& name, CallStatus activation = CallStatus::ok)
+        : activation_status(activation),
+          link(shm::Side::second, {name},
                {{{"Joystick0"}},
                 {{PortKind::data_out, "reference", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
                  {PortKind::data_in, "position", "IDL:RTC/TimedDoubleSeq:1.0", "(uu)ad", "", {}},
@@ -52,6 +55,8 @@ struct Peer : link::LinkHandler {
     Reply serve(const link::Request& request) override {
         const std::lock_guard lock(mutex);
         received.push_back(std::string(request.port) + "." + std::string(request.operation));
+        if (request.operation == link::control::activate && activation_status != CallStatus::ok)
+            return Reply::failure(activation_status, "");
         if (request.operation == refused) return Reply::failure(CallStatus::exception, "onActivated failed");
         if (request.operation == link::control::listen) {
             const auto names = link::control::decode_port_names(request.arguments);
@@ -79,6 +84,7 @@ struct Peer : link::LinkHandler {
     std::mutex mutex;
     std::vector<std::string> received;
     std::string refused; // guarded by mutex
+    const CallStatus activation_status;
     link::Link link;
 };
 
@@ -369,6 +375,22 @@ TEST_CASE("an RTC in ERROR puts the adaptor in ERROR") {
     scene.peer.link.call(
         {"", link::control::failed, "", link::control::encode_string("RTC 'Joystick0' went to ERROR")}, soon);
     CHECK(eventually([&] { return scene.component.getStatus() == OPROS_CS_ERROR; }));
+}
+
+TEST_CASE("an adaptor stays ACTIVE when the peer that came back goes again before the RTC is active") {
+    const std::string name = fmt::format("test-adaptor-gone-{}", getpid());
+    std::optional<Peer> peer(std::in_place, name);
+    adaptor::AdaptorComp component;
+    component.setProperty("link", name);
+    REQUIRE(component.initialize() == OPROS_SUCCESS);
+    REQUIRE(component.start() == OPROS_SUCCESS);
+    for (const auto status : {CallStatus::peer_died, CallStatus::shut_down, CallStatus::ok}) {
+        peer.reset();
+        peer.emplace(name, status);
+        CHECK(eventually([&] { return peer->has_received(".activate"); }));
+    }
+    CHECK(component.getStatus() == OPROS_CS_ACTIVE);
+    component.destroy();
 }
 
 TEST_CASE("an adaptor in ERROR that is reset or recovered resets the RTC and activates it again") {
