@@ -142,22 +142,22 @@ std::string InterceptorComp::listen(std::span<const std::byte> arguments) {
 
 void InterceptorComp::peer_connected() {
     opros_rtcs_->peer_connected();
-    report_rtc_errors(); // there may have been no peer when an RTC went to ERROR
+    report_rtc_failures(); // there may have been no peer when it happened
 }
 
 /// What the peer has not been told, peer_connected() tries again. [task-thread]
-void InterceptorComp::report_rtc_errors() {
-    std::set<std::string> names;
+void InterceptorComp::report_rtc_failures() {
+    std::set<std::string> lines;
     {
-        const std::lock_guard lock(errors_mutex_);
-        names.swap(unreported_errors_);
+        const std::lock_guard lock(failures_mutex_);
+        lines.swap(unreported_failures_);
     }
-    for (const auto& name : names) {
-        const auto text = control::encode_string(fmt::format("RTC '{}' went to ERROR", name));
+    for (const auto& line : lines) {
+        const auto text = control::encode_string(line);
         if (link_->call({"", control::failed, "", text}, settings_.call_timeout).status == CallStatus::ok)
             continue;
-        const std::lock_guard lock(errors_mutex_);
-        unreported_errors_.insert(name);
+        const std::lock_guard lock(failures_mutex_);
+        unreported_failures_.insert(line);
     }
 }
 

@@ -83,22 +83,23 @@ void InterceptorComp::share_rtc_ports() {
     LinkBuffer::register_factory();
     opros_rtcs_ = std::make_unique<OprosRtcs>(getInstanceName(), manager, *link_, settings_.link,
                                               settings_.call_timeout);
-    own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [] {});
+    own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [](const char*) {});
     create_mirror_ports(ports);
     link_->open();
     spdlog::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
                  table.component_names(), settings_.link);
 }
 
-/// The report of its errors waits for the peer, and so must not run in the thread of the RTC's execution context.
+/// The report waits for the peer, and so must not run in the thread of the RTC's execution context.
 void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
-    rtcs_->add(rtc, settings_.call_timeout, [this, name = std::string(rtc.getInstanceName())] {
-        {
-            const std::lock_guard lock(errors_mutex_);
-            unreported_errors_.insert(name);
-        }
-        link_->post([this] { report_rtc_errors(); });
-    });
+    rtcs_->add(rtc, settings_.call_timeout,
+               [this, name = std::string(rtc.getInstanceName())](const char* what) {
+                   {
+                       const std::lock_guard lock(failures_mutex_);
+                       unreported_failures_.insert(fmt::format("RTC '{}' {}", name, what));
+                   }
+                   link_->post([this] { report_rtc_failures(); });
+               });
 }
 
 void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {

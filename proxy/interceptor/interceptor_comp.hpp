@@ -66,7 +66,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::string listen(std::span<const std::byte> arguments);
 
     void deactivate_if_activated_by_link();
-    void report_rtc_errors();
+    void report_rtc_failures();
     link::LinkOptions link_options() const;
     std::string channel_key(const std::string& port) const;
 
@@ -76,8 +76,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::unique_ptr<RtcGroup> rtcs_;
     std::unique_ptr<RtcDriver> own_driver_;
     std::atomic<bool> activated_by_link_{false}; ///< then a peer that goes leaves it to be deactivated
-    std::mutex errors_mutex_;
-    std::set<std::string> unreported_errors_; ///< RTCs that went to ERROR of which the peer does not know yet
+    std::mutex failures_mutex_;
+    std::set<std::string> unreported_failures_; ///< one line each: RTCs that went to ERROR or have exited
 
     // The mirrors: created by share_rtc_ports(), then constant until disconnect_all().
     std::vector<std::unique_ptr<RTC::PortBase>> data_ports_;

@@ -43,14 +43,18 @@ class RtcDriver::CallbackListener final : public RTC::PostComponentActionListene
 namespace {
 // onAborting() is the callback of the transition to ERROR; the listener is called after it.
 constexpr auto entering_error = RTC::PostComponentActionListenerType::POST_ON_ABORTING;
+constexpr auto after_exit = RTC::PostComponentActionListenerType::POST_ON_FINALIZE;
 constexpr auto after_reset = RTC::PostComponentActionListenerType::POST_ON_RESET;
 } // namespace
 
-RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
-                     std::function<void()> on_error)
+RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, Report report)
     : rtc_(rtc), name_(rtc.getInstanceName()), reference_(rtc.getObjRef()), timeout_(timeout),
-      error_listener_(std::make_unique<CallbackListener>(std::move(on_error))),
-      reset_listener_(std::make_unique<CallbackListener>([this] { reset_ended_ = true; })) {
+      error_listener_(std::make_unique<CallbackListener>([report] { report("went to ERROR"); })),
+      reset_listener_(std::make_unique<CallbackListener>([this] { reset_ended_ = true; })),
+      exit_listener_(std::make_unique<CallbackListener>([this, report] {
+          exited_ = true;
+          report("has exited");
+      })) {
     RTC::ExecutionContextList_var contexts = rtc.get_owned_contexts();
     if (contexts->length() == 0)
         throw std::runtime_error(
@@ -59,6 +63,7 @@ RtcDriver::RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
     context_ = RTC::ExecutionContext::_duplicate(contexts[0]);
     rtc_.addPostComponentActionListener(entering_error, error_listener_.get(), false);
     rtc_.addPostComponentActionListener(after_reset, reset_listener_.get(), false);
+    rtc_.addPostComponentActionListener(after_exit, exit_listener_.get(), false);
 }
 
 RtcDriver::~RtcDriver() {
@@ -66,6 +71,7 @@ RtcDriver::~RtcDriver() {
     if (RTC::Manager::instance().getComponent(name_.c_str()) != &rtc_) return;
     rtc_.removePostComponentActionListener(entering_error, error_listener_.get());
     rtc_.removePostComponentActionListener(after_reset, reset_listener_.get());
+    rtc_.removePostComponentActionListener(after_exit, exit_listener_.get());
 }
 
 RTC::LifeCycleState RtcDriver::state() const {
@@ -79,6 +85,7 @@ RTC::LifeCycleState RtcDriver::state() const {
 std::string RtcDriver::activate() {
     const std::lock_guard lock(mutex_);
     if (state() == RTC::ACTIVE_STATE) return "";
+    if (exited_) return name_ + " has exited; start the RTM host again to have it back";
     // Not reset here: whether an error may be ignored is the user's decision.
     if (state() == RTC::ERROR_STATE) return name_ + " is in ERROR; reset it first";
     return transition_and_wait({RTC::INACTIVE_STATE, RTC::ACTIVE_STATE,

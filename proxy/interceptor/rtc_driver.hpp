@@ -17,9 +17,12 @@ namespace tandem::interceptor {
 /// deactivation_timeout, and returns an empty string or an error of one line. [any-thread]
 class RtcDriver {
   public:
-    /// `on_error` is called in the execution context's thread when the RTC goes to ERROR; it must not wait.
-    /// Throws std::runtime_error if the RTC owns no execution context.
-    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, std::function<void()> on_error);
+    /// Says of an RTC that it "went to ERROR" or "has exited".
+    using Report = std::function<void(const char* what)>;
+
+    /// `report` is called in the thread in which that happens; it must not wait. Throws std::runtime_error if the RTC
+    /// owns no execution context.
+    RtcDriver(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, Report report);
     ~RtcDriver();
 
     std::string activate();
@@ -48,8 +51,9 @@ class RtcDriver {
     RTC::ExecutionContext_var context_;
     const std::chrono::milliseconds timeout_;
     std::mutex mutex_; ///< one transition at a time: a new peer's activation waits for the old one's end
-    std::unique_ptr<CallbackListener> error_listener_, reset_listener_;
+    std::unique_ptr<CallbackListener> error_listener_, reset_listener_, exit_listener_;
     std::atomic<bool> reset_ended_{false}; ///< onReset has returned, whatever
+    std::atomic<bool> exited_{false};
 };
 
 } // namespace tandem::interceptor

@@ -5,9 +5,8 @@
 
 namespace tandem::interceptor {
 
-void RtcGroup::add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout,
-                   std::function<void()> on_error) {
-    drivers_.push_back(std::make_unique<RtcDriver>(rtc, timeout, std::move(on_error)));
+void RtcGroup::add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, RtcDriver::Report report) {
+    drivers_.push_back(std::make_unique<RtcDriver>(rtc, timeout, std::move(report)));
 }
 
 std::string RtcGroup::activate() {

@@ -3,7 +3,6 @@
 
 #include "proxy/interceptor/rtc_driver.hpp"
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,8 +13,8 @@ namespace tandem::interceptor {
 /// order. Each function but add() returns an empty string or an error of one line. [any-thread] but add()
 class RtcGroup {
   public:
-    /// `on_error` as for RtcDriver. Throws std::runtime_error.
-    void add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, std::function<void()> on_error);
+    /// As RtcDriver's constructor.
+    void add(RTC::RTObject_impl& rtc, std::chrono::milliseconds timeout, RtcDriver::Report report);
     /// If one cannot be activated, those that this call has activated are deactivated again.
     std::string activate();
     std::string deactivate();

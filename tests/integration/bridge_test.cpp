@@ -53,6 +53,33 @@ TEST_CASE("a killed host that is started again is bound again, and nothing is le
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
+TEST_CASE("an RTM host that is replaced by one with other ports is told of, and the link heals when they are "
+          "back") {
+    TwoHosts hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "reply: hello 5 "));
+    hosts.kill("rtm");
+    auto before = hosts.output("opros").size();
+    hosts.set_rtc("ServoRtc");
+    hosts.start_rtm();
+    for (const char* port : {"word", "reply", "dictionary"})
+        CHECK(hosts.says(
+            "opros",
+            std::string("port '") + port +
+                "' of the peer that came back is gone; start this host again to use it; it is left out",
+            before));
+    CHECK(hosts.says("opros", "Adaptor: link '" + hosts.link() + "' is up again", before));
+    hosts.kill("rtm");
+    before = hosts.output("opros").size();
+    hosts.set_rtc("EchoRtc");
+    hosts.start_rtm();
+    CHECK(hosts.says("opros", "reply: hello", before));
+    CHECK(hosts.says("opros", "pages: 2 last 5", before));
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
 TEST_CASE("a segment that is truncated under running hosts is named by both and they are joined afresh") {
     TwoHosts hosts;
     hosts.start_rtm();

@@ -172,6 +172,29 @@ TEST_CASE("an OPRoS host that is killed shows in its RTCs, and is followed when 
     CHECK(hosts.stop("opros") == 0);
 }
 
+TEST_CASE("an OPRoS host that is replaced by one with other components is shown as it is now") {
+    Shared hosts("Motor");
+    hosts.add_component("Motor", "MotorComp");
+    hosts.add_component("Pump", "MotorComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Motor", "ACTIVE"));
+    for (const char* now : {"Pump", "Motor"}) {
+        const std::string before = now == std::string("Pump") ? "Motor" : "Pump";
+        hosts.kill("opros");
+        CHECK(hosts.shows(before, "ERROR"));
+        const auto begin = hosts.output("rtm").size();
+        hosts.set_adaptor_properties(TwoHosts::property("share", now));
+        hosts.start_opros();
+        CHECK(hosts.shows(now, "ACTIVE"));
+        CHECK(hosts.shows(before, ""));
+        CHECK(hosts.says("rtm", "OPRoS component " + before + " is not shared any more as it was", begin));
+        CHECK(hosts.good({"inject", now + std::string(":speed"), "3"}));
+        CHECK(hosts.says("opros", now + std::string(" torque 6.")));
+    }
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
 TEST_CASE("an RTC that exits destroys the OPRoS component, and only that") {
     MotorAndPump hosts;
     CHECK(hosts.good({"exit", "Motor"}));

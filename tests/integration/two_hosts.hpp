@@ -66,6 +66,7 @@ class TwoHosts {
     void set_connections(const std::string& xml) { connections_ = xml; }
     /// The OPRoS component that is there as Talker.
     void set_talker(const std::string& component) { talker_ = component; }
+    void set_talker_properties(const std::string& xml) { talker_properties_ = xml; }
     /// The RTC behind the bridge.
     void set_rtc(const std::string& rtc) {
         rtc_ = rtc;
@@ -105,12 +106,13 @@ class TwoHosts {
         rtc_properties_ += ", " + type;
         if (type != rtc_) modules_ += type + ".so, ";
     }
-    /// A second link, with an AdaptorComp of that name, for the RTC of that name.
+    /// One more link, with an AdaptorComp of that name, for the RTC of that name.
     void add_link(const std::string& adaptor, const std::string& rtc) {
+        const std::string link = link_ + "-" + std::to_string(++more_links_ + 1);
         components_ += "<subcomponent><name>" + adaptor +
-                       "</name><reference>AdaptorComp.xml</reference><properties>" +
-                       property("link", link_ + "-2") + "</properties></subcomponent>\n";
-        more_interceptors_ = ", InterceptorComp?link=" + link_ + "-2&rtc=" + rtc;
+                       "</name><reference>AdaptorComp.xml</reference><properties>" + property("link", link) +
+                       "</properties></subcomponent>\n";
+        more_interceptors_ += ", InterceptorComp?link=" + link + "&rtc=" + rtc;
     }
     /// A third host, with an rtc.conf of these lines.
     void start_another_rtm(const std::string& port, const std::string& lines) {
@@ -131,7 +133,8 @@ class TwoHosts {
             << "<?xml version=\"1.0\"?>\n<package_profile><name>app</name>\n<subcomponents>\n"
             << (talker_.empty() ? ""
                                 : "<subcomponent><name>Talker</name><reference>" + talker_ +
-                                      ".xml</reference></subcomponent>\n")
+                                      ".xml</reference><properties>" + talker_properties_ +
+                                      "</properties></subcomponent>\n")
             << components_
             << "<subcomponent><name>Adaptor</name><reference>AdaptorComp.xml</reference><properties>"
             << "<property name=\"link\">" << link_ << "</property><property name=\"wait\">" << wait_
@@ -195,6 +198,7 @@ class TwoHosts {
         const auto& ended = hosts_.at(host).wait(std::chrono::seconds(60));
         return ended && !ended->signalled ? ended->code : -1;
     }
+    bool runs(const std::string& host) { return !hosts_.at(host).poll(); }
     int stop(const std::string& host) {
         const auto& ended = hosts_.at(host).stop(std::chrono::seconds(30));
         return ended && !ended->signalled ? ended->code : -1;
@@ -230,11 +234,12 @@ class TwoHosts {
     }
 
     std::filesystem::path folder_;
-    std::string link_, connections_, talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc",
-                                     interceptor_ = "rtc=EchoRtc0", rtc_conf_more_, rtc_properties_,
-                                     components_, adaptor_properties_, manager_port_, modules_,
-                                     more_interceptors_;
+    std::string link_, connections_, talker_properties_,
+        talker_ = "TalkerComp", large_kib_, wait_ = "30", rtc_ = "EchoRtc", interceptor_ = "rtc=EchoRtc0",
+        rtc_conf_more_, rtc_properties_, components_, adaptor_properties_, manager_port_, modules_,
+        more_interceptors_;
     bool strict_ = true;
+    int more_links_ = 0;
     std::vector<std::string> switches_;
     std::map<std::string, tandem::process::ChildProcess> hosts_;
 };

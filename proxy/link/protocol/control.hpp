@@ -32,8 +32,9 @@ inline constexpr std::string_view state =
     "state"; ///< a StateReport: an OPRoS component has changed its state
 
 // Executed by AdaptorComp.
-inline constexpr std::string_view failed = "failed";       ///< a string for the log: an RTC went to ERROR or has exited
-inline constexpr std::string_view exit = "exit";           ///< name of an OPRoS component, which is destroyed
+inline constexpr std::string_view failed =
+    "failed";                                    ///< a string for the log: an RTC went to ERROR or has exited
+inline constexpr std::string_view exit = "exit"; ///< name of an OPRoS component, which is destroyed
 inline constexpr std::string_view configure = "configure"; ///< a Setting
 
 /// The state of an OPRoS component, as far as it concerns an RTC that shows it.
