@@ -219,7 +219,8 @@ LoadedComponent load_component(const ComponentProfile& profile,
     const auto file = find_component_library(profile, plugin_dirs);
     try {
         require_opros_component(file);
-        if (probe) plugin::run_probe(*probe, load_probe_task, file);
+        // Once for all components of a library: what has been loaded here has passed, and a trial takes milliseconds.
+        if (probe && !plugin::Library::is_loaded(file)) plugin::run_probe(*probe, load_probe_task, file);
         return instantiate_component(file);
     } catch (const std::runtime_error& error) {
         throw SetupError(profile.library_location, error.what());
