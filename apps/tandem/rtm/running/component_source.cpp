@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/rtm/running/component_source.hpp"
+#include "apps/tandem/rtm/running/context_info.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 
 namespace tandem::command {
@@ -25,6 +26,8 @@ ComponentEntry query_component(const std::string& address, CORBA::Object_ptr obj
         entry.category = profile->category;
         entry.ports = profile->port_profiles.length();
         entry.state = component_state(entry.object.in());
+        RTC::ExecutionContextList_var own = entry.object->get_owned_contexts();
+        if (own->length() > 0) entry.callback = ContextInfo(own[0]).describe_running_callback(entry.instance);
     } catch (const CORBA::Exception& e) {
         entry.error = RTC::describe_exception(e);
     }

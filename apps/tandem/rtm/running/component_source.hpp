@@ -9,6 +9,7 @@ namespace tandem::command {
 struct ComponentEntry {
     std::string address; ///< rtcname://... or rtcloc://...
     std::string instance, type, state, category;
+    std::string callback; ///< `onActivated has taken 1.3 s so far`, or empty
     CORBA::ULong ports = 0;
     RTC::RTObject_var object;
     std::string error; ///< why it does not answer, "" if it does; with an error only the address is known

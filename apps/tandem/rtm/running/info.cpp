@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/rtm/running/context_info.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +46,7 @@ json ports_json(const RTC::PortProfileList& ports) {
 
 // The numbers of the enumerations are indices: omniORB refuses an answer with a number that is none of them.
 // The order of both arrays is that of the enumerations in RTC.idl.
-json contexts_json(RTC::RTObject_ptr component) {
+json contexts_json(RTC::RTObject_ptr component, const std::string& instance) {
     static const char* const kinds[] = {"periodic", "event driven", "other"};
     static const char* const states[] = {"CREATED", "INACTIVE", "ACTIVE", "ERROR"};
     json list = json::array();
@@ -54,7 +55,8 @@ json contexts_json(RTC::RTObject_ptr component) {
                         {"kind", kinds[context->get_kind()]},
                         {"rate", context->get_rate()},
                         {"running", static_cast<bool>(context->is_running())},
-                        {"state", states[context->get_component_state(component)]}});
+                        {"state", states[context->get_component_state(component)]},
+                        {"callback", ContextInfo(context.in()).describe_running_callback(instance)}});
     return list;
 }
 
@@ -70,7 +72,7 @@ json info_json(const RemoteComponent& component) {
             {"vendor", profile->vendor.in()},
             {"category", profile->category.in()},
             {"state", component_state(component.object.in())},
-            {"contexts", contexts_json(component.object.in())},
+            {"contexts", contexts_json(component.object.in(), component.instance)},
             {"configuration", active_configuration_set(configuration.in())},
             {"ports", ports_json(profile->port_profiles)},
             {"properties", properties_json(profile->properties)}};
@@ -88,10 +90,11 @@ std::string format_info(const json& info) {
     for (const char* key : {"type", "description", "version", "vendor", "category", "state", "configuration"})
         text += fmt::format("  {:<14} {}\n", key, info[key].get<std::string>());
     for (const auto& context : info["contexts"])
-        text += fmt::format("  context {:<6} {}, {} Hz, {}, {}\n", context["handle"].get<int>(),
+        text += fmt::format("  context {:<6} {}, {} Hz, {}, {}{}{}\n", context["handle"].get<int>(),
                             context["kind"].get<std::string>(), context["rate"].get<double>(),
                             context["running"].get<bool>() ? "running" : "stopped",
-                            context["state"].get<std::string>());
+                            context["state"].get<std::string>(), context["callback"] == "" ? "" : "; ",
+                            context["callback"].get<std::string>());
     for (const auto& port : info["ports"]) {
         text += fmt::format("  port {}  {} {}\n", port["name"].get<std::string>(),
                             string_property(port["properties"], "port.port_type"),

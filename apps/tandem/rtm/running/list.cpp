@@ -21,12 +21,14 @@ int rtm_list(const RtmClientOptions& options) {
                             {"type", entry.type},
                             {"category", entry.category},
                             {"state", entry.error.empty() ? entry.state : "UNREACHABLE"},
+                            {"callback", entry.callback},
                             {"ports", entry.ports},
                             {"address", entry.address},
                             {"error", entry.error}});
             if (entry.error.empty())
-                table.add_row(
-                    {entry.instance, entry.type, entry.state, std::to_string(entry.ports), entry.address});
+                table.add_row({entry.instance, entry.type,
+                               entry.state + (entry.callback.empty() ? "" : " (" + entry.callback + ")"),
+                               std::to_string(entry.ports), entry.address});
             else
                 table.add_row({"-", "-", "UNREACHABLE", "-", entry.address + " (" + entry.error + ")"});
         }

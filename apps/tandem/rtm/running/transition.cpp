@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/rtm/running/context_info.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <rtm/NVUtil.h>
 #include <thread>
 
 namespace tandem::command {
@@ -19,19 +18,20 @@ struct Wording {
     const char* callback; ///< of the component, which the transition waits for
     const char* verb;
     const char* participle;
+    const char* opposite_callback; ///< that of the transition in the other direction
 };
 
 // A reset leads from ERROR to INACTIVE, as a deactivation does from ACTIVE.
 Wording wording(Transition transition) {
     switch (transition) {
     case Transition::activate:
-        return {"ACTIVE", "onActivated", "activating", "activated"};
+        return {"ACTIVE", "onActivated", "activating", "activated", "onDeactivated"};
     case Transition::deactivate:
-        return {"INACTIVE", "onDeactivated", "deactivating", "deactivated"};
+        return {"INACTIVE", "onDeactivated", "deactivating", "deactivated", "onActivated"};
     case Transition::reset:
-        return {"INACTIVE", "onReset", "resetting", "reset"};
+        return {"INACTIVE", "onReset", "resetting", "reset", ""};
     default:
-        return {"", "", "exiting", ""};
+        return {"", "", "exiting", "", ""};
     }
 }
 
@@ -53,39 +53,6 @@ RTC::ReturnCode_t request_transition(RTC::ExecutionContext_ptr context, RTC::RTO
     }
 }
 
-/// What the first context of a component tells about itself.
-class ContextInfo {
-  public:
-    // Empty when the context is not of OpenRTM-aist's kind, or has gone.
-    explicit ContextInfo(RTC::ExecutionContext_ptr context) {
-        try {
-            RTC::ExecutionContextService_var service = RTC::ExecutionContextService::_narrow(context);
-            if (!CORBA::is_nil(service.in())) profile_ = service->get_profile();
-        } catch (const CORBA::SystemException&) {
-            profile_ = nullptr;
-        }
-    }
-    /// `onActivated has taken 1.3 s so far`; empty when the component is in none, or the host does not tell (only
-    /// Tandem's does).
-    std::string running_callback(const std::string& instance) const {
-        if (property("callback.component") != instance) return "";
-        return fmt::format("{} has taken {} s so far", property("callback.name"),
-                           property("callback.seconds"));
-    }
-    /// Whether the absence of a running callback means that there is none.
-    bool tells_callbacks() const { return !property("tick.cycles").empty(); }
-    /// Of a cycle; bounded, for contexts with periods of hours.
-    double period_s() const {
-        return profile_.operator->() && profile_->rate > 0 ? std::min(1 / profile_->rate, 1.0) : 0;
-    }
-
-  private:
-    std::string property(const char* name) const {
-        return profile_.operator->() ? NVUtil::toString(profile_->properties, name) : "";
-    }
-    RTC::ExecutionContextProfile_var profile_;
-};
-
 /// One request of a transition, and the wait for its end.
 class TransitionRequest {
   public:
@@ -97,8 +64,13 @@ class TransitionRequest {
 
     /// Returns the state that was reached. Throws std::runtime_error: in ERROR, refused, or not done in time.
     std::string apply() {
-        code_ = request_transition(context_.in(), component_.object.in(), transition_);
+        wait_for_opposite_transition();
+        // Asking an active component to activate would be refused. A reset is requested in any state: only the
+        // component knows whether it applies.
         std::string state = component_state(component_.object.in());
+        if (state == words_.state && transition_ != Transition::reset) return state;
+        code_ = request_transition(context_.in(), component_.object.in(), transition_);
+        state = component_state(component_.object.in());
         while (state != words_.state && is_under_way(state)) {
             if (Clock::now() > deadline_) throw_error(state);
             // Polls, because a context that has answered carries the transition out later.
@@ -116,7 +88,19 @@ class TransitionRequest {
 
   private:
     ContextInfo info() const { return ContextInfo(context_.in()); }
-    std::string running_callback() const { return info().running_callback(component_.instance); }
+    std::string running_callback() const { return info().describe_running_callback(component_.instance); }
+
+    // A component that is still activating is INACTIVE, and would refuse to be deactivated; soon it will be ACTIVE.
+    void wait_for_opposite_transition() const {
+        while (*words_.opposite_callback != '\0' &&
+               info().running_callback(component_.instance) == words_.opposite_callback) {
+            if (Clock::now() > deadline_)
+                throw std::runtime_error(fmt::format("{} cannot be {} yet: its {}; --timeout waits longer",
+                                                     component_.instance, words_.participle,
+                                                     running_callback()));
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
 
     // Whether the transition may still be carried out. RTC_ERROR says that it has failed, or takes longer than the
     // context waits for it.
@@ -168,7 +152,8 @@ std::string exit_component(const RemoteComponent& component, double timeout_s) {
         if (code == RTC::RTC_OK) return "exited";
         throw std::runtime_error(component.instance + " does not exit: " + to_string(code));
     } catch (const CORBA::TIMEOUT&) {
-        const std::string running = ContextInfo(contexts.front().in()).running_callback(component.instance);
+        const std::string running =
+            ContextInfo(contexts.front().in()).describe_running_callback(component.instance);
         throw std::runtime_error(fmt::format("{} is still exiting after {:.1f} s{}; --timeout waits longer",
                                              component.instance, timeout_s,
                                              running.empty() ? "" : ": " + running));
@@ -177,10 +162,6 @@ std::string exit_component(const RemoteComponent& component, double timeout_s) {
 
 std::string apply_transition(const RemoteComponent& component, Transition transition, double timeout_s) {
     if (transition == Transition::exit) return exit_component(component, timeout_s);
-    // Asking an active component to activate would be refused. A reset is requested in any state: only the
-    // component knows whether it applies.
-    const std::string wanted = wording(transition).state;
-    if (component_state(component.object.in()) == wanted && transition != Transition::reset) return wanted;
     return TransitionRequest(component, transition, timeout_s).apply();
 }
 
