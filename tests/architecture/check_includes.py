@@ -95,6 +95,7 @@ PUBLIC_TO_APPS = {
     "host/rtm/runtime/manager/manager_options.hpp",
     "host/rtm/runtime/naming/remote_names.hpp",
     "host/rtm/runtime/port/custom_serializer.hpp",
+    "host/rtm/runtime/port/refusal_reason.hpp",
     "proxy/adaptor/archive/type_check.hpp",
     "proxy/interceptor/rtc_port.hpp",
 }

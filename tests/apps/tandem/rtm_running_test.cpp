@@ -111,7 +111,8 @@ TEST_CASE(
     "tandem rtm waits for slow transitions and tells those that hang from those that fail or are refused") {
     Running host("SlowDevice?in=activated&ms=1500, SlowDevice?in=activated&ms=700&fails=YES, "
                  "SlowDevice?in=activated&ms=1000000, SlowDevice?in=deactivated&ms=1500, "
-                 "SlowDevice?in=reset&ms=1500&breaks=YES, SlowDevice?in=reset&ms=0&breaks=YES&fails=YES");
+                 "SlowDevice?in=reset&ms=1500&breaks=YES, SlowDevice?in=reset&ms=0&breaks=YES&fails=YES, "
+                 "SlowDevice?in=activated&ms=2500");
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     CHECK(host.good({"activate", "SlowDevice0"}).output == "SlowDevice0 ACTIVE\n");
     CHECK_THAT(host.failed({"activate", "SlowDevice1"}),
@@ -123,6 +124,16 @@ TEST_CASE(
     CHECK_THAT(host.failed({"activate", "SlowDevice2", "--timeout", "1"}),
                Catch::Contains("SlowDevice2 is still activating after ") &&
                    Catch::Contains(" s: onActivated has taken ") && Catch::Contains(" or it hangs"));
+    // Its state is INACTIVE, but it will be ACTIVE when the callback returns.
+    CHECK_THAT(host.failed({"deactivate", "SlowDevice2", "--timeout", "0.2"}),
+               Catch::Contains("SlowDevice2 cannot be deactivated yet: its onActivated has taken ") &&
+                   Catch::Contains(" s so far; --timeout waits longer"));
+    CHECK(host.good({"list"}).output_contains("INACTIVE (onActivated has taken "));
+    CHECK(host.good({"info", "SlowDevice2"}).output_contains(", INACTIVE; onActivated has taken "));
+    CHECK(host.failed({"activate", "SlowDevice6", "--timeout", "0.5"}).find("still activating") !=
+          std::string::npos);
+    CHECK(host.good({"deactivate", "SlowDevice6", "--timeout", "60"}).output == "SlowDevice6 INACTIVE\n");
+    CHECK_FALSE(host.good({"info", "SlowDevice6"}).output_contains("onActivated"));
     host.good({"activate", "SlowDevice3"});
     CHECK(host.good({"deactivate", "SlowDevice3"}).output == "SlowDevice3 INACTIVE\n");
     for (const char* name : {"SlowDevice4", "SlowDevice5"}) {
@@ -166,6 +177,11 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     Running host;
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     host.good({"activate", "Counter0", "Reporter0"});
+    // The port itself says why it refuses.
+    CHECK_THAT(
+        host.failed({"connect", "Counter0:out", "Reporter0:in", "-p", "interface_type=telepathy"}),
+        Catch::Contains("Counter0.out and Reporter0.in cannot be connected: Counter0.out: interface_type is "
+                        "telepathy, expected corba_cdr, "));
     const auto connection = host.good({"connect", "Counter0:out", "Reporter0.in", "--json"}).json();
     CHECK(connection[0]["ports"][1] == "Reporter0.in");
     CHECK(host.other.host.wait_for_output("received 1"));

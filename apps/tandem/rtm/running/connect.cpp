@@ -2,6 +2,7 @@
 #include "apps/tandem/output/print.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
+#include "host/rtm/runtime/port/refusal_reason.hpp"
 
 #include <fmt/format.h>
 #include <rtm/CORBA_RTCUtil.h>
@@ -50,6 +51,12 @@ void require_compatible(const RemotePort& a, const RemotePort& b, const RTC::Con
         throw std::runtime_error(a.name + " and " + b.name + " are connected already");
 }
 
+// OpenRTM-aist's ports give a code alone.
+std::string refusal_text(const RTC::ConnectorProfile& profile, RTC::ReturnCode_t code) {
+    const std::string reason = RTC::refusal_reason(profile);
+    return reason.empty() ? to_string(code) + "; the logs of their hosts may say more" : reason;
+}
+
 } // namespace
 
 // One connection with two ports for each port after the first. Each is printed as soon as it is made: the connections
@@ -68,8 +75,7 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
             require_compatible(first, other, profile.in());
             const RTC::ReturnCode_t code = first.object->connect(profile.inout());
             if (code != RTC::RTC_OK)
-                throw std::runtime_error(names + " cannot be connected: " + to_string(code) +
-                                         "; their logs say more");
+                throw std::runtime_error(names + " cannot be connected: " + refusal_text(profile.in(), code));
             const std::string id(profile->connector_id);
             // A port may take a connection and drop it at once, with its first value for instance.
             for (const auto* port : {&first, &other}) {

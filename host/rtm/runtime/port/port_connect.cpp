@@ -6,6 +6,7 @@
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/rtm/runtime/port/custom_serializer.hpp"
+#include "host/rtm/runtime/port/refusal_reason.hpp"
 #include <coil/stringutil.h>
 #include <optional>
 #include <rtm/PortBase.h>
@@ -98,29 +99,31 @@ std::optional<ReturnCode_t> notify_disconnect_from(CORBA::ULong begin, const Con
 } // namespace
 
 ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
-    if (profile.ports.length() == 0) return refuse(BAD_PARAMETER, "a connection without ports");
+    set_refusal_reason(profile, ""); // of an earlier attempt
+    auto refused = [&](ReturnCode_t code, const std::string& reason) {
+        set_refusal_reason(profile, reason);
+        return refuse(code, reason);
+    };
+    if (profile.ports.length() == 0) return refused(BAD_PARAMETER, "a connection without ports");
     if (isEmptyId(profile))
         setUUID(profile);
     else if (isExistingConnId(profile.connector_id))
-        return refuse(PRECONDITION_NOT_MET, std::string("there is a connection with id ") +
-                                                static_cast<const char*>(profile.connector_id));
+        return refused(PRECONDITION_NOT_MET, std::string("there is a connection with id ") +
+                                                 static_cast<const char*>(profile.connector_id));
     try {
         const std::string mismatch = incompatibility(profile);
-        if (!mismatch.empty()) return refuse(BAD_PARAMETER, mismatch);
+        if (!mismatch.empty()) return refused(BAD_PARAMETER, mismatch);
         const ReturnCode_t result = notify_connect_at(profile.ports[0], profile);
         if (result == RTC_OK) return clearConnectError();
-        // A port of this process knows the reason; by CORBA only the code comes back.
-        const auto first = local_object<PortBase>(profile.ports[0]);
-        if (first && first.get() != this) refuse(result, first->connectError());
-        // Taken before disconnect(), which has an error of its own when this port has no part of the
-        // connection.
+        // A port of OpenRTM-aist gives no reason; this one may have one of its own.
+        const std::string told = refusal_reason(profile);
+        const std::string reason = told.empty() ? connectError() : told;
         const std::string id(profile.connector_id);
-        const std::string reason = connectError();
         disconnect(id.c_str()); // the ports that were connected before the one that refused
-        return refuse(result, reason.empty() ? "the other side has refused the connection" : reason);
+        return refused(result, reason.empty() ? "the other side has refused the connection" : reason);
     } catch (const CORBA::SystemException& e) {
         releaseConnection(profile.connector_id);
-        return refuse(RTC_ERROR, "a port of the connection cannot be reached: " + describe_exception(e));
+        return refused(RTC_ERROR, "a port of the connection cannot be reached: " + describe_exception(e));
     }
 }
 
@@ -130,6 +133,8 @@ ReturnCode_t PortBase::notify_connect(ConnectorProfile& profile) {
     const ReturnCode_t result = establishConnection(profile);
     if (result == RTC_OK && m_onConnected != nullptr) (*m_onConnected)(profile);
     notifyListeners(PortConnectRetListenerType::ON_CONNECTED, profile, result);
+    // That of a port behind this one is there already.
+    if (result != RTC_OK && refusal_reason(profile).empty()) set_refusal_reason(profile, connectError());
     return result;
 }
 
