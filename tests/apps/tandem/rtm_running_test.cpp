@@ -177,6 +177,8 @@ TEST_CASE("tandem rtm connects ports and prints and injects their values") {
     Running host;
     REQUIRE(host.other.host.wait_for_output("ready\n"));
     host.good({"activate", "Counter0", "Reporter0"});
+    CHECK_THAT(host.failed({"connect", "Thrower0:out", "Reporter0:in"}),
+               Catch::Contains("Thrower0 has no port out (it has: none)"));
     // The port itself says why it refuses.
     CHECK_THAT(
         host.failed({"connect", "Counter0:out", "Reporter0:in", "-p", "interface_type=telepathy"}),
@@ -234,6 +236,15 @@ TEST_CASE("No sub-command of tandem rtm calls what a manager of OpenRTM-aist doe
             CHECK(result.exit_code == 0);
         }
     }
+}
+
+TEST_CASE("tandem rtm inject says so when the receiver's host ends") {
+    Running host("BadPeer");
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    CHECK_THAT(
+        host.failed({"inject", "BadPeer0:aborts", "1"}),
+        Catch::Contains("BadPeer0.aborts has disconnected, or its host has ended, while a value was sent"));
+    CHECK(host.other.host.wait_for_exit() == -SIGABRT);
 }
 
 TEST_CASE("tandem rtm cat pulls, and says what it waits for") {

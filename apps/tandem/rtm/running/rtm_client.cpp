@@ -119,10 +119,12 @@ RemotePort get_port(const RemoteComponent& component, const std::string& port) {
     return call_remote(component.address, [&] {
         RemotePort found;
         found.object = CORBA_RTCUtil::get_port_by_name(component.object.in(), port);
-        if (CORBA::is_nil(found.object.in()))
+        if (CORBA::is_nil(found.object.in())) {
+            const auto names = CORBA_RTCUtil::get_port_names(component.object.in());
             throw std::runtime_error(
                 fmt::format("{} has no port {} (it has: {})", component.instance, port,
-                            fmt::join(CORBA_RTCUtil::get_port_names(component.object.in()), ", ")));
+                            names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+        }
         found.profile = found.object->get_port_profile();
         found.name = found.profile->name;
         return found;

@@ -118,7 +118,7 @@ int rtm_inject(const RtmClientOptions& client_options, const StreamOptions& opti
             std::this_thread::sleep_for(std::chrono::duration<double>(1 / options.rate));
         else if (sent > 0)
             receiver.wait_until_read(sent);
-        port.send(encode_sample(converter, code.in(), text, port.is_little_endian()));
+        port.send(encode_sample(converter, code.in(), text, port.is_little_endian()), remote_port.name);
         ++sent;
     };
     const unsigned long rounds = options.count == 0 ? 1 : options.count;

@@ -88,13 +88,16 @@ bool UntypedOutPort::is_little_endian() {
 }
 
 // To the first connection only: the bytes are in its byte order, and PortConnection makes no other.
-void UntypedOutPort::send(const RTC::ByteData& bytes) {
+void UntypedOutPort::send(const RTC::ByteData& bytes, const std::string& receiver) {
     RTC::ByteData message(bytes); // write() takes a reference that is not const
     std::lock_guard<std::mutex> lock(m_connectorsMutex);
-    if (m_connectors.empty()) throw std::runtime_error("the port has disconnected");
+    if (m_connectors.empty()) throw std::runtime_error(receiver + " has disconnected");
     const RTC::DataPortStatus status = m_connectors.front()->write(message);
+    if (status == RTC::DataPortStatus::CONNECTION_LOST)
+        throw std::runtime_error(receiver +
+                                 " has disconnected, or its host has ended, while a value was sent");
     if (status != RTC::DataPortStatus::PORT_OK)
-        throw std::runtime_error(std::string("the port does not take the value: ") + RTC::toString(status));
+        throw std::runtime_error(receiver + " does not take the value: " + RTC::toString(status));
 }
 
 std::string require_data_type(const RemotePort& port, const std::string& kind) {

@@ -57,8 +57,8 @@ class UntypedOutPort : public RTC::OutPortBase {
     bool write() override { return false; }
     /// How many of the samples that were sent the receiver has taken.
     std::size_t delivered() const;
-    /// Throws std::runtime_error if the port is not connected or the connection refuses the sample.
-    void send(const RTC::ByteData& bytes);
+    /// Throws std::runtime_error, with the receiver's name, if the port is not connected or the connection refuses the sample.
+    void send(const RTC::ByteData& bytes, const std::string& receiver);
     /// The byte order that the connection has agreed on, in which samples are to be encoded.
     bool is_little_endian();
 
