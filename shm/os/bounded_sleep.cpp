@@ -16,12 +16,16 @@ std::uint64_t coarse_now_ns() {
            static_cast<std::uint64_t>(now.tv_nsec);
 }
 
+/// Longer sleeps are those that FutexTimeoutThread::end_sleeps() may have to end. Without a slot there, they are divided.
+constexpr std::uint64_t max_kernel_timeout_ns = 1'000'000'000;
+
 bool sleep_until_deadline(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline,
                           std::uint64_t timeout_ns) {
     if (timeout_ns >= FutexTimeoutThread::min_timeout_ns &&
         FutexTimeoutThread::of_process().sleep(word, expected, deadline))
         return true;
-    return futex_wait_timed(word, expected, timeout_ns);
+    return futex_wait_timed(word, expected, std::min(timeout_ns, max_kernel_timeout_ns)) ||
+           timeout_ns > max_kernel_timeout_ns;
 }
 
 } // namespace

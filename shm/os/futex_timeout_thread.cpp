@@ -6,6 +6,7 @@
 
 #include <climits>
 #include <csignal>
+#include <functional>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -112,6 +113,21 @@ bool FutexTimeoutThread::sleep(std::atomic<std::uint32_t>& word, std::uint32_t e
         return true;
     }
     return false;
+}
+
+// The thread repeats what it does for an overdue sleep until the slot is free, so it does not matter whether the sleeper
+// is in its system call yet. A slot that another sleeper takes meanwhile makes that one return early, which it may.
+void FutexTimeoutThread::end_sleeps(std::span<const std::byte> memory) {
+    for (Slot& slot : slots_) {
+        std::uint64_t deadline = slot.deadline.load();
+        if (deadline == never) continue;
+        const auto* const word =
+            reinterpret_cast<const std::byte*>(slot.word.load(std::memory_order_relaxed));
+        if (std::less<>()(word, memory.data()) || !std::less<>()(word, memory.data() + memory.size()))
+            continue;
+        slot.deadline.compare_exchange_strong(deadline, 0); // fails if the sleep is over
+    }
+    if (state_.load() == State::running) wake_thread();
 }
 
 void FutexTimeoutThread::wake_thread() {

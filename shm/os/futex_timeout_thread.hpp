@@ -2,8 +2,10 @@
 #pragma once
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <pthread.h>
+#include <span>
 
 namespace tandem::shm {
 
@@ -24,6 +26,10 @@ class FutexTimeoutThread {
     /// little later; may return early. False, without having slept: no slot, no thread or no signal is
     /// available, and the caller has to set a timer.
     bool sleep(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
+
+    /// [any-thread] Ends all sleeps of this process on words in that memory, as if their deadlines had come. To be called
+    /// after the words have changed, so that no other sleep begins.
+    void end_sleeps(std::span<const std::byte> memory);
 
     FutexTimeoutThread(const FutexTimeoutThread&) = delete;
     FutexTimeoutThread& operator=(const FutexTimeoutThread&) = delete;
@@ -49,7 +55,7 @@ class FutexTimeoutThread {
     void wake_thread();
     void reset_after_fork(); // in the child, which has no such thread
 
-    std::array<Slot, 64> slots_;
+    std::array<Slot, 256> slots_;
     std::atomic<std::uint64_t> next_check_{never}; // when the thread wakes up by itself
     std::atomic<std::uint32_t> wake_count_{0};     // futex word of the thread
     std::atomic<State> state_{State::not_started};

@@ -3,6 +3,7 @@
 
 #include "shm/os/bounded_sleep.hpp"
 #include "shm/os/futex.hpp"
+#include "shm/os/futex_timeout_thread.hpp"
 
 #include <csignal>
 #include <sys/mman.h>
@@ -55,13 +56,43 @@ TEST_CASE("a short sleep ends while a long one that began before goes on") {
 TEST_CASE("sleepers beyond the slots of the timeout thread set timers of their own and all end") {
     std::vector<std::thread> sleepers;
     std::atomic<int> ended{0};
-    for (int i = 0; i < 150; ++i)
+    for (int i = 0; i < 300; ++i)
         sleepers.emplace_back([&, i] {
             sleep_out(std::chrono::milliseconds(10 + i % 40));
             ++ended;
         });
     for (auto& sleeper : sleepers) sleeper.join();
-    CHECK(ended == 150);
+    CHECK(ended == 300);
+}
+
+TEST_CASE("sleeps without a bound are ended by memory and those elsewhere go on") {
+    struct {
+        std::atomic<std::uint32_t> here[8]{}, elsewhere{0};
+    } words;
+    std::atomic<int> ended{0};
+    std::atomic<bool> elsewhere_ended{false};
+    std::vector<std::thread> sleepers;
+    for (auto& word : words.here)
+        sleepers.emplace_back([&] {
+            while (!ended) futex_wait(word, 0, deadline_after(longest_wait));
+            ++ended;
+        });
+    std::thread other([&] {
+        futex_wait(words.elsewhere, 0, deadline_after(longest_wait));
+        elsewhere_ended = true;
+    });
+    std::this_thread::sleep_for(20ms); // most likely they sleep by now
+    ended = 1;
+    // Repeated, because the words do not change: a thread may have looked at `ended` before and begin to sleep after.
+    CHECK(eventually([&] {
+        FutexTimeoutThread::of_process().end_sleeps(std::as_bytes(std::span(words.here)));
+        return ended == 9;
+    }));
+    for (auto& sleeper : sleepers) sleeper.join();
+    CHECK_FALSE(elsewhere_ended);
+    words.elsewhere = 1;
+    futex_wake(words.elsewhere, 1);
+    other.join();
 }
 
 TEST_CASE("sleepers that come and go under the timeout thread all end") {
@@ -76,7 +107,8 @@ TEST_CASE("sleepers that come and go under the timeout thread all end") {
     CHECK(sleeps == 90);
 }
 
-TEST_CASE("a sleep ends at its bound though the file behind its word was truncated meanwhile") {
+TEST_CASE("a sleep ends at its bound, or is ended, though the file behind its word was truncated meanwhile") {
+    const bool at_its_bound = GENERATE(true, false);
     const int file = memfd_create("word", MFD_CLOEXEC);
     REQUIRE(ftruncate(file, 4096) == 0);
     void* const page = mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
@@ -84,11 +116,13 @@ TEST_CASE("a sleep ends at its bound though the file behind its word was truncat
     auto& word = *new (page) std::atomic<std::uint32_t>(1);
     std::atomic<bool> ended{false};
     std::thread sleeper([&] {
-        futex_wait(word, 1, deadline_after(200ms));
+        futex_wait(word, 1, deadline_after(at_its_bound ? 200ms : longest_wait));
         ended = true;
     });
     std::this_thread::sleep_for(20ms); // most likely it sleeps by now
     CHECK(ftruncate(file, 0) == 0);
+    if (!at_its_bound)
+        FutexTimeoutThread::of_process().end_sleeps({static_cast<const std::byte*>(page), 4096});
     CHECK(eventually([&] { return ended.load(); }));
     sleeper.join();
     munmap(page, 4096);
