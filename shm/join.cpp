@@ -56,7 +56,7 @@ class SegmentJoiner {
 
     std::shared_ptr<const Mapping> map(FileDescriptor file, const std::string& path,
                                        const layout::SegmentHeader& header) const {
-        return std::make_shared<const Mapping>(std::move(file), path, header, side_, options_.late_after);
+        return std::make_shared<const Mapping>(std::move(file), path, header, side_);
     }
 
     /// Takes this side. The peer may see it alive from the lock on, and does so from `taken` on.
@@ -65,7 +65,6 @@ class SegmentJoiner {
         if (!try_lock(mapping->fd(), life_byte(side_))) throw side_taken(mapping->path());
         own.pid.store(static_cast<std::uint32_t>(getpid()), std::memory_order_relaxed);
         own.joined_ns.store(now_ns(), std::memory_order_relaxed);
-        own.heartbeat_ns.store(now_ns(), std::memory_order_relaxed);
         own.taken.store(1, std::memory_order_release);
         return std::unique_ptr<Segment>(new Segment(std::move(mapping)));
     }
@@ -93,6 +92,7 @@ class SegmentJoiner {
                 std::max(arena_bytes_[index_of(owner)], header.arena_bytes[index_of(owner)]);
         if (!usable) return nullptr;
         auto joined = take_side(mapping);
+        announce_change(fd);
         joined->ring_peer(Doorbell::attention_bit);
         return joined;
     }

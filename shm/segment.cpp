@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/segment.hpp"
 
-#include "shm/os/clock.hpp"
+#include "shm/os/futex_timeout_thread.hpp"
 #include "shm/os/shared_copy.hpp"
 #include "shm/segment/liveness.hpp"
 
@@ -22,6 +22,7 @@ void Segment::leave() {
     unlock(fd, life_byte(side()));
     if (hand_over.held() && !held_by_other(fd, life_byte(other(side()))) && still_named(fd))
         ::unlink(path().c_str());
+    announce_change(fd);
     peer_doorbell_.ring(Doorbell::attention_bit);
 }
 
@@ -29,9 +30,7 @@ std::uint32_t Segment::peer_pid() const {
     return mapping_->side_header(other(side())).pid.load(std::memory_order_relaxed);
 }
 
-void Segment::heartbeat() {
-    mapping_->side_header(side()).heartbeat_ns.store(now_ns(), std::memory_order_relaxed);
-}
+void Segment::end_sleeps() const { FutexTimeoutThread::of_process().end_sleeps(mapping_->memory()); }
 
 bool Segment::superseded() const {
     // In this order: a truncated file may have no header to read.
@@ -57,6 +56,7 @@ std::span<std::byte> Segment::add_blob(const std::string& name, std::size_t byte
 
 void Segment::publish() {
     directory_.publish();
+    announce_change(mapping_->fd());
     peer_doorbell_.ring(Doorbell::attention_bit);
 }
 

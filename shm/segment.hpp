@@ -6,6 +6,7 @@
 #include "shm/ring/ring_writer.hpp"
 #include "shm/segment/directory.hpp"
 #include "shm/segment/segment_file.hpp"
+#include "shm/segment/watcher.hpp"
 #include "shm/wait/doorbell.hpp"
 
 namespace tandem::shm {
@@ -24,8 +25,6 @@ struct JoinOptions {
     std::uint64_t contract =
         0;             ///< version of the users' own agreement; a segment with another one is refused
     std::string group; ///< if not empty: mode 0660, owned by that group
-    /// Age of the peer's heartbeat that makes it late.
-    std::chrono::nanoseconds late_after = std::chrono::milliseconds(100);
 };
 
 /// One generation of a link, seen from one side. Join, add objects, publish(); when the peer has published,
@@ -41,7 +40,7 @@ class Segment {
     Segment(const Segment&) = delete;
     Segment& operator=(const Segment&) = delete;
 
-    /// [any-thread] Gives this side back and rings the peer; the last side to leave removes the file. The
+    /// [any-thread] Gives this side back and tells the peer; the last side to leave removes the file. The
     /// memory stays mapped as long as this, or a ring, call queue or doorbell object of it, exists.
     void leave();
 
@@ -49,12 +48,12 @@ class Segment {
     Side side() const { return mapping_->side(); }
     const std::string& path() const { return mapping_->path(); }
 
-    /// [any-thread] Makes one system call: cheap enough for every 5 ms, not for every message.
+    /// [any-thread] absent, alive or dead. Makes one system call: cheap enough for every 5 ms, not for every message.
     PeerState peer_state() const { return mapping_->peer_state(); }
     std::size_t arena_bytes(Side owner) const { return mapping_->arena(owner).size(); }
-    std::uint32_t peer_pid() const; ///< As the peer wrote it: for messages to people only.
-    /// [any-thread] Tells the peer that this side still works. Call it more often than late_after.
-    void heartbeat();
+    std::uint32_t peer_pid() const; ///< As the peer wrote it, in its own pid namespace.
+    /// [any-thread] Has the watcher look out for what happens to this generation. Throws Error.
+    void watch(Watcher& watcher) const { watcher.watch_file(mapping_->fd()); }
 
     /// [any-thread] A newer generation exists, or the file was removed or truncated: leave and join again.
     /// Makes two system calls.
@@ -68,7 +67,7 @@ class Segment {
     CallQueueHandle add_call_queue(const std::string& name, const CallQueueOptions& options);
     std::span<std::byte> add_blob(const std::string& name, std::size_t bytes); ///< zero-filled, 128-aligned
 
-    /// Makes all objects added so far visible and rings the peer. May be called again after further
+    /// Makes all objects added so far visible and tells the peer. May be called again after further
     /// additions.
     void publish();
     bool peer_published() const;
@@ -81,6 +80,10 @@ class Segment {
     /// A copy that the peer cannot change while it is parsed.
     std::optional<std::vector<std::byte>> copy_blob(Side owner, const std::string& name) const;
     std::vector<ObjectInfo> list(Side owner) const;
+
+    /// [any-thread] Ends all sleeps of this process in this segment, so that their waits look again: also those on words
+    /// that nobody can wake any more, because the file was truncated.
+    void end_sleeps() const;
 
     Doorbell& doorbell() { return doorbell_; }
     Doorbell& peer_doorbell() { return peer_doorbell_; }

@@ -377,7 +377,7 @@ void AdaptorComp::publish_listened_ports() {
         ports.assign(listened_ports_.begin(), listened_ports_.end());
     }
     if (!link_->is_up()) return; // peer_connected() comes here again
-    const auto reply = send_command(control::listen, control::encode(ports));
+    const auto reply = link_->request_rings(ports, settings_.call_timeout);
     if (reply.status != CallStatus::ok && !peer_has_gone(reply.status) && link_->is_up())
         spdlog::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
                      settings_.link, describe_failure(reply, settings_.call_timeout));

@@ -2,6 +2,7 @@
 #include "proxy/link/call_workers.hpp"
 
 #include <chrono>
+#include <pthread.h>
 
 namespace tandem::link {
 
@@ -36,6 +37,7 @@ void CallWorkers::start_worker() {
 }
 
 void CallWorkers::run() {
+    pthread_setname_np(pthread_self(), "tandem-worker");
     while (!state_.is_closing())
         if (auto call = wait_for_call()) serve(std::move(*call));
 }
@@ -47,8 +49,9 @@ std::optional<shm::IncomingCall> CallWorkers::wait_for_call() {
         const std::lock_guard lock(mutex_);
         ++idle_;
     }
-    const auto session = state_.wait_for_session(100ms);
-    auto call = session ? session->incoming_calls().take(100ms) : std::nullopt;
+    // Both sleep until a call comes, the session ends or the link closes: an idle link wakes nobody.
+    const auto session = state_.wait_for_session();
+    auto call = session ? session->incoming_calls().take(shm::longest_wait) : std::nullopt;
     const std::lock_guard lock(mutex_);
     --idle_;
     // One worker must stay idle for the calls that this call leads the peer to make in turn.

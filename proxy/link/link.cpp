@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/link.hpp"
 
+#include "proxy/link/protocol/control.hpp"
 #include "shm/segment/truncation_guard.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,8 @@ constexpr std::size_t max_waiting_sends = 256;
 } // namespace
 
 Link::Link(shm::Side side, LinkOptions options, PortTable own_ports, LinkHandler& handler)
-    : options_(std::move(options)), own_ports_(std::move(own_ports)), tasks_(options_.name),
+    : options_(std::move(options)), own_ports_(std::move(own_ports)),
+      channels_([this] { supervisor_.wake(); }), tasks_(options_.name),
       sends_(options_.name, max_waiting_sends),
       supervisor_(side, options_, own_ports_, handler, state_, channels_, tasks_),
       workers_(state_, handler, [this] { supervisor_.wake(); }), arrivals_(state_, channels_, options_.wait) {
@@ -56,6 +58,13 @@ Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
     encode(request, encoded);
     auto reply = session->outgoing_calls()->call(encoded, timeout);
     return {reply.status, std::move(reply.bytes)};
+}
+
+Reply Link::request_rings(const std::vector<std::string>& ports, std::chrono::milliseconds timeout) {
+    const auto session = state_.connected_session();
+    const auto reply = call({"", control::listen, "", control::encode(ports)}, timeout);
+    arrivals_.set_peer_rings(session, reply.status == CallStatus::ok);
+    return reply;
 }
 
 Reply Link::send(const Request& request, std::chrono::milliseconds timeout) {

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace tandem::link {
 
@@ -57,11 +58,14 @@ class Link {
     ChannelWriter& writer(const std::string& port) { return channels_.writer(port); }
     ChannelReader& reader(const std::string& port) { return channels_.reader(port); }
 
-    /// Calls `listener` in the notifier thread after messages of `port` have arrived; see ArrivalNotifier. The
-    /// peer must be asked to ring the doorbell (control::listen), otherwise it takes up to a second.
+    /// Calls `listener` in the notifier thread after messages of `port` have arrived; see ArrivalNotifier. Up to a second
+    /// late until request_rings() has succeeded for this port.
     void set_arrival_listener(const std::string& port, std::function<void()> listener) {
         arrivals_.set_listener(port, std::move(listener));
     }
+    /// Asks the peer to ring the doorbell after each message of these ports, of all that have listeners. After a failure
+    /// arrivals are looked for once a second. [task-thread]
+    Reply request_rings(const std::vector<std::string>& ports, std::chrono::milliseconds timeout);
 
   private:
     const LinkOptions options_;

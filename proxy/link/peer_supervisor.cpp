@@ -3,17 +3,19 @@
 
 #include "proxy/link/protocol/link_error.hpp"
 
+#include <pthread.h>
 #include <spdlog/spdlog.h>
+
+#include <system_error>
 
 namespace tandem::link {
 namespace {
 
 using namespace std::chrono_literals;
 
-// While the link is up: also the period of the heartbeat.
-constexpr auto watch_period_up = 10ms;
-// While it is down: the watcher wakes the thread when a peer joins; this period covers what it cannot see.
-constexpr auto watch_period_down = 3ms;
+// After somebody seems to have left, the thread looks again after 1, 2, 4, ... ms, 1 s together: a lock becomes free a
+// little after its owner's file is closed, and the process that closes it may have to wait for a processor.
+constexpr std::chrono::nanoseconds first_settling = 1ms, max_settling = 512ms;
 constexpr auto retry_taken_side = 1ms;
 constexpr auto retry_join = 10ms;
 // Failures to join pass by themselves during a restart: only a lasting one is logged, once per so many tries.
@@ -28,7 +30,7 @@ PeerSupervisor::PeerSupervisor(shm::Side side, const LinkOptions& options, const
       channels_(channels), tasks_(tasks), watcher_(options.name), joiner_(side, options, own_ports) {}
 
 void PeerSupervisor::start() {
-    state_.start_session(joiner_.join());
+    begin_session();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -37,23 +39,54 @@ void PeerSupervisor::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
+void PeerSupervisor::begin_session() {
+    auto session = joiner_.join();
+    session->segment()->watch(watcher_); // before the first look, so that nothing is missed between the two
+    peer_watched_ = false;
+    peer_refused_ = false;
+    state_.start_session(std::move(session));
+}
+
 void PeerSupervisor::run() {
+    pthread_setname_np(pthread_self(), "tandem-link");
     while (!state_.is_closing()) {
         const auto session = state_.session();
         if (!session) {
             rejoin();
             continue;
         }
-        session->segment()->heartbeat();
         if (const std::string reason = end_reason(*session); !reason.empty()) {
             disconnect(reason);
             continue;
         }
+        if (!peer_watched_) watch_peer(*session);
         if (!state_.is_up() && !peer_refused_ && session->segment()->peer_published()) try_connect(*session);
-        if (state_.is_up()) channels_.check_deadlines();
-        watcher_.wait(state_.is_up() ? watch_period_up : watch_period_down);
+        if (state_.session() == session)
+            sleep_until_event(state_.is_up() ? channels_.check_deadlines() : shm::longest_wait);
     }
     disconnect("");
+}
+
+/// Besides the segment, as soon as somebody has joined: a process that dies while no processor is free for it is noticed
+/// whenever that is over.
+void PeerSupervisor::watch_peer(const LinkSession& session) {
+    const auto& segment = *session.segment();
+    if (segment.peer_state() == shm::PeerState::absent) return;
+    peer_watched_ = true;
+    if (const auto refusal = watcher_.watch_process(segment.peer_pid()))
+        spdlog::info(
+            "link '{}': process {} of the peer cannot be watched ({}); its end is noticed by the segment's "
+            "lock alone",
+            options_.name, segment.peer_pid(), std::generic_category().message(*refusal));
+}
+
+void PeerSupervisor::sleep_until_event(std::chrono::nanoseconds bound) {
+    using Event = shm::Watcher::Event;
+    const auto event = watcher_.wait(settling_.count() != 0 ? std::min(bound, settling_) : bound);
+    if (event == Event::departed)
+        settling_ = first_settling;
+    else if (event == Event::none)
+        settling_ = settling_ < max_settling ? 2 * settling_ : 0ns;
 }
 
 std::string PeerSupervisor::end_reason(const LinkSession& session) const {
@@ -65,8 +98,7 @@ std::string PeerSupervisor::end_reason(const LinkSession& session) const {
 
 void PeerSupervisor::rejoin() {
     try {
-        state_.start_session(joiner_.join());
-        peer_refused_ = false;
+        begin_session();
         failed_rejoins_ = 0;
     } catch (const shm::SideTaken& taken) {
         // By this process itself: some thread still works in the last session and gives the side back soon.
@@ -97,6 +129,7 @@ void PeerSupervisor::try_connect(LinkSession& session) {
     }
     joiner_.remember_peer_memory(session);
     state_.set_up();
+    session.segment()->doorbell().ring(message_bit); // the notifier may look into the rings from now on
     handler_.link_state_changed(true);
     tasks_.post([this] { handler_.peer_connected(); });
 }
@@ -130,6 +163,7 @@ void PeerSupervisor::disconnect(const std::string& reason) {
     if (was_up && !reason.empty())
         spdlog::warn("link '{}' is down: {}{}", options_.name, reason,
                      unread == 0 ? "" : fmt::format("; {} messages under way are lost", unread));
+    watcher_.stop_watching();
     if (!was_up || state_.is_closing()) return; // whoever closes the link knows that it goes down
     handler_.link_state_changed(false);
     tasks_.post([this] { handler_.peer_disconnected(); });

@@ -15,9 +15,9 @@
 
 namespace tandem::link {
 
-/// The supervisor thread of a link: joins the segment, beats the heart, connects when a peer has published a
-/// port table that fits, disconnects when the peer or the segment is lost, and begins again. It is the only
-/// thread that starts and ends sessions, and it never waits for the peer.
+/// The supervisor thread of a link: joins the segment, connects when a peer has published a port table that fits,
+/// disconnects when the peer or the segment is lost, and begins again. It is the only thread that starts and ends
+/// sessions. It never waits for the peer in a call, and while nothing happens to the segment it sleeps.
 class PeerSupervisor {
   public:
     /// All references must outlive this object.
@@ -37,10 +37,13 @@ class PeerSupervisor {
 
   private:
     void run();
+    void begin_session();
     void rejoin();
     void wait_to_rejoin(std::chrono::milliseconds delay, const std::string& reason);
     /// Why the session must end, in one line; empty while it can go on.
     std::string end_reason(const LinkSession& session) const;
+    void watch_peer(const LinkSession& session);
+    void sleep_until_event(std::chrono::nanoseconds bound);
     void try_connect(LinkSession& session);
     bool chunks_suffice(const LinkSession& session);
     /// Returns why the handler refused the peer, in one line; empty when the channels are bound.
@@ -54,10 +57,12 @@ class PeerSupervisor {
     LinkState& state_;
     ChannelTable& channels_;
     TaskQueue& tasks_;
-    shm::Watcher watcher_; ///< wakes the thread when a process joins or leaves the segment
+    shm::Watcher watcher_; ///< wakes the thread when something happens to the segment or the peer's process
     SessionJoiner joiner_;
-    bool peer_refused_ = false;   ///< in this session; another peer can only come in another session
-    unsigned failed_rejoins_ = 0; ///< since the last session
+    bool peer_watched_ = false;           ///< the watcher watches the peer's process, or cannot
+    std::chrono::nanoseconds settling_{}; ///< after a departure: how soon to look again; 0: long enough ago
+    bool peer_refused_ = false;           ///< in this session; another peer can only come in another session
+    unsigned failed_rejoins_ = 0;         ///< since the last session
     std::thread thread_;
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/link/task_queue.hpp"
 
+#include <pthread.h>
 #include <spdlog/spdlog.h>
-
-#include <chrono>
 
 namespace tandem::link {
 
@@ -30,10 +29,11 @@ bool TaskQueue::post(std::function<void()> task) {
 }
 
 void TaskQueue::run() {
+    pthread_setname_np(pthread_self(), "tandem-tasks");
     std::unique_lock lock(mutex_);
     while (!stopping_) {
-        changed_.wait_for(lock, std::chrono::seconds(1), [this] { return !tasks_.empty() || stopping_; });
-        if (stopping_ || tasks_.empty()) continue;
+        changed_.wait(lock, [this] { return !tasks_.empty() || stopping_; });
+        if (stopping_) break;
         const auto task = std::move(tasks_.front());
         tasks_.pop_front();
         lock.unlock(); // a task may take seconds, and may post another one

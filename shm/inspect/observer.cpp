@@ -2,12 +2,12 @@
 #include "shm/inspect/observer.hpp"
 
 #include "shm/inspect/read_only_snapshot.hpp"
-#include "shm/os/clock.hpp"
 #include "shm/os/error.hpp"
 #include "shm/segment/liveness.hpp"
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <sys/stat.h>
 
@@ -96,9 +96,18 @@ void read_header_fields(const ReadOnlySnapshot& file, ObservedSegment& view) {
     if (!sound) set_unreadable(view, Readability::damaged, "its header contradicts itself");
 }
 
+/// Whether the process is stopped by a signal or by a debugger, as proc(5) tells. False also for the pid of a process in
+/// another pid namespace, whose number nobody has here.
+bool is_stopped(std::uint32_t pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+    std::string text;
+    std::getline(file, text);
+    const auto name_end = text.rfind(") "); // the name may hold anything
+    return name_end != std::string::npos && (text[name_end + 2] == 'T' || text[name_end + 2] == 't');
+}
+
 /// `taken` is read before the lock is tested, for the reason given in Mapping::peer_state().
-void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which,
-               std::chrono::nanoseconds late_after) {
+void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which) {
     using layout::SideHeader;
     ObservedSide& side = view.sides[index_of(which)];
     StructCopy<offsetof(SideHeader, directory)> copy;
@@ -109,19 +118,15 @@ void read_side(const ReadOnlySnapshot& file, ObservedSegment& view, Side which,
     if (!known) return;
     side.pid = copy.get<std::uint32_t>(offsetof(SideHeader, pid));
     side.joined_ns = copy.get<std::uint64_t>(offsetof(SideHeader, joined_ns));
-    side.heartbeat_ns = copy.get<std::uint64_t>(offsetof(SideHeader, heartbeat_ns));
     side.published = copy.get<std::uint32_t>(offsetof(SideHeader, published)) != 0;
-    const std::uint64_t now = now_ns(), bound = static_cast<std::uint64_t>(late_after.count());
-    // Unsigned: a heartbeat that was stored after `now` was read is a little ahead, not late.
-    const bool late = now - side.heartbeat_ns > bound && side.heartbeat_ns - now > bound;
     side.state = copy.get<std::uint32_t>(offsetof(SideHeader, taken)) == 0 ? PeerState::absent
                  : !side.held                                              ? PeerState::dead
-                 : late                                                    ? PeerState::late
+                 : is_stopped(side.pid)                                    ? PeerState::stopped
                                                                            : PeerState::alive;
 }
 
 /// Reads the content of the file. False: it is gone.
-bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view, std::chrono::nanoseconds late_after) {
+bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view) {
     if (!file && errno == ENOENT) return false;
     if (!file) {
         set_unreadable(view, Readability::damaged, "cannot be opened (" + errno_text() + ")");
@@ -132,7 +137,7 @@ bool read_content(const ReadOnlySnapshot& file, ObservedSegment& view, std::chro
         return false; // replaced since read_file_status() looked at it
     set_sizes(opened, view);
     read_header_fields(file, view);
-    for (const Side which : {Side::first, Side::second}) read_side(file, view, which, late_after);
+    for (const Side which : {Side::first, Side::second}) read_side(file, view, which);
     view.changing_hands = held_by_other(file.fd(), LockByte::hand_over);
     return true;
 }
@@ -159,22 +164,21 @@ std::set<std::string> list_links() {
 
 } // namespace
 
-std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after) {
+std::vector<ObservedSegment> observe_segments() {
     std::vector<ObservedSegment> found;
     for (const auto& link : list_links())
         for (const auto generation : list_generations(link)) {
             auto view = read_file_status(link, generation);
             if (!view) continue;
             if (view->readability == Readability::readable &&
-                !read_content(ReadOnlySnapshot(view->path), *view, late_after))
+                !read_content(ReadOnlySnapshot(view->path), *view))
                 continue;
             found.push_back(std::move(*view));
         }
     return found;
 }
 
-std::optional<Observation> observe(const std::string& link, std::uint64_t generation,
-                                   std::chrono::nanoseconds late_after) {
+std::optional<Observation> observe(const std::string& link, std::uint64_t generation) {
     check_link_name(link);
     for (const auto candidate : list_generations(link)) {
         if (generation != 0 && candidate != generation) continue;
@@ -183,7 +187,7 @@ std::optional<Observation> observe(const std::string& link, std::uint64_t genera
         Observation observation{std::move(*view), {}, {}, {}, {}};
         if (observation.segment.readability != Readability::readable) return observation;
         const ReadOnlySnapshot file(observation.segment.path);
-        if (!read_content(file, observation.segment, late_after)) continue;
+        if (!read_content(file, observation.segment)) continue;
         if (observation.segment.readability == Readability::readable) observe_objects(file, observation);
         return observation;
     }

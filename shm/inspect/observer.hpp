@@ -22,9 +22,9 @@ enum class Readability { readable, foreign, other_layout, damaged };
 /// One side of a segment. Of a segment that is not readable only `held` is known.
 struct ObservedSide {
     PeerState state = PeerState::absent;
-    bool held = false;                             ///< a living process holds this side's lock
-    std::uint32_t pid = 0;                         ///< as the side wrote it, in its own pid namespace
-    std::uint64_t joined_ns = 0, heartbeat_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
+    bool held = false;           ///< a living process holds this side's lock
+    std::uint32_t pid = 0;       ///< as the side wrote it, in its own pid namespace
+    std::uint64_t joined_ns = 0; ///< CLOCK_MONOTONIC, see now_ns()
     bool published = false;
 };
 
@@ -91,17 +91,13 @@ struct Observation {
     std::vector<std::string> damage; ///< one line for each directory entry that cannot be read
 };
 
-/// Age of a heartbeat beyond which a side is late.
-constexpr std::chrono::nanoseconds default_late_after = std::chrono::milliseconds(100);
-
 /// [any-process] All segments of the machine, by link, newest first. Throws Error if /dev/shm cannot be
 /// listed.
-std::vector<ObservedSegment> observe_segments(std::chrono::nanoseconds late_after = default_late_after);
+std::vector<ObservedSegment> observe_segments();
 
 /// [any-process] One generation of a link (0: the newest) and the objects in it; empty if there is none.
 /// Throws Error for an impossible link name.
-std::optional<Observation> observe(const std::string& link, std::uint64_t generation = 0,
-                                   std::chrono::nanoseconds late_after = default_late_after);
+std::optional<Observation> observe(const std::string& link, std::uint64_t generation = 0);
 
 class ReadOnlySnapshot;
 /// Used by observe(): adds the objects of a readable segment.

@@ -10,7 +10,7 @@
 //      0 +---------------------------+
 //        | SegmentHeader             |  written before the file has a name; only superseded_by changes later
 //  4 KiB +---------------------------+
-//        | SideHeader of first       |  identity | heartbeat | doorbell | published | directory[512]
+//        | SideHeader of first       |  identity | doorbell | published | directory[512]
 //        +---------------------------+
 //        | SideHeader of second      |
 //        +---------------------------+  arena_offset[0], page aligned
@@ -44,7 +44,7 @@ static_assert(Word32::is_always_lock_free && sizeof(Word32) == 4);
 static_assert(Word64::is_always_lock_free && sizeof(Word64) == 8);
 
 constexpr std::uint64_t magic = 0x31304d45444e4154; // "TANDEM01" read as bytes
-constexpr std::uint32_t layout_version = 3;
+constexpr std::uint32_t layout_version = 4;
 constexpr std::size_t page = 4096;
 constexpr std::size_t line = 64;
 constexpr std::size_t line_pair = 128;
@@ -95,11 +95,9 @@ struct alignas(line_pair) SideHeader {
     Word32 pid;   // for messages to people only
     Word64 joined_ns;
     std::byte unused0[112];
-    alignas(line_pair) Word64 heartbeat_ns; // CLOCK_MONOTONIC
-    std::byte unused1[120];
     DoorbellWords doorbell;              // of this side: the other rings it
     alignas(line_pair) Word32 published; // 0 = nothing yet, else 1 + number of valid directory entries
-    std::byte unused2[124];
+    std::byte unused1[124];
     DirectoryEntry directory[max_objects];
 };
 
@@ -109,9 +107,9 @@ static_assert(offsetof(SegmentHeader, superseded_by) == 80);
 static_assert(sizeof(SegmentHeader) == page);
 static_assert(sizeof(DoorbellWords) == line_pair);
 static_assert(sizeof(DirectoryEntry) == 128 && offsetof(DirectoryEntry, offset) == 112);
-static_assert(offsetof(SideHeader, heartbeat_ns) == 128 && offsetof(SideHeader, doorbell) == 256);
-static_assert(offsetof(SideHeader, published) == 384 && offsetof(SideHeader, directory) == 512);
-static_assert(sizeof(SideHeader) == 512 + max_objects * sizeof(DirectoryEntry));
+static_assert(offsetof(SideHeader, doorbell) == 128);
+static_assert(offsetof(SideHeader, published) == 256 && offsetof(SideHeader, directory) == 384);
+static_assert(sizeof(SideHeader) == 384 + max_objects * sizeof(DirectoryEntry));
 
 constexpr std::size_t arenas_begin = 139264; // behind both SideHeaders, next page
 static_assert(page + 2 * sizeof(SideHeader) <= arenas_begin && arenas_begin % page == 0);

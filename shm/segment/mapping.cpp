@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shm/segment/mapping.hpp"
 
-#include "shm/os/clock.hpp"
 #include "shm/os/error.hpp"
 #include "shm/segment/liveness.hpp"
 
@@ -42,11 +41,10 @@ ipc::mapped_region map_all(int fd, const std::string& path, std::uint64_t bytes,
 } // namespace
 
 Mapping::Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked,
-                 Side side, std::chrono::nanoseconds late_after)
+                 Side side)
     : file_(std::move(file)), path_(path), sparse_(has_holes(file_.get(), checked.total_bytes)),
       region_(map_all(file_.get(), path, checked.total_bytes, sparse_)),
-      guarded_(region_.get_address(), region_.get_size()), side_(side), generation_(checked.generation),
-      late_after_ns_(static_cast<std::uint64_t>(late_after.count())) {
+      guarded_(region_.get_address(), region_.get_size()), side_(side), generation_(checked.generation) {
     for (std::size_t i = 0; i < 2; ++i)
         arena_[i] = {at<std::byte>(checked.arena_offset[i]), checked.arena_bytes[i]};
     touch({at<const std::byte>(0), layout::arenas_begin});
@@ -68,11 +66,7 @@ PeerState Mapping::peer_state() const {
     // `taken` is set after the lock is held, so it must be read before the lock is looked at: the other way
     // round, a peer that joins between the two reads would look dead.
     if (peer.taken.load(std::memory_order_acquire) == 0) return PeerState::absent;
-    if (!held_by_other(file_.get(), life_byte(other(side_)))) return PeerState::dead;
-    const std::uint64_t beat = peer.heartbeat_ns.load(std::memory_order_relaxed);
-    const std::uint64_t now = now_ns();
-    // A beat far in the future is as late as an old one; one a little ahead was stored after `now` was read.
-    return now - beat > late_after_ns_ && beat - now > late_after_ns_ ? PeerState::late : PeerState::alive;
+    return held_by_other(file_.get(), life_byte(other(side_))) ? PeerState::alive : PeerState::dead;
 }
 
 } // namespace tandem::shm

@@ -6,7 +6,6 @@
 #include "shm/segment/truncation_guard.hpp"
 
 #include <boost/interprocess/mapped_region.hpp>
-#include <chrono>
 #include <span>
 #include <string>
 
@@ -17,8 +16,7 @@ namespace tandem::shm {
 class Mapping {
   public:
     /// `checked`: the header from read_header(). Throws Error if the file cannot be mapped.
-    Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked, Side side,
-            std::chrono::nanoseconds late_after);
+    Mapping(FileDescriptor file, const std::string& path, const layout::SegmentHeader& checked, Side side);
 
     int fd() const { return file_.get(); }
     const std::string& path() const { return path_; }
@@ -29,6 +27,9 @@ class Mapping {
     layout::SideHeader& side_header(Side side) const {
         return *at<layout::SideHeader>(sizeof(layout::SegmentHeader) +
                                        index_of(side) * sizeof(layout::SideHeader));
+    }
+    std::span<const std::byte> memory() const {
+        return {static_cast<const std::byte*>(region_.get_address()), region_.get_size()};
     }
     std::span<std::byte> arena(Side side) const { return arena_[index_of(side)]; }
 
@@ -61,7 +62,6 @@ class Mapping {
     std::span<std::byte> arena_[2];
     Side side_;
     std::uint64_t generation_;
-    std::uint64_t late_after_ns_;
 };
 
 } // namespace tandem::shm

@@ -190,6 +190,8 @@ bool still_named(int fd) {
     return fstat(fd, &file) == 0 && file.st_nlink > 0;
 }
 
+void announce_change(int fd) { futimens(fd, nullptr); }
+
 layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t contract) {
     layout::SegmentHeader header{};
     struct stat file {};

@@ -62,6 +62,9 @@ bool link_unnamed(int fd, const std::string& path);
 /// Whether the file has not been unlinked.
 bool still_named(int fd);
 
+/// Wakes the watchers of the file (watcher.hpp), by setting its times: stores to mapped memory wake nobody.
+void announce_change(int fd);
+
 /// Reads the header. Throws Error unless file size, layout version and the caller's contract are right.
 layout::SegmentHeader read_header(int fd, const std::string& path, std::uint64_t contract);
 

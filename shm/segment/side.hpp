@@ -12,8 +12,8 @@ constexpr Side other(Side side) { return side == Side::first ? Side::second : Si
 constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side) & 1U; }
 constexpr const char* name_of(Side side) { return side == Side::first ? "first" : "second"; }
 
-/// absent: never joined this generation. late: alive, but its heartbeat is old (the process is stopped, or
-/// gets no CPU time). dead: had joined, and its lock is free. Only the lock decides between alive and dead.
-enum class PeerState { absent, alive, late, dead };
+/// absent: never joined this generation. stopped: alive, but its process is stopped by a signal or a debugger; only
+/// observers tell that. dead: had joined, and its lock is free. Only the lock decides between alive and dead.
+enum class PeerState { absent, alive, stopped, dead };
 
 } // namespace tandem::shm

@@ -26,7 +26,6 @@ RingOptions with_chunks(Side writer) {
 /// Everything that a side can do with what it had found; none of it may end the process.
 void use_all(Segment& mine, RingWriter& writer, RingReader& reader, CallClient& client, CallServer& server) {
     for (int i = 0; i < 100; ++i) {
-        mine.heartbeat();
         mine.peer_state();
         mine.doorbell().poll();
         mine.ring_peer(1);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A side that is stopped for a while: late, not dead, and afterwards it goes on as if nothing had been.
+// A side that is stopped for a while: not dead, and afterwards it goes on as if nothing had been.
 #include "../shm/fixture.hpp"
 #include "shared.hpp"
 
 #include "shm/call/call_client.hpp"
 #include "shm/call/call_server.hpp"
+#include "shm/inspect/observer.hpp"
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
@@ -16,22 +17,23 @@ struct Flags {
     std::atomic<std::uint64_t> counted{0};
 };
 
-JoinOptions soon_late() {
-    auto options = small(std::size_t{8} << 20);
-    options.late_after = 20ms;
-    return options;
-}
+JoinOptions large() { return small(std::size_t{8} << 20); }
 
-/// 0.6 s, in the long run 5 s. Late all the time, never anything else, and nobody can take its side.
+/// 0.6 s, in the long run 5 s. Alive all the time, stopped for observers, and nobody can take its side.
 void stay_stopped(const Link& link, const Segment& survivor) {
-    REQUIRE(eventually([&] { return survivor.peer_state() == PeerState::late; }));
+    const auto observed_state = [&] {
+        const auto seen = observe(link.name);
+        return seen ? seen->segment.side(other(survivor.side())).state : PeerState::absent;
+    };
+    REQUIRE(eventually([&] { return observed_state() == PeerState::stopped; }));
     const auto until = deadline_after(std::chrono::milliseconds(stress(600, 5000)));
     while (now_ns() < until) {
-        REQUIRE(survivor.peer_state() == PeerState::late);
+        REQUIRE(survivor.peer_state() == PeerState::alive);
+        REQUIRE(observed_state() == PeerState::stopped);
         REQUIRE_FALSE(survivor.superseded());
         std::this_thread::sleep_for(5ms);
     }
-    CHECK_THROWS_AS(join(link, other(survivor.side()), soon_late()), SideTaken);
+    CHECK_THROWS_AS(join(link, other(survivor.side()), large()), SideTaken);
 }
 
 } // namespace
@@ -39,15 +41,14 @@ void stay_stopped(const Link& link, const Segment& survivor) {
 TEST_CASE("a writer that was stopped goes on without a gap") {
     Link link;
     Shared<Flags> flags;
-    auto first = join(link, Side::first, soon_late());
+    auto first = join(link, Side::first, large());
     RingReader reader(first->add_ring("r", {.writer = Side::second, .max_record = 8, .capacity = 4 << 20}));
     first->publish();
     // The ring holds far more than the writer sends between two looks of the reader, so nothing is dropped.
     Child writing([&] {
-        auto second = join(link, Side::second, soon_late());
+        auto second = join(link, Side::second, large());
         RingWriter writer(*second->find_ring(Side::first, "r"));
         for (std::uint64_t number = 1; !flags->no_more; ++number) {
-            second->heartbeat();
             writer.write(std::as_bytes(std::span(&number, 1)), number);
             if (number % 64 == 0) std::this_thread::sleep_for(500us);
         }
@@ -83,15 +84,14 @@ TEST_CASE("a writer that was stopped goes on without a gap") {
 TEST_CASE("a reader that was stopped has missed what was dropped and the books balance") {
     Link link;
     Shared<Flags> flags;
-    auto first = join(link, Side::first, soon_late());
+    auto first = join(link, Side::first, large());
     RingWriter writer(first->add_ring("r", {.max_record = 8, .capacity = 4096}));
     first->publish();
     Child reading([&] {
-        auto second = join(link, Side::second, soon_late());
+        auto second = join(link, Side::second, large());
         RingReader reader(*second->find_ring(Side::first, "r"));
         std::uint64_t last = 0;
         for (;;) {
-            second->heartbeat();
             const bool last_look = flags->no_more;
             while (const auto record = reader.read()) {
                 if (record->stamp_ns <= last) return 1;
@@ -131,14 +131,13 @@ TEST_CASE("a reader that was stopped has missed what was dropped and the books b
 
 TEST_CASE("a call to a worker that was stopped ends by its deadline and the next is answered") {
     Link link;
-    auto first = join(link, Side::first, soon_late());
+    auto first = join(link, Side::first, large());
     CallClient client(first->add_call_queue("c", {.slots = 4, .max_bytes = 64}));
     first->publish();
     Child serving([&] {
-        auto second = join(link, Side::second, soon_late());
+        auto second = join(link, Side::second, large());
         CallServer server(*second->find_call_queue(Side::first, "c"));
         for (;;) {
-            second->heartbeat();
             if (auto call = server.take(5ms)) call->reply(CallStatus::ok, call->arguments());
         }
         return 0;

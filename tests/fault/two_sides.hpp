@@ -43,7 +43,6 @@ class Visit {
     bool over() const { return segment_->peer_state() == PeerState::dead || segment_->superseded(); }
 
     void turn() {
-        segment_->heartbeat();
         ++number_;
         const std::vector<std::uint64_t> payload(1 + number_ % 20, number_);
         writer_.write(std::as_bytes(std::span(payload)), number_);

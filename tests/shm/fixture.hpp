@@ -43,8 +43,6 @@ struct Link {
 inline JoinOptions small(std::size_t bytes = 512 * 1024) {
     JoinOptions options;
     options.arena_bytes = bytes;
-    // On a busy machine any side may be late for a while; who asks for that says after how long.
-    options.late_after = std::chrono::hours(1);
     return options;
 }
 

@@ -28,12 +28,11 @@ std::string format_segment(const shm::ObservedSegment& segment) {
 
 // "-" for the times of a side that has not joined: its fields are those of the last generation or zero.
 std::string format_side_table(const shm::ObservedSegment& segment) {
-    Table table({"side", "state", ">joined", ">heartbeat", ">arena", "objects"});
+    Table table({"side", "state", ">joined", ">arena", "objects"});
     for (const Side which : {Side::first, Side::second}) {
         const shm::ObservedSide& side = segment.side(which);
         const bool joined = side.state != shm::PeerState::absent;
         table.add_row({name_of(which), format_side(segment, which), joined ? format_age(side.joined_ns) : "-",
-                       joined ? format_age(side.heartbeat_ns) : "-",
                        format_bytes(segment.arena_bytes[index_of(which)]),
                        side.published ? "published" : "not published"});
     }

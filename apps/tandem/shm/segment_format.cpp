@@ -30,8 +30,8 @@ const char* to_string(shm::PeerState state) {
         return "absent";
     case shm::PeerState::alive:
         return "alive";
-    case shm::PeerState::late:
-        return "late";
+    case shm::PeerState::stopped:
+        return "stopped";
     case shm::PeerState::dead:
         break;
     }
@@ -67,7 +67,6 @@ nlohmann::json side_json(const shm::ObservedSegment& segment, shm::Side which) {
     if (side.state == shm::PeerState::absent) return json;
     json["pid"] = side.pid;
     json["joined_ns_ago"] = age_json(side.joined_ns);
-    json["heartbeat_ns_ago"] = age_json(side.heartbeat_ns);
     json["published"] = side.published;
     return json;
 }

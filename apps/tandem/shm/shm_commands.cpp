@@ -22,8 +22,8 @@ constexpr CommandHelp list_help{
     "All segments: link, generation, size, owner, both sides, age",
     "The two sides of a segment are\n"
     "  absent   has not joined this generation yet\n"
-    "  alive    has joined, and its heartbeat is fresh\n"
-    "  late     has joined, but its heartbeat is older than 100 ms: stopped, or without processor time\n"
+    "  alive    has joined\n"
+    "  stopped  has joined, but its process is stopped by a signal or a debugger\n"
     "  dead     has left or died; the pid is that of its process\n"
     "  held     (of a segment that cannot be read) a running process has joined it\n"
     "Segments of other users are listed but not opened; damaged ones are listed with the reason.\n"

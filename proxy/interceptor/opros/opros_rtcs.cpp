@@ -184,7 +184,7 @@ void OprosRtcs::publish_listened_channels() {
     for (const auto& entry : all)
         for (auto& channel : entry->rtc->listen()) channels.push_back(std::move(channel));
     if (!link_.is_up()) return; // peer_connected() comes here again
-    const auto reply = link_.call({"", control::listen, "", control::encode(channels)}, call_timeout_);
+    const auto reply = link_.request_rings(channels, call_timeout_);
     if (reply.status != link::CallStatus::ok && link_.is_up())
         spdlog::warn("{}: data of OPRoS components are forwarded up to 1 s late: {}", owner_, reply.text());
 }

@@ -5,9 +5,11 @@
 #include "proxy/link/session/link_state.hpp"
 #include "shm/wait/wait_options.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -30,6 +32,9 @@ class ArrivalNotifier {
     /// that arrived together. An empty function ends that: on return the last one is not running and will
     /// not be called again. The listener must not block. [any-thread but the notifier's]
     void set_listener(const std::string& port, std::function<void()> listener);
+    /// Says whether the peer of this session has confirmed (control::listen) that it rings for the ports that have
+    /// listeners now. Until then the thread also looks once a second. [any-thread but the notifier's]
+    void set_peer_rings(const std::shared_ptr<LinkSession>& session, bool rings);
     /// After LinkState::start_closing(): ends the thread. [not in a listener]
     void stop();
 
@@ -39,13 +44,16 @@ class ArrivalNotifier {
         std::uint64_t seen = 0; ///< messages sent by the ring's writer when the listener was last called
     };
     void run();
+    std::chrono::nanoseconds look_again_in(const std::shared_ptr<LinkSession>& session);
     void notify();
+    void wake();
 
     const LinkState& state_;
     ChannelTable& channels_;
     const shm::WaitOptions wait_;
     std::mutex mutex_; ///< the members below; held while listeners are called
     std::map<std::string, Listener> listeners_;
+    std::weak_ptr<LinkSession> rung_in_; ///< the session whose peer rings for all listeners
     std::thread thread_;
     bool stopping_ = false;
 };

@@ -26,9 +26,9 @@ bool ChannelWriter::publish(std::span<const std::byte> message, std::uint64_t st
             spdlog::warn("port '{}': the reader is too slow: a message waited {} ms for room and is dropped, "
                          "{} so far",
                          port_, policy_.wait.count(), no_room_.count());
-        return false;
+        return report_damage();
     }
-    if (!bound_->ring.commit(message.size(), stamp)) return false;
+    if (!bound_->ring.commit(message.size(), stamp)) return report_damage();
     // After the commit, so that whoever the doorbell wakes finds the message.
     if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
     return true;
@@ -77,7 +77,20 @@ bool ChannelWriter::report_refusal(std::size_t bytes) {
                       port_, bytes, shm::shm_directory, no_memory_.count(),
                       shm::available_bytes().value_or(0));
     }
+    return report_damage();
+}
+
+/// Always false, like what it reports: the message was not sent.
+bool ChannelWriter::report_damage() {
+    if (bound_->ring.corrupt()) wake_supervisor_();
     return false;
+}
+
+/// Under the lock, so that each message is either sent before this, and seen by a peer that looks when it is told that
+/// this is done, or rings.
+void ChannelWriter::set_peer_listens(bool listens) {
+    const std::lock_guard lock(mutex_);
+    peer_listens_.store(listens, std::memory_order_relaxed);
 }
 
 void ChannelWriter::refuse(std::string_view why) {
@@ -113,11 +126,17 @@ std::uint64_t ChannelWriter::unbind() {
     const std::lock_guard lock(mutex_);
     const std::uint64_t unread = bound_ ? bound_->ring.counters().waiting() : 0;
     bound_.reset();
-    set_peer_listens(false);
+    peer_listens_.store(false, std::memory_order_relaxed);
     return unread;
 }
 
 // ---- ChannelReader
+
+namespace {
+
+constexpr std::chrono::milliseconds shortest_check{1};
+
+} // namespace
 
 bool ChannelReader::corrupt() const {
     const std::lock_guard lock(mutex_);
@@ -135,8 +154,18 @@ shm::RingCounters ChannelReader::counters() const {
 }
 
 void ChannelReader::set_policy(const PortPolicy& policy) {
+    {
+        const std::lock_guard lock(mutex_);
+        policy_ = policy;
+    }
+    if (policy.deadline.count() != 0) wake_supervisor_();
+}
+
+std::chrono::nanoseconds ChannelReader::deadline_check_in() const {
     const std::lock_guard lock(mutex_);
-    policy_ = policy;
+    if (!bound_ || policy_.deadline.count() == 0) return shm::longest_wait;
+    return silent_ ? policy_.deadline
+                   : std::max<std::chrono::nanoseconds>(policy_.deadline / 10, shortest_check);
 }
 
 bool ChannelReader::has_missed_deadline(std::chrono::steady_clock::time_point now) {

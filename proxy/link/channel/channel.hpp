@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -34,7 +35,9 @@ struct BoundRing {
 /// messages are dropped. Its mutex belongs to this process; other threads hold it only to bind and unbind.
 class ChannelWriter {
   public:
-    explicit ChannelWriter(std::string port) : port_(std::move(port)) {}
+    /// `wake_supervisor` is called when the ring is found damaged, and must outlive this object.
+    ChannelWriter(std::string port, const std::function<void()>& wake_supervisor)
+        : port_(std::move(port)), wake_supervisor_(wake_supervisor) {}
 
     /// Publishes what `encode(CdrWriter&)` writes. A message too long for the ring goes to a chunk in shared
     /// memory; then encode is called twice, the first time only to learn the length. `stamp` is read after
@@ -96,7 +99,7 @@ class ChannelWriter {
 
     /// Whether the peer waits for messages of this port: then each one rings its doorbell, which costs a
     /// system call if it sleeps. Ends with unbind(), because the next peer has to ask for it again.
-    void set_peer_listens(bool listens) { peer_listens_.store(listens, std::memory_order_relaxed); }
+    void set_peer_listens(bool listens);
 
     void bind(std::shared_ptr<shm::Segment>, shm::RingWriter);
     /// Returns how many messages lie in the ring, which the peer has not read.
@@ -107,10 +110,12 @@ class ChannelWriter {
     bool wait_for_room(std::size_t bytes);
     void send_last_again();
     bool report_refusal(std::size_t bytes);
+    bool report_damage();
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingWriter>> bound_;
     const std::string port_;
+    const std::function<void()>& wake_supervisor_;
     std::atomic<bool> peer_listens_{false};
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     process::LogThrottle no_memory_, refused_, no_room_;
@@ -124,6 +129,9 @@ class ChannelWriter {
 /// the component that asks for them; no other thread hands them over. Unbound, it is empty.
 class ChannelReader {
   public:
+    /// `wake_supervisor` is called when the ring is found damaged or a deadline is set, and must outlive this object.
+    explicit ChannelReader(const std::function<void()>& wake_supervisor)
+        : wake_supervisor_(wake_supervisor) {}
     bool empty() const;
     /// True if the ring was damaged by another process; nothing more is received through it.
     bool corrupt() const;
@@ -136,7 +144,7 @@ class ChannelReader {
         const std::lock_guard lock(mutex_);
         if (!bound_) return false;
         const auto record = newest ? bound_->ring.read_newest() : bound_->ring.read();
-        if (!record) return false;
+        if (!record) return report_damage();
         use(*record);
         return true;
     }
@@ -145,12 +153,19 @@ class ChannelReader {
     /// read_locked(), decode, and release the lock. The record is valid as long as the lock is held.
     using Lock = std::unique_lock<rt::ShortMutex>;
     Lock lock() { return Lock(mutex_); }
-    std::optional<shm::Record> read_locked() { return bound_ ? bound_->ring.read() : std::nullopt; }
+    std::optional<shm::Record> read_locked() {
+        auto record = bound_ ? bound_->ring.read() : std::nullopt;
+        if (!record) report_damage();
+        return record;
+    }
 
     shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none
 
     /// Before the port is in use.
     void set_policy(const PortPolicy& policy);
+    /// How soon has_missed_deadline() must be asked again: so that a silence is noticed a tenth of the deadline too late
+    /// at most, and its end within one deadline. longest_wait without a deadline, and while there is no peer.
+    std::chrono::nanoseconds deadline_check_in() const;
     /// Whether the sender has been silent for longer than the port's deadline since the last message, or since the link
     /// is up. True once for each silence. [supervisor-thread]
     bool has_missed_deadline(std::chrono::steady_clock::time_point now);
@@ -162,8 +177,15 @@ class ChannelReader {
     std::uint64_t unbind();
 
   private:
+    /// Always false: nothing was read. With mutex_ held.
+    bool report_damage() {
+        if (bound_ && bound_->ring.corrupt()) wake_supervisor_();
+        return false;
+    }
+
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingReader>> bound_;
+    const std::function<void()>& wake_supervisor_;
     PortPolicy policy_;
     std::uint64_t last_sent_ = 0,
                   missed_deadlines_ = 0; ///< last_sent_: the sender's count when it last changed

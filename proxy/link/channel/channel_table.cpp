@@ -13,12 +13,12 @@ namespace tandem::link {
 
 ChannelWriter& ChannelTable::writer(const std::string& port) {
     const std::lock_guard lock(mutex_);
-    return writers_.try_emplace(port, port).first->second;
+    return writers_.try_emplace(port, port, wake_supervisor_).first->second;
 }
 
 ChannelReader& ChannelTable::reader(const std::string& port) {
     const std::lock_guard lock(mutex_);
-    return readers_[port];
+    return readers_.try_emplace(port, wake_supervisor_).first->second;
 }
 
 void ChannelTable::bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports,
@@ -44,13 +44,17 @@ std::uint64_t ChannelTable::unbind_all() {
     return unread;
 }
 
-void ChannelTable::check_deadlines() {
+std::chrono::nanoseconds ChannelTable::check_deadlines() {
     const std::lock_guard lock(mutex_);
     const auto now = std::chrono::steady_clock::now();
-    for (auto& [name, reader] : readers_)
+    std::chrono::nanoseconds next_check = shm::longest_wait;
+    for (auto& [name, reader] : readers_) {
         if (reader.has_missed_deadline(now))
             spdlog::warn("port '{}': no message for {} ms, its deadline; {} times so far", name,
                          reader.deadline().count(), reader.missed_deadlines());
+        next_check = std::min(next_check, reader.deadline_check_in());
+    }
+    return next_check;
 }
 
 bool ChannelTable::has_corrupt_ring() const {

@@ -4,6 +4,7 @@
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/link/protocol/port_table.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -15,6 +16,10 @@ namespace tandem::link {
 /// as the table, so the references stay valid while sessions come and go. [any-thread]
 class ChannelTable {
   public:
+    /// `wake_supervisor` makes the supervisor thread look at the channels now.
+    explicit ChannelTable(std::function<void()> wake_supervisor)
+        : wake_supervisor_(std::move(wake_supervisor)) {}
+
     ChannelWriter& writer(const std::string& port);
     ChannelReader& reader(const std::string& port);
 
@@ -25,14 +30,16 @@ class ChannelTable {
     /// Returns how many messages were under way, which nobody will read.
     std::uint64_t unbind_all();
 
-    /// Logs each port whose sender has been silent for longer than its deadline, once for each silence.
-    void check_deadlines();
+    /// Logs each port whose sender has been silent for longer than its deadline, once for each silence. Returns how soon
+    /// to call it again; longest_wait if no port has a deadline. [supervisor-thread]
+    std::chrono::nanoseconds check_deadlines();
 
     /// True if a bound ring holds words that its protocol cannot produce: a process outside of the link has
     /// written there, and nothing more would pass through that ring.
     bool has_corrupt_ring() const;
 
   private:
+    const std::function<void()> wake_supervisor_;
     mutable std::mutex mutex_; ///< the maps; each channel has its own lock
     std::map<std::string, ChannelWriter> writers_;
     std::map<std::string, ChannelReader> readers_;

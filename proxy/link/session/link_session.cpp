@@ -44,12 +44,14 @@ void LinkSession::open_outgoing_calls() {
 void LinkSession::interrupt() {
     incoming_calls_.end_all_waits();
     segment_->doorbell().interrupt();
+    segment_->end_sleeps();
 }
 
 void LinkSession::shut_down() {
     incoming_calls_.shut_down();
     if (outgoing_calls_) outgoing_calls_->shut_down();
     segment_->doorbell().interrupt();
+    segment_->end_sleeps();
 }
 
 } // namespace tandem::link

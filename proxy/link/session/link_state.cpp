@@ -15,9 +15,9 @@ std::shared_ptr<LinkSession> LinkState::connected_session() const {
     return up_ ? session_ : nullptr;
 }
 
-std::shared_ptr<LinkSession> LinkState::wait_for_session(std::chrono::milliseconds timeout) const {
+std::shared_ptr<LinkSession> LinkState::wait_for_session() const {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, timeout, [this] { return session_ || closing_; });
+    changed_.wait(lock, [this] { return session_ || closing_; });
     return session_;
 }
 

@@ -14,7 +14,7 @@ namespace tandem::link {
 
 /// What the threads of one link tell each other: the current session, whether the link is up, why the peer
 /// was refused, whether the link is closing. PeerSupervisor changes it, the others read it and wait for
-/// changes. All functions are [any-thread]; all waits are bounded.
+/// changes. All functions are [any-thread].
 class LinkState {
   public:
     /// True from the moment at which data and calls may flow until the session ends.
@@ -26,8 +26,8 @@ class LinkState {
     std::shared_ptr<LinkSession> session() const;
     /// The same, but nullptr unless the link is up.
     std::shared_ptr<LinkSession> connected_session() const;
-    /// The same as session(), after waiting for one to be joined, at most `timeout`.
-    std::shared_ptr<LinkSession> wait_for_session(std::chrono::milliseconds timeout) const;
+    /// The same as session(), after waiting for one to be joined, or for the link to close.
+    std::shared_ptr<LinkSession> wait_for_session() const;
 
     struct UpResult {
         bool up;

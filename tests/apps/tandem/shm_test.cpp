@@ -20,7 +20,6 @@ Child writing_host(const std::string& link, Side side) {
         segment->add_call_queue("services", {.callers = side, .slots = 4, .max_bytes = 100});
         segment->publish();
         for (;;) {
-            segment->heartbeat();
             writer.write(bytes_of("eight doubles"), now_ns());
             std::this_thread::sleep_for(1ms);
         }
@@ -43,7 +42,6 @@ std::string only_file(const Link& link) {
 
 TEST_CASE("list shows a segment and both of its sides") {
     const Pair pair;
-    pair.first->heartbeat();
     const auto segment = listed(pair.link.name);
     CHECK(segment["generation"] == 1);
     CHECK(segment["state"] == "readable");
@@ -138,12 +136,12 @@ TEST_CASE("stats of a running writer grow and an idle segment stays as it is") {
         std::ifstream file(only_file(link), std::ios::binary);
         return std::string(std::istreambuf_iterator<char>(file), {});
     };
-    REQUIRE(eventually([&] { return listed(link.name)["sides"]["first"]["state"] == "late"; }));
+    REQUIRE(eventually([&] { return listed(link.name)["sides"]["first"]["state"] == "stopped"; }));
     const auto idle = bytes();
     const auto stats = shm_program({"stats", link.name});
     CHECK(stats.output_contains("odometry"));
     CHECK(stats.output_contains("services"));
-    CHECK(stats.output_contains("late"));
+    CHECK(stats.output_contains("stopped"));
     shm_program({"list"});
     shm_program({"info", link.name});
     CHECK(bytes() == idle);

@@ -3,46 +3,96 @@
 
 #include "shm/segment/watcher.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 
 using namespace tandem::shm;
 using namespace tandem::shm::test;
 
+using Event = Watcher::Event;
+
 namespace {
 
-/// A wait that ends for another reason (an earlier event) is repeated: only the condition counts.
-bool wakes_until(Watcher& watcher, const std::function<bool()>& holds) {
-    for (int wakes = 0; wakes < 50 && !holds(); ++wakes)
-        if (!watcher.wait(10s)) return false;
-    return eventually(holds, 1s);
-}
+/// Watches the generation that `segment` has joined.
+struct Watched : Watcher {
+    Watched(const Link& link, const Segment& segment) : Watcher(link.name) { segment.watch(*this); }
+    /// Takes what has happened so far; each event is reported at once.
+    void take_all() {
+        while (wait(1ms) != Event::none) {
+        }
+    }
+};
 
 } // namespace
 
-TEST_CASE("a watcher wakes when a segment of its link appears and when it goes") {
+TEST_CASE("a watcher wakes when a peer joins and publishes and leaves") {
     Link link;
-    Watcher watcher(link.name);
-    CHECK_FALSE(watcher.wait(1ms));
     auto first = join(link, Side::first);
-    CHECK(watcher.wait(10s));
-    while (watcher.wait(1ms)) {
-    }
-    first.reset();
-    CHECK(watcher.wait(10s));
+    Watched watcher(link, *first);
+    CHECK(watcher.wait(1ms) == Event::none);
+    auto second = join(link, Side::second);
+    CHECK(watcher.wait(10s) == Event::changed);
+    watcher.take_all();
+    second->publish();
+    CHECK(watcher.wait(10s) == Event::changed);
+    watcher.take_all();
+    second->leave(); // its memory stays mapped and its file open
+    CHECK(watcher.wait(10s) == Event::changed);
+    CHECK(first->peer_state() == PeerState::dead);
 }
 
-TEST_CASE("a watcher does not wake for other links") {
+TEST_CASE("a watcher wakes when its file is truncated or superseded or removed") {
+    Link link;
+    auto first = join(link, Side::first);
+    Watched watcher(link, *first);
+    SECTION("truncated") {
+        install_truncation_guard(); // leaving touches what is lost
+        REQUIRE(truncate(first->path().c_str(), 4096) == 0);
+    }
+    SECTION("superseded") {
+        const int fd = open(first->path().c_str(), O_WRONLY | O_CLOEXEC);
+        const std::uint64_t newer = first->generation() + 1;
+        REQUIRE(pwrite(fd, &newer, sizeof newer, offsetof(layout::SegmentHeader, superseded_by)) ==
+                sizeof newer);
+        close(fd);
+    }
+    SECTION("removed") { REQUIRE(unlink(first->path().c_str()) == 0); }
+    CHECK(watcher.wait(10s) != Event::none);
+    CHECK(first->superseded());
+}
+
+TEST_CASE("a watcher does not wake for other links nor for what is stored in memory") {
     Link link, stranger;
     stranger.name = link.name + "-more";
-    Watcher watcher(link.name);
-    auto first = join(stranger, Side::first);
-    CHECK_FALSE(watcher.wait(20ms));
+    auto first = join(link, Side::first), second = join(link, Side::second);
+    Watched watcher(link, *first);
+    auto other_link = join(stranger, Side::first);
+    other_link.reset();
+    second->add_blob("b", 100)[0] = std::byte{1};
+    second->ring_peer(3);
+    CHECK(watcher.wait(20ms) == Event::none);
 }
 
-TEST_CASE("a watcher wakes when the peer joins late or is killed whether it created or attached") {
+TEST_CASE("a watcher that watches another generation forgets the one before") {
+    Link link, next;
+    auto first = join(link, Side::first);
+    Watched watcher(link, *first);
+    auto second = join(next, Side::first);
+    second->watch(watcher);
+    watcher.take_all();
+    first->publish();
+    CHECK(watcher.wait(20ms) == Event::none);
+    second->publish();
+    CHECK(watcher.wait(10s) == Event::changed);
+    watcher.stop_watching();
+    second->publish();
+    CHECK(watcher.wait(20ms) == Event::none);
+}
+
+TEST_CASE("a watcher sees a departure when the peer is killed whether it created or attached") {
     const bool peer_creates = GENERATE(true, false);
+    const bool by_process = GENERATE(true, false);
     Link link;
-    Watcher watcher(link.name);
     std::unique_ptr<Segment> first;
     if (!peer_creates) first = join(link, Side::first);
     Child second([&] {
@@ -51,26 +101,41 @@ TEST_CASE("a watcher wakes when the peer joins late or is killed whether it crea
         return 0;
     });
     if (peer_creates) {
-        REQUIRE(wakes_until(watcher, [&] { return !link.files().empty(); }));
+        REQUIRE(eventually([&] { return !link.files().empty(); }));
         first = join(link, Side::first);
     }
     REQUIRE(eventually([&] { return first->peer_state() != PeerState::absent; }));
-    while (watcher.wait(1ms)) {
+    Watched watcher(link, *first);
+    if (by_process) {
+        watcher.stop_watching();
+        REQUIRE_FALSE(watcher.watch_process(first->peer_pid()));
     }
     kill(second.pid(), SIGKILL);
-    CHECK(watcher.wait(10s));
-    CHECK(eventually([&] { return first->peer_state() == PeerState::dead; }));
+    REQUIRE(watcher.wait(10s) == Event::departed);
+    // The end of the process comes after that of its locks, the closing of the file before.
+    if (by_process)
+        CHECK(first->peer_state() == PeerState::dead);
+    else
+        CHECK(eventually([&] { return first->peer_state() == PeerState::dead; }));
+    if (by_process) CHECK(watcher.wait(20ms) == Event::none); // once only
+}
+
+TEST_CASE("a process that does not exist cannot be watched") {
+    Link link;
+    Watcher watcher(link.name);
+    CHECK(watcher.watch_process(0x7fffffff) == ESRCH);
+    CHECK(watcher.wait(1ms) == Event::none);
 }
 
 TEST_CASE("looking for the dead does not wake watchers") {
     Link link;
     auto first = join(link, Side::first);
-    Watcher watcher(link.name);
+    Watched watcher(link, *first);
     remove_dead(link.name);
     CHECK_THROWS_AS(join(link, Side::first), SideTaken);
     first->superseded();
     first->peer_state();
-    CHECK_FALSE(watcher.wait(20ms));
+    CHECK(watcher.wait(20ms) == Event::none);
 }
 
 TEST_CASE("a watcher that cannot be had is refused in one line that names the limits") {
@@ -92,8 +157,8 @@ TEST_CASE("an interrupt ends a watcher's wait even if it came before") {
     Link link;
     Watcher watcher(link.name);
     watcher.interrupt();
-    CHECK(watcher.wait(10s));
+    CHECK(watcher.wait(10s) == Event::changed);
     std::thread other([&] { watcher.interrupt(); });
-    CHECK(watcher.wait(10s));
+    CHECK(watcher.wait(10s) == Event::changed);
     other.join();
 }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// A link on which nothing happens: its threads sleep, and wake for whatever happens then.
+#include "tests/proxy/link/link_side.hpp"
+
+#include "proxy/link/protocol/control.hpp"
+#include "tests/support/context_switches.hpp"
+
+#include <algorithm>
+#include <fcntl.h>
+#include <map>
+#include <sys/mman.h>
+
+using namespace tandem;
+using namespace tandem::link;
+using namespace tandem::link::test;
+
+namespace {
+
+/// Both sides, of which the first has an event-driven consumer.
+struct IdleLink {
+    explicit IdleLink(const std::string& what)
+        : name(unique_name(what)), a(adaptor(name)), b(interceptor(name)) {
+        b->on_call = [this](const Request& request) {
+            if (request.operation != control::listen) return Reply{CallStatus::ok, bytes_of("done")};
+            for (const auto& port : control::decode_port_names(request.arguments))
+                b->link.writer(port).set_peer_listens(true);
+            return Reply{};
+        };
+        a->link.open();
+        b->link.open();
+        a->link.wait_until_up(soon, "peer");
+        b->link.wait_until_up(soon, "peer");
+    }
+    void listen() {
+        a->link.set_arrival_listener("reference", [this] { ++arrivals; });
+        REQUIRE(a->link.request_rings({"reference"}, soon).status == CallStatus::ok);
+    }
+    bool works() {
+        const int before = arrivals;
+        return send(b->link.writer("reference"), 1) && eventually([&] { return arrivals > before; }) &&
+               a->link.call({"p", "o", "", {}}, soon).text() == "done";
+    }
+
+    const std::string name;
+    std::unique_ptr<LinkSide> a, b;
+    std::atomic<int> arrivals{0};
+};
+
+/// Context switches of the link's threads in this process, by thread.
+std::map<std::string, long> count_switches() {
+    auto counts = tandem::test::count_context_switches(getpid());
+    std::erase_if(counts, [](const auto& thread) { return !thread.first.starts_with("tandem-"); });
+    return counts;
+}
+
+} // namespace
+
+TEST_CASE("the threads of an idle link are not woken, also of one that had work or whose peer is away") {
+    IdleLink link("idle");
+    const std::string after = GENERATE("joining", "listening", "work", "the peer's departure");
+    CAPTURE(after);
+    if (after != "joining") link.listen();
+    if (after == "work") REQUIRE(link.works());
+    if (after == "the peer's departure") {
+        link.b.reset();
+        REQUIRE(eventually([&] { return link.a->went == 1; }));
+    }
+    // What has happened has its consequences for a second, see PeerSupervisor.
+    REQUIRE(eventually([] {
+        const auto before = count_switches();
+        std::this_thread::sleep_for(700ms);
+        return count_switches() == before;
+    }));
+    const auto before = count_switches();
+    CHECK(before.size() >= (after == "the peer's departure" ? 3 : 6)); // supervisor, worker, tasks
+    std::this_thread::sleep_for(1500ms); // longer than any period that these threads have had
+    CHECK(count_switches() == before);
+    if (link.b && after != "joining") CHECK(link.works());
+}
+
+TEST_CASE("an idle link whose file is truncated, superseded or removed joins the next generation and works") {
+    IdleLink link("lost");
+    const std::string path = shm::segment_path(link.name, shm::list_generations(link.name).at(0));
+    SECTION("truncated to nothing") { REQUIRE(truncate(path.c_str(), 0) == 0); }
+    SECTION("truncated behind the headers") {
+        REQUIRE(truncate(path.c_str(), shm::layout::arenas_begin) == 0);
+    }
+    SECTION("removed") { REQUIRE(unlink(path.c_str()) == 0); }
+    CHECK(eventually([&] { return link.a->downs == 1 && link.b->downs == 1; }));
+    CHECK(eventually([&] { return link.a->link.is_up() && link.b->link.is_up(); }));
+    link.listen();
+    CHECK(link.works());
+}
+
+TEST_CASE("a message that was sent before the peer rings for its port is noticed when it begins to") {
+    IdleLink link("before");
+    REQUIRE(send(link.b->link.writer("reference"), 1));
+    link.listen();
+    CHECK(eventually([&] { return link.arrivals == 1; }));
+}
+
+TEST_CASE(
+    "a ring that another process damages while nobody uses it takes the link down with the next message") {
+    IdleLink link("damaged");
+    const std::string path = shm::segment_path(link.name, shm::list_generations(link.name).at(0));
+    {
+        // The ring "reference" lies at the beginning of the second side's arena; another process would map it, too.
+        const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+        REQUIRE(fd >= 0);
+        const auto bytes = static_cast<std::size_t>(std::filesystem::file_size(path));
+        void* const memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+        REQUIRE(memory != MAP_FAILED);
+        const auto* const header = static_cast<const shm::layout::SegmentHeader*>(memory);
+        auto* const ring = static_cast<char*>(memory) + header->arena_offset[1];
+        std::fill(ring, ring + 65536, '\x5b');
+        munmap(memory, bytes);
+        ::close(fd);
+    }
+    CHECK(eventually([&] {
+        send(link.b->link.writer("reference"), 1);
+        receive(link.a->link.reader("reference"));
+        return link.a->downs + link.b->downs > 0;
+    }));
+    CHECK(eventually([&] { return link.a->link.is_up() && link.b->link.is_up(); }));
+    link.listen();
+    CHECK(link.works());
+}
