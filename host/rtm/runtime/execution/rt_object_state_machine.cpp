@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/execution/rt_object_state_machine.hpp"
+#include "host/rtm/runtime/manager/slow_transitions.hpp"
 #include "host/rtm/runtime/naming/local_object.hpp"
 #include <rtm/RTObject.h>
 #include <type_traits>
@@ -94,6 +95,7 @@ void RTObjectStateMachine::applyTransition(bool warm_up) {
         to = next_;
     }
     if (from == to || warm_up) return;
+    const RTC::TransitionScope scope;
     // The callbacks run without the mutex: they may ask for the state, or request a transition.
     if (from == ACTIVE_STATE) call(on_deactivated);
     if (from == ERROR_STATE && call(on_reset) != RTC_OK) return requestErrorState(); // it stays in ERROR
@@ -118,8 +120,14 @@ void RTObjectStateMachine::updateState() {
         requestErrorState();
 }
 
-RTC::ReturnCode_t RTObjectStateMachine::startup() { return call(on_startup); }
-RTC::ReturnCode_t RTObjectStateMachine::shutdown() { return call(on_shutdown); }
+RTC::ReturnCode_t RTObjectStateMachine::startup() {
+    const RTC::TransitionScope scope;
+    return call(on_startup);
+}
+RTC::ReturnCode_t RTObjectStateMachine::shutdown() {
+    const RTC::TransitionScope scope;
+    return call(on_shutdown);
+}
 RTC::ReturnCode_t RTObjectStateMachine::rateChanged() { return call(on_rate_changed); }
 
 RTC::ReturnCode_t RTObjectStateMachine::call(const Action& action) {

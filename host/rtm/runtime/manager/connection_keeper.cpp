@@ -41,12 +41,20 @@ void ConnectionKeeper::keep_connected(const PreconnectEntry& entry, std::size_t 
                                       const std::string& connector_id, const std::string& warning) {
     std::lock_guard<std::mutex> lock(mutex_);
     new_connections_.push_back({entry, index, connector_id, {}, {}, warning});
-    start_thread();
+    start_checks();
 }
 
 void ConnectionKeeper::start() {
     std::lock_guard<std::mutex> lock(mutex_);
+    start_checks();
+}
+
+// With the mutex held.
+void ConnectionKeeper::start_checks() {
+    if (!checking_) next_check_ = steady_clock::now() + interval_;
+    checking_ = true;
     start_thread();
+    wake_.notify_all();
 }
 
 void ConnectionKeeper::report_lost(const ConnectorProfile& profile) {
@@ -60,6 +68,7 @@ void ConnectionKeeper::add_periodic_task(std::function<void()> task, std::chrono
     std::lock_guard<std::mutex> lock(mutex_);
     tasks_.push_back({std::move(task), period, steady_clock::now() + period});
     start_thread();
+    wake_.notify_all();
 }
 
 // With the mutex held.
@@ -77,27 +86,41 @@ void ConnectionKeeper::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-// The thread. It wakes up for each round of checks, and at once for a lost connection: until its peer is
-// notified of it, a peer that lives would hold a connection that does not exist here.
+// The thread. It wakes up for each round of checks and each task, and at once for a lost connection: until its peer is
+// notified of it, a peer that lives would hold a connection that does not exist here. Without any of these it sleeps.
 void ConnectionKeeper::run() {
-    auto next_round = steady_clock::now() + interval_;
     Lock lock(mutex_);
     while (!stopping_) {
-        wake_.wait_until(lock, next_round, [this] { return stopping_ || !pending_disconnects_.empty(); });
+        if (pending_disconnects_.empty()) {
+            const auto next = next_wake();
+            if (next == steady_clock::time_point::max())
+                wake_.wait(lock);
+            else
+                wake_.wait_until(lock, next);
+        }
         if (stopping_) return;
         std::move(new_connections_.begin(), new_connections_.end(), std::back_inserter(connections_));
         new_connections_.clear();
+        const bool check = checking_ && steady_clock::now() >= next_check_;
+        if (check) checking_ = false; // a connection made during the checks sets it again
         lock.unlock();
         notify_disconnects();
-        if (steady_clock::now() >= next_round) {
-            next_round = steady_clock::now() + interval_;
+        if (check) {
             check_peers();
             for (auto& kept : connections_)
                 if (!stopping_) restore(kept);
         }
         lock.lock();
+        if (check && (has_remote_peers_ || !connections_.empty())) start_checks();
         run_due_tasks(lock);
     }
+}
+
+// With the mutex held.
+steady_clock::time_point ConnectionKeeper::next_wake() const {
+    auto next = checking_ ? next_check_ : steady_clock::time_point::max();
+    for (const auto& task : tasks_) next = std::min(next, task.due);
+    return next;
 }
 
 // The lock is released during each task, so the list may grow meanwhile: it is walked by index.
@@ -139,6 +162,7 @@ void ConnectionKeeper::notify_disconnects() {
 // One round over all connections of all components of this process.
 void ConnectionKeeper::check_peers() {
     std::map<std::string, int> failed_checks; // without the ids of connections that ended or recovered
+    has_remote_peers_ = false;
     for (const auto& component : manager_.impl().references()) {
         if (stopping_) return;
         try {
@@ -164,10 +188,12 @@ void ConnectionKeeper::check_connection(PortService_ptr port, const ConnectorPro
     if (auto local = local_object<PortBase>(port)) local->dropLostConnection(id.c_str());
 }
 
-bool ConnectionKeeper::has_dead_peer(const ConnectorProfile& connection) const {
-    for (CORBA::ULong i = 0; i < connection.ports.length() && !stopping_; ++i)
-        if (local_object<PortBase>(connection.ports[i]) == nullptr && is_dead(connection.ports[i]))
-            return true;
+bool ConnectionKeeper::has_dead_peer(const ConnectorProfile& connection) {
+    for (CORBA::ULong i = 0; i < connection.ports.length() && !stopping_; ++i) {
+        if (local_object<PortBase>(connection.ports[i]) != nullptr) continue;
+        has_remote_peers_ = true;
+        if (is_dead(connection.ports[i])) return true;
+    }
     return false;
 }
 

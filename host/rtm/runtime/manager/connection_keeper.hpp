@@ -61,7 +61,9 @@ class ConnectionKeeper {
     void check_peers();
     void check_connection(PortService_ptr port, const ConnectorProfile& connection,
                           std::map<std::string, int>& failed_checks);
-    bool has_dead_peer(const ConnectorProfile& connection) const;
+    bool has_dead_peer(const ConnectorProfile& connection);
+    void start_checks();
+    std::chrono::steady_clock::time_point next_wake() const;
     void restore(KeptConnection& kept);
     void connect(KeptConnection& kept);
     void find_ports(KeptConnection& kept);
@@ -76,11 +78,14 @@ class ConnectionKeeper {
     std::vector<ConnectorProfile> pending_disconnects_;
     std::vector<KeptConnection> new_connections_;
     std::vector<Task> tasks_;
+    bool checking_ = false; // there may be connections to check
+    std::chrono::steady_clock::time_point next_check_{};
     std::thread thread_;
     std::atomic<std::chrono::steady_clock::time_point> disconnect_deadline_{}; // zero: the host is not ending
     // Only used by the thread.
     std::vector<KeptConnection> connections_;
     std::map<std::string, int> failed_checks_; // by connector id: how often in a row its peer was dead
+    bool has_remote_peers_ = false;            // the last check has found one
 };
 
 } // namespace RTC

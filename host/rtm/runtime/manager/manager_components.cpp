@@ -74,6 +74,7 @@ void Manager::notifyFinalized(RTObject_impl* comp) {
     if (found == m_impl->components.end()) return;
     m_impl->finalized.push_back(*found);
     m_impl->components.erase(found);
+    invoke([this] { cleanupComponents(); }, std::chrono::milliseconds(100));
 }
 
 } // namespace RTC

@@ -144,12 +144,16 @@ void start_connection_keeper(Manager& manager, Manager::Impl& impl) {
     };
     if (!yes("naming.update.enable", true)) return;
     const bool rebind = yes("naming.update.rebind", false);
-    impl.connection_keeper->add_periodic_task(
-        [&impl, rebind] {
-            Logger& rtclog = impl.log;
-            for (const auto& line : impl.name_bindings->update(rebind)) RTC_WARN(("%s", line.c_str()));
-        },
-        seconds("naming.update.interval", 10));
+    const auto update = [&impl, rebind] {
+        Logger& rtclog = impl.log;
+        for (const auto& line : impl.name_bindings->update(rebind)) RTC_WARN(("%s", line.c_str()));
+    };
+    const auto start_updates = [&impl, update, interval = seconds("naming.update.interval", 10)] {
+        impl.connection_keeper->add_periodic_task(update, interval);
+    };
+    // Without a name server there is nothing to update, and nobody has to wake up for it.
+    impl.name_bindings->set_on_first_server(start_updates);
+    if (!impl.name_bindings->servers().empty()) start_updates();
 }
 
 RTM::ManagerServant& Manager::getManagerServant() { return *m_impl->servant; }

@@ -135,6 +135,7 @@ RTObject_impl& Manager::createOrThrow(const std::string& comp_args) {
         m_impl->components.push_back({&component, factory});
         m_impl->ever_had_components = true;
     }
+    wake_main_loop(); // which may end a manager that stays without components
     registerComponent(&component);
     return component;
 }

@@ -94,6 +94,8 @@ struct Manager::Impl {
     void log_slow_transitions();
     /// Runs the tasks of invoke() and addTask() whose time has come. [main-thread]
     void run_due_tasks();
+    bool has_components() const;
+    std::chrono::steady_clock::time_point next_round() const; ///< [main-thread]
     /// Calls `destroy`, which ends with the destructor of component `name`, in a thread of its own. A
     /// destructor that does not return in time is logged and its thread is left behind.
     void destroy_component(const std::string& name, std::function<void()> destroy);
@@ -109,6 +111,10 @@ struct Manager::Impl {
     std::vector<RTObject_var> references(const std::function<bool(RTObject_impl&)>& accept =
                                              [](RTObject_impl&) { return true; }) const;
 };
+
+/// Makes the main loop, which sleeps until its next task is due, look at everything now. One system call.
+/// [any-thread, async-signal-safe]
+void wake_main_loop();
 
 /// Merges defaults, rtc.conf and command line into impl.config, opens the log and pins the process to the
 /// processors of manager.cpu_affinity. Throws ManagerError.

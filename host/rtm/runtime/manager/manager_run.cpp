@@ -17,15 +17,17 @@ namespace {
 const int wake_fd = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
 std::atomic<int> termination_requested{0}; // lock-free, therefore allowed in signal handlers
 
-void wake_main_loop() {
-    const std::uint64_t increment = 1;
-    // The write fails only when the counter is full; then a wake-up is pending anyway.
-    [[maybe_unused]] const auto written = ::write(wake_fd, &increment, sizeof increment);
-}
+using Clock = std::chrono::steady_clock;
 
-void wait_for_wake_up(int timeout_ms) {
+/// Until `next` at the latest; Clock::time_point::max(): without a bound.
+void wait_for_wake_up(Clock::time_point next) {
     pollfd fd{wake_fd, POLLIN, 0};
-    if (::poll(&fd, 1, timeout_ms) <= 0) return;
+    // A wait of weeks would overflow: the loop then looks once a day.
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(next - Clock::now());
+    const auto bounded =
+        std::clamp<std::chrono::milliseconds>(left, std::chrono::milliseconds(0), std::chrono::hours(24));
+    const bool forever = next == Clock::time_point::max();
+    if (::poll(&fd, 1, forever ? -1 : static_cast<int>(bounded.count())) <= 0) return;
     std::uint64_t count;
     [[maybe_unused]] const auto got = ::read(wake_fd, &count, sizeof count);
 }
@@ -57,19 +59,33 @@ class IdleShutdown {
     }
     /// To be called in each round of the main loop.
     bool is_due(bool has_components, bool ever_had_components) {
-        const auto now = std::chrono::steady_clock::now();
-        if (has_components) idle_since_ = now;
+        const auto now = Clock::now();
+        if (has_components || had_components_) idle_since_ = now;
+        had_components_ = has_components;
         if (!has_components && ever_had_components && after_last_component_) return true;
-        return after_idle_time_ && now - idle_since_ > max_idle_time_;
+        return !has_components && after_idle_time_ && now - idle_since_ > max_idle_time_;
+    }
+    /// When it may be due, if no component comes before.
+    Clock::time_point next_check() const {
+        if (had_components_ || !after_idle_time_) return Clock::time_point::max();
+        // A millisecond more, since the loop may be woken at exactly that time.
+        return idle_since_ + std::chrono::ceil<Clock::duration>(max_idle_time_) +
+               std::chrono::milliseconds(1);
     }
 
   private:
-    bool after_idle_time_ = false, after_last_component_ = false;
+    bool after_idle_time_ = false, after_last_component_ = false, had_components_ = false;
     std::chrono::duration<double> max_idle_time_{};
-    std::chrono::steady_clock::time_point idle_since_ = std::chrono::steady_clock::now();
+    Clock::time_point idle_since_ = Clock::now();
 };
 
 } // namespace
+
+void wake_main_loop() {
+    const std::uint64_t increment = 1;
+    // The write fails only when the counter is full; then a wake-up is pending anyway.
+    [[maybe_unused]] const auto written = ::write(wake_fd, &increment, sizeof increment);
+}
 
 void Manager::terminate() {
     termination_requested = 1;
@@ -86,16 +102,31 @@ void Manager::runManager(bool no_block) {
     if (no_block) return;
     for (int number : {SIGINT, SIGTERM, SIGHUP}) install_signal_handler(number);
     IdleShutdown idle_shutdown(m_impl->config_snapshot());
-    constexpr int round_ms = 100; // bounds the delay of tasks, and of noticing that components have gone
+    Clock::time_point next_round = Clock::now();
     while (!termination_requested) {
-        wait_for_wake_up(round_ms);
+        wait_for_wake_up(next_round);
         m_impl->run_due_tasks();
-        cleanupComponents();
         m_impl->log_slow_transitions();
-        const bool has_components = !getComponents().empty();
-        if (idle_shutdown.is_due(has_components, m_impl->ever_had_components)) break;
+        if (idle_shutdown.is_due(m_impl->has_components(), m_impl->ever_had_components)) break;
+        next_round = std::min(m_impl->next_round(), idle_shutdown.next_check());
     }
     shutdown();
+}
+
+/// An exited component counts until it is deleted: its exit() may still be returning to somebody.
+bool Manager::Impl::has_components() const {
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    return !components.empty() || !finalized.empty();
+}
+
+/// When the main loop must go round again unless it is woken: for the next task, or for callbacks that may be slow.
+std::chrono::steady_clock::time_point Manager::Impl::next_round() const {
+    constexpr std::chrono::milliseconds slow_callback_check{100};
+    auto next = Clock::time_point::max();
+    if (slow_transitions.needs_check()) next = Clock::now() + slow_callback_check;
+    std::lock_guard<std::recursive_mutex> lock(mutex);
+    for (const auto& task : tasks) next = std::min(next, task.first);
+    return next;
 }
 
 void Manager::invoke(std::function<void()> fn, std::chrono::nanoseconds delay) {

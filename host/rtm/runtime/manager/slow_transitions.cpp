@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/rtm/runtime/manager/slow_transitions.hpp"
+#include "host/rtm/runtime/manager/manager_impl.hpp"
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <coil/stringutil.h>
 #include <rtm/ExecutionContextBase.h>
 
@@ -9,6 +11,8 @@ namespace RTC {
 namespace {
 
 using tandem::crash::find_running_callback;
+
+std::atomic<int> transitions_under_way{0};
 
 /// What the component's first context says about it. By its CORBA object, since another thread may be about to finalize
 /// the component and its contexts.
@@ -37,6 +41,14 @@ bool is_transition_callback(const std::string& name) {
                                                   "onAborting", "onReset",     "onShutdown"};
     return std::find(names.begin(), names.end(), name) != names.end();
 }
+
+TransitionScope::TransitionScope() {
+    ++transitions_under_way;
+    wake_main_loop();
+}
+TransitionScope::~TransitionScope() { --transitions_under_way; }
+
+bool SlowTransitions::needs_check() const { return transitions_under_way > 0 || !slow_.empty(); }
 
 void SlowTransitions::expect_end(const RTObject_impl& component) {
     if (const auto running = find_running_callback(&component)) slow_[&component] = {*running};

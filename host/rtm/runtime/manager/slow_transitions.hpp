@@ -9,6 +9,15 @@ namespace RTC {
 /// `onActivated` ... `onShutdown`: called once for a transition of the life cycle, and not in every cycle.
 bool is_transition_callback(const std::string& name);
 
+/// While one lives, callbacks of a transition may run, and the main loop looks for slow ones every so often. [any-thread]
+class TransitionScope {
+  public:
+    TransitionScope();
+    ~TransitionScope();
+    TransitionScope(const TransitionScope&) = delete;
+    TransitionScope& operator=(const TransitionScope&) = delete;
+};
+
 /// Logs callbacks of transitions that take 2 s, 4 s, 8 s, ... and the end of each that it has logged. A slow
 /// onActivated, of a camera for instance, is no failure, but somebody waits for it. [main-thread]
 class SlowTransitions {
@@ -18,6 +27,8 @@ class SlowTransitions {
     std::vector<std::string> check(const std::vector<RTObject_impl*>& components);
     /// The end of the callback that the component is in will be logged, however short it is.
     void expect_end(const RTObject_impl& component);
+    /// Whether check() has to be called again soon: a transition is under way, or the end of a slow one not logged.
+    bool needs_check() const;
 
   private:
     using Clock = std::chrono::steady_clock;

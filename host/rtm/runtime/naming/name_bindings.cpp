@@ -51,10 +51,14 @@ NameBindings::NameBindings(CORBA::ORB_ptr orb, const std::vector<std::string>& s
 
 void NameBindings::add_server(const std::string& server) {
     const std::string address = with_default_port(server, 2809);
-    std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto& present : servers_)
-        if (present.address == address) return;
-    servers_.push_back({address, true});
+    {
+        std::lock_guard<std::mutex> lock(mutex_);
+        for (const auto& present : servers_)
+            if (present.address == address) return;
+        servers_.push_back({address, true});
+        if (servers_.size() > 1) return;
+    }
+    if (on_first_server_) on_first_server_();
 }
 
 std::vector<NameBindings::Entry> NameBindings::entries() const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
+#include <functional>
 #include <mutex>
 #include <omniORB4/CORBA.h>
 #include <string>
@@ -19,6 +20,10 @@ class NameBindings {
     std::vector<std::string> bind(const std::string& path, CORBA::Object_ptr object);
     /// Adds a server; update() binds the present names in it.
     void add_server(const std::string& server);
+    /// `on_first_server` is called by the add_server() before which there was none. To be set before other threads come.
+    void set_on_first_server(std::function<void()> on_first_server) {
+        on_first_server_ = std::move(on_first_server);
+    }
     /// Removes the name from every server in which it still refers to our object.
     void unbind(const std::string& path);
     /// Binds all names again in servers that were unreachable or have lost their entries, and with `rebind`
@@ -43,6 +48,7 @@ class NameBindings {
     std::string update(const Server& server, bool rebind);
 
     CORBA::ORB_var orb_;
+    std::function<void()> on_first_server_;
     mutable std::mutex mutex_; // guards what follows; not held during calls
     std::vector<Server> servers_;
     std::vector<Entry> entries_;
