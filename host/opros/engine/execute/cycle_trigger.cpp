@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/execute/cycle_trigger.hpp"
 
+#include <LifecycleListener.h>
 #include <spdlog/fmt/fmt.h>
-#include <thread>
 
 namespace tandem::engine {
 namespace {
@@ -72,12 +72,17 @@ class InputTrigger : public CountingTrigger {
   protected:
     bool wait_for_next() override {
         const std::size_t queued = component_.queued_value_count();
+        // What has arrived before the first cycle is for that one.
+        if (is_first_cycle_) component_.input_signal().wait_for(0ns);
         bool due = is_first_cycle_ || (queued != 0 && queued < queued_at_last_cycle_);
         while (!due && !interrupted_) {
-            // A source outside the component (DataPortSource) that does not notify has to be polled. For all others
-            // the bound is only a second line of defence, should a notification be lost.
-            due = component_.input_signal().wait_for(component_.has_polled_sources() ? 1ms : 1s) ||
-                  component_.queued_value_count() > queued;
+            // A source outside the component (DataPortSource) that does not notify has to be polled.
+            if (component_.has_polled_sources()) {
+                due = component_.input_signal().wait_for(1ms) || component_.queued_value_count() > queued;
+            } else {
+                component_.input_signal().wait();
+                due = true;
+            }
         }
         is_first_cycle_ = false;
         queued_at_last_cycle_ = component_.queued_value_count();
@@ -90,20 +95,28 @@ class InputTrigger : public CountingTrigger {
     std::size_t queued_at_last_cycle_ = 0; // when it began
 };
 
-/// One cycle after the other.
-class LoopTrigger : public CountingTrigger {
+/// One cycle after the other, and one after each change of state while the component is not active.
+class LoopTrigger : public CountingTrigger, LifecycleListener {
   public:
-    explicit LoopTrigger(ComponentHost& component) : component_(component) {}
+    explicit LoopTrigger(ComponentHost& component) : component_(component) {
+        component_.component().addLifecycleListener(this);
+    }
+    ~LoopTrigger() override { component_.component().removeLifecycleListener(this); }
+    void interrupt() override {
+        CountingTrigger::interrupt();
+        component_.input_signal().arrived();
+    }
     std::string stats() const override { return "without a pause, " + CountingTrigger::stats(); }
 
   protected:
     bool wait_for_next() override {
-        // A component that is stopped or in ERROR has nothing to do in its cycle: do not spin on it.
-        if (!component_.is_active()) std::this_thread::sleep_for(1ms);
-        return true;
+        if (!component_.is_active()) component_.input_signal().wait();
+        return !interrupted_;
     }
 
   private:
+    void stateChanged(LifecycleState) override { component_.input_signal().arrived(); }
+
     ComponentHost& component_;
 };
 

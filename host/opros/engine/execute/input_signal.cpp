@@ -11,6 +11,12 @@ void InputSignal::arrived() {
     wake_.notify_one();
 }
 
+void InputSignal::wait() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    wake_.wait(lock, [this] { return pending_.load(); });
+    pending_.exchange(false); // reads the value, and so sees what whoever set it has done before
+}
+
 bool InputSignal::wait_for(std::chrono::nanoseconds timeout) {
     std::unique_lock<std::mutex> lock(mutex_);
     wake_.wait_for(lock, timeout, [this] { return pending_.load(); });

@@ -16,7 +16,9 @@ class InputSignal : public DataPortListener {
   public:
     /// [any-thread] Sets the signal. Called for every pushed value: costs one atomic exchange while it is set.
     void arrived() override;
-    /// [executor] Waits for the signal and clears it: true. False when it was not set within `timeout`.
+    /// [executor] Waits for the signal and clears it.
+    void wait();
+    /// [executor] The same: true. False when it was not set within `timeout`.
     bool wait_for(std::chrono::nanoseconds timeout);
 
   private:

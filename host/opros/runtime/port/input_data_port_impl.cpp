@@ -91,6 +91,10 @@ void InputDataPortImpl::give_listener_to(DataPortSource* source) {
     else
         polled_sources_.insert(source);
     has_polled_sources_ = !polled_sources_.empty();
+    // Whoever sleeps until something arrives polls this source from now on.
+    if (DataPortListener* listener = listener_.load(std::memory_order_relaxed);
+        listener && has_polled_sources_)
+        listener->arrived();
 }
 
 bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned int limit) {
