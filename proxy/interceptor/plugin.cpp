@@ -23,6 +23,8 @@ extern "C" void InterceptorCompInit(RTC::Manager* manager) {
     using tandem::interceptor::InterceptorComp;
     using tandem::interceptor::OprosRtc;
     coil::Properties own = profile_of("InterceptorComp", "the RTM side of Tandem's proxy");
+    // It executes nothing: a context that ticks would only wake its thread in each period.
+    own.setProperty("execution_contexts", "SynchExtTriggerEC");
     manager->registerFactory(own, RTC::Create<InterceptorComp>, RTC::Delete<InterceptorComp>);
     coil::Properties shown = profile_of(OprosRtc::implementation_id, "shows an OPRoS component");
     manager->registerFactory(shown, RTC::Create<OprosRtc>, RTC::Delete<OprosRtc>);

@@ -214,6 +214,7 @@ class TwoHosts {
         hosts_.at(host).wait(std::chrono::seconds(30));
         hosts_.erase(host);
     }
+    pid_t pid(const std::string& host) const { return hosts_.at(host).pid(); }
     std::vector<std::filesystem::path> segments() const {
         std::vector<std::filesystem::path> found;
         for (const auto& file : std::filesystem::directory_iterator("/dev/shm"))

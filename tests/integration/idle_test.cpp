@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two hosts whose components all wait: nobody wakes up, and whatever happens then is noticed.
+#include "two_hosts.hpp"
+
+#include "tests/support/context_switches.hpp"
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sys/stat.h>
+
+namespace {
+
+using namespace std::chrono_literals;
+using tandem::test::count_context_switches;
+
+/// WaitComp and WaitRtc, joined in both directions. The RTC's execution context ticks when somebody asks it to.
+struct WaitingHosts : TwoHosts {
+    WaitingHosts() {
+        set_talker("");
+        set_rtc("WaitRtc");
+        set_rtc_properties("execution_contexts=SynchExtTriggerEC");
+        REQUIRE(mkfifo(pipe().c_str(), 0600) == 0);
+        add_component("Waiter", "WaitComp", property("pipe", pipe()));
+        set_connections(connection("data", "Adaptor", "reply", "Waiter", "reply") +
+                        connection("service", "Waiter", "dictionary", "Adaptor", "dictionary"));
+    }
+    std::string pipe() const { return (folder() / "pipe").string(); }
+
+    /// Has WaitComp ask WaitRtc about a word.
+    void ask(const std::string& word) const { std::ofstream(pipe()) << word << std::endl; }
+    /// Whether it has got both the reply and, through its input port, the word.
+    bool is_answered(const std::string& word) const {
+        return says("opros", "pages: 5 of " + word + "\n") && says("opros", "reply: " + word + "\n");
+    }
+
+    /// Per thread of both hosts, the context switches within that time.
+    std::map<std::string, long> switches_within(std::chrono::milliseconds time) const {
+        std::map<std::string, long> before, difference;
+        for (const char* host : {"opros", "rtm"})
+            for (const auto& [thread, count] : count_context_switches(pid(host)))
+                before[fmt::format("{} {}", host, thread)] = count;
+        std::this_thread::sleep_for(time);
+        for (const char* host : {"opros", "rtm"})
+            for (const auto& [thread, count] : count_context_switches(pid(host)))
+                if (const long more = count - before[fmt::format("{} {}", host, thread)]; more != 0)
+                    difference[fmt::format("{} {}", host, thread)] = more;
+        return difference;
+    }
+    /// The same of the first second without any; of the last one when there is none for long.
+    std::map<std::string, long> switches_when_settled() const {
+        std::map<std::string, long> switches;
+        for (int second = 0; second < 30; ++second)
+            if (switches = switches_within(1s); switches.empty()) break;
+        return switches;
+    }
+};
+
+std::string text_of(const std::map<std::string, long>& switches) {
+    std::string text;
+    for (const auto& [thread, count] : switches) text += fmt::format("{}: {}\n", thread, count);
+    return text;
+}
+
+long sum_of(const std::map<std::string, long>& switches) {
+    long sum = 0;
+    for (const auto& [thread, count] : switches) sum += count;
+    return sum;
+}
+
+/// Whether SIGSTOP has reached each thread: until then one of them may still answer a call.
+bool is_stopped(pid_t process) {
+    for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
+        std::ifstream file(task.path() / "status");
+        bool stopped = false;
+        for (std::string line; std::getline(file, line);) stopped = stopped || line.starts_with("State:\tT");
+        if (!stopped) return false;
+    }
+    return true;
+}
+
+/// 3 s, with TANDEM_STRESS=20 and more 60 s.
+std::chrono::seconds observed_time() {
+    const char* factor = std::getenv("TANDEM_STRESS");
+    return std::chrono::seconds(std::clamp(3 * (factor ? std::atoi(factor) : 1), 3, 60));
+}
+
+// Nothing of ours wakes up. What is left to the system: a signal, a page that was taken away, a thread that a debugger
+// looks at. The slowest timer that would be a fault is one of a second.
+constexpr long max_switches = 2;
+
+} // namespace
+
+TEST_CASE(
+    "hosts whose components all wait are not woken, and notice a call, a message, a death and a restart") {
+    WaitingHosts hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "ready"));
+    const auto check_idle = [&] {
+        CHECK(text_of(hosts.switches_when_settled()).empty());
+        const auto time = observed_time();
+        const auto switches = hosts.switches_within(time);
+        UNSCOPED_INFO(text_of(switches));
+        CHECK(sum_of(switches) <= max_switches);
+        std::printf("%ld context switches of both hosts within %ld s\n", sum_of(switches),
+                    static_cast<long>(time.count()));
+    };
+    check_idle();
+    hosts.ask("alpha");
+    CHECK(hosts.is_answered("alpha"));
+    check_idle();
+
+    hosts.kill("rtm");
+    REQUIRE(hosts.says("opros", "is down: the peer process has gone"));
+    hosts.ask("beta");
+    CHECK(hosts.says("opros", "not ready: the peer is not there for beta\n"));
+    const std::size_t killed = hosts.output("rtm").size();
+    hosts.start_rtm();
+    REQUIRE(hosts.says("rtm", "ready", killed));
+    check_idle();
+    hosts.ask("gamma");
+    CHECK(hosts.is_answered("gamma"));
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE(
+    "a call to a host that was stopped while all waited ends at its deadline, and the next one is answered") {
+    WaitingHosts hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "ready"));
+    hosts.ask("alpha");
+    REQUIRE(hosts.is_answered("alpha"));
+    REQUIRE(::kill(hosts.pid("rtm"), SIGSTOP) == 0);
+    for (int i = 0; i < 30'000 && !is_stopped(hosts.pid("rtm")); ++i) std::this_thread::sleep_for(1ms);
+    hosts.ask("beta");
+    CHECK(hosts.says("opros", "refused: "));
+    CHECK(hosts.output("opros").find("is down") == std::string::npos);
+    REQUIRE(::kill(hosts.pid("rtm"), SIGCONT) == 0);
+    hosts.ask("gamma");
+    CHECK(hosts.is_answered("gamma"));
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    CHECK(hosts.stop_both());
+}
