@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 #include "shm/os/file_descriptor.hpp"
+#include "shm/segment/file_watch.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -36,9 +37,8 @@ class Watcher {
   private:
     Event take_events();
 
-    const std::string link_;
-    FileDescriptor events_, interrupt_, process_;
-    int file_watch_ = -1;
+    FileDescriptor interrupt_, process_;
+    FileWatch file_; ///< uses interrupt_
 };
 
 } // namespace tandem::shm

@@ -89,22 +89,22 @@ CheckResult check_open_files(const Machine& machine) {
     return ok(name, value);
 }
 
-// A link watches /dev/shm for new generations with one inotify instance on each side.
+// A host watches the segments of all its links with one inotify instance.
 CheckResult check_inotify(const Machine& machine) {
     // Per user, and desktop programs take many: Linux' default is 128.
     constexpr long enough = 64;
     const std::string name = "inotify", remedy = "sysctl fs.inotify.max_user_instances=512";
     if (machine.probed.inotify_error != 0)
         return error(name, "none left (" + error_text(machine.probed.inotify_error) + ")",
-                     "each side of a link needs one: " + remedy);
+                     "each host with links needs one: " + remedy);
     const auto instances = number_in(machine, "/proc/sys/fs/inotify/max_user_instances");
     const auto watches = number_in(machine, "/proc/sys/fs/inotify/max_user_watches");
     if (!instances || !watches)
-        return warning(name, "limits unknown", "each side of a link needs one instance; is /proc mounted?");
+        return warning(name, "limits unknown", "each host with links needs one instance; is /proc mounted?");
     const std::string value =
         std::to_string(*instances) + " instances, " + std::to_string(*watches) + " watches per user";
     if (*instances < enough || *watches < enough)
-        return warning(name, value, "each side of a link needs one: " + remedy);
+        return warning(name, value, "each host with links needs one: " + remedy);
     return ok(name, value);
 }
 

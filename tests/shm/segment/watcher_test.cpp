@@ -41,6 +41,37 @@ TEST_CASE("a watcher wakes when a peer joins and publishes and leaves") {
     CHECK(first->peer_state() == PeerState::dead);
 }
 
+TEST_CASE("all watchers of a process share one inotify instance and each wakes for its own file") {
+    constexpr std::size_t links = 40;
+    const auto inotify_instances = [] {
+        std::size_t count = 0;
+        for (const auto& fd : std::filesystem::directory_iterator("/proc/self/fd")) {
+            std::error_code closed_meanwhile;
+            count += std::filesystem::read_symlink(fd, closed_meanwhile) == "anon_inode:inotify" ? 1 : 0;
+        }
+        return count;
+    };
+    std::vector<std::unique_ptr<Link>> names;
+    std::vector<std::unique_ptr<Segment>> first, second;
+    std::vector<std::unique_ptr<Watched>> watchers;
+    for (std::size_t i = 0; i < links; ++i) {
+        names.push_back(std::make_unique<Link>());
+        first.push_back(join(*names[i], Side::first));
+        watchers.push_back(std::make_unique<Watched>(*names[i], *first[i]));
+    }
+    CHECK(inotify_instances() == 1);
+    for (std::size_t i = 0; i < links; ++i) second.push_back(join(*names[i], Side::second));
+    CHECK(watchers[7]->wait(10s) == Event::changed); // it reads what has come for all
+    for (std::size_t i = 0; i < links; ++i)
+        if (i != 7) CHECK(watchers[i]->wait(10s) == Event::changed);
+    for (const auto& watcher : watchers) watcher->take_all();
+    second[3]->publish();
+    CHECK(watchers[5]->wait(1ms) == Event::none);
+    CHECK(watchers[3]->wait(10s) == Event::changed);
+    watchers.clear();
+    CHECK(inotify_instances() == 0);
+}
+
 TEST_CASE("a watcher wakes when its file is truncated or superseded or removed") {
     Link link;
     auto first = join(link, Side::first);

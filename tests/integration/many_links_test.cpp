@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// As many links in one pair of hosts as a user is told that there may be.
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <sys/stat.h>
+
+namespace {
+
+constexpr int links = 64;
+constexpr std::uintmax_t ports_per_link = 16;
+
+/// A PortsComp, an AdaptorComp and a PortsRtc for each link.
+struct ManyLinks : TwoHosts {
+    ManyLinks() {
+        set_talker("");
+        set_rtc("PortsRtc");
+        set_adaptor_properties("");
+        std::string connections;
+        for (int i = 0; i < links; ++i) {
+            const std::string number = std::to_string(i), adaptor = i == 0 ? "Adaptor" : "Adaptor" + number;
+            add_component("Ports" + number, "PortsComp", property("number", number));
+            if (i != 0) {
+                add_rtc("PortsRtc");
+                add_link(adaptor, "PortsRtc" + number);
+            }
+            for (int port = 0; port < 8; ++port) {
+                const std::string of_port = std::to_string(port);
+                connections +=
+                    connection("data", "Ports" + number, "out" + of_port, adaptor, "in" + of_port) +
+                    connection("data", adaptor, "out" + of_port, "Ports" + number, "in" + of_port);
+            }
+        }
+        set_connections(connections);
+    }
+};
+
+std::uintmax_t memory_of(const std::filesystem::path& file) {
+    struct stat status {};
+    return stat(file.c_str(), &status) == 0 ? 512 * static_cast<std::uintmax_t>(status.st_blocks)
+                                            : UINTMAX_MAX;
+}
+
+} // namespace
+
+TEST_CASE("64 links of 16 ports in one pair of hosts all cross") {
+    ManyLinks hosts;
+    hosts.start_rtm();
+    hosts.start_opros();
+    for (int i = 0; i < links; ++i)
+        REQUIRE(hosts.says("opros", "all ports of number " + std::to_string(i) + " crossed"));
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    CHECK(hosts.output("opros").find("wrong value") == std::string::npos);
+    CHECK(hosts.segments().size() == links);
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a link whose ports are idle takes at most 64 KiB of shared memory for each port") {
+    TwoHosts hosts;
+    hosts.set_talker("");
+    hosts.set_rtc("PortsRtc");
+    hosts.set_connections("");
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("opros", "16 ports of PortsRtc0 mirrored"));
+    REQUIRE(hosts.says("opros", "ready"));
+    const auto segments = hosts.segments();
+    REQUIRE(segments.size() == 1);
+    const auto memory = memory_of(segments[0]);
+    std::printf("%ju KiB of shared memory for a link with %ju idle ports, %ju KiB for each\n", memory / 1024,
+                ports_per_link, memory / 1024 / ports_per_link);
+    CHECK(memory <= ports_per_link * 64 * 1024);
+    CHECK(hosts.stop_both());
+}
