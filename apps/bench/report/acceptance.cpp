@@ -95,6 +95,10 @@ void add_components(Limits& limits) {
     for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"})
         limits.at_most("component to component, " + direction + " / minimal ring", 3,
                        "tandem/bridge/one-way/64/spin/" + direction, minimal_ring);
+    for (const std::string direction : {"opros-to-rtm", "rtm-to-opros"})
+        limits.at_most("component to component, " + direction + ", beside 63 links / one link", 1.2,
+                       "tandem/bridge/64-links/64/spin/" + direction,
+                       "tandem/bridge/one-way/64/spin/" + direction);
     limits.at_most("one-way, 256 ports open, one used / one port", 1.2,
                    "tandem/ring/ports/64/spin/256 ports (1 used)", "tandem/ring/ports/64/spin/1 port");
     limits.at_most("one-way round 256 ports / one port", 1.2, "tandem/ring/ports/64/spin/256 ports",

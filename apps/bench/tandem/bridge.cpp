@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Component to component across the bridge: A runs opros_host with BenchPing and AdaptorComp, B runs rtm_host
 // with BenchPong and InterceptorComp, as a user runs them. Eight doubles each way; both components poll.
-// Cold, the sender of the measured direction sleeps before each message.
+// Cold, the sender of the measured direction sleeps before each message. The case 64-links has 63 links more in the same
+// hosts, of 16 ports each through which nothing goes.
 #include "apps/bench/harness/cases.hpp"
 #include "apps/bench/harness/registry.hpp"
 #include "apps/bench/harness/session.hpp"
@@ -22,12 +23,19 @@ using namespace std::chrono_literals;
 
 bool is_cold(const Session& session) { return session.bench_case().operation.starts_with("cold-"); }
 
+/// Links beside the measured one.
+int idle_links(const Session& session) { return session.bench_case().operation == "64-links" ? 63 : 0; }
+
+std::string idle_link_name(const Session& session, int number) {
+    return session.name() + "-" + std::to_string(number);
+}
+
 /// The OPRoS application: BenchPing, connected to the ports that AdaptorComp mirrors.
 void write_application_profile(const Session& session, const fs::path& folder) {
     const int interval_ms = is_cold(session) ? cold_interval_ms(session.bench_case()) : 0;
     const std::size_t samples =
         interval_ms > 0 ? cold_messages(session.budget(), interval_ms) : session.budget().samples;
-    const std::string components =
+    std::string components =
         component_xml("Ping", "BenchPing.xml",
                       {{"file", (folder / "samples").string()},
                        {"direction", session.bench_case().detail},
@@ -36,6 +44,9 @@ void write_application_profile(const Session& session, const fs::path& folder) {
                        {"seconds", fmt::format("{:g}", interval_ms > 0 ? 60 : session.budget().seconds)},
                        {"interval_ms", std::to_string(interval_ms)}}) +
         component_xml("Adaptor", "AdaptorComp.xml", {{"link", session.name()}, {"wait", "30"}});
+    for (int i = 1; i <= idle_links(session); ++i)
+        components += component_xml("Idle" + std::to_string(i), "AdaptorComp.xml",
+                                    {{"link", idle_link_name(session, i)}, {"wait", "30"}});
     std::ofstream(folder / "app.xml")
         << application_xml(components, connection_xml("data", "Ping", "ping", "Adaptor", "ping") +
                                            connection_xml("data", "Adaptor", "pong", "Ping", "pong"));
@@ -43,13 +54,18 @@ void write_application_profile(const Session& session, const fs::path& folder) {
 
 /// The RTM side: BenchPong, whose ports InterceptorComp shares over the same link.
 void write_rtc_conf(const Session& session, const fs::path& folder) {
+    std::string rtcs = "BenchPong, InterceptorComp?link=" + session.name() + "&rtc=BenchPong0";
+    for (int i = 0; i < idle_links(session); ++i)
+        rtcs += ", BenchIdle, InterceptorComp?link=" + idle_link_name(session, i + 1) + "&rtc=BenchIdle" +
+                std::to_string(i);
     std::ofstream(folder / "rtc.conf")
         << rtc_conf_head
+        // So many contexts with nothing to do need not run every millisecond.
+        << (idle_links(session) > 0 ? "exec_cxt.periodic.rate: 100\n" : "")
         // As BenchPing and the cold minimal ring; hot, BenchPong never sleeps and needs none.
         << (is_cold(session) ? "exec_cxt.periodic.priority: 5\n" : "")
         << "manager.modules.preload: BenchPong.so, InterceptorComp.so\n"
-        << "manager.components.precreate: BenchPong, InterceptorComp?link=" << session.name()
-        << "&rtc=BenchPong0\n";
+        << "manager.components.precreate: " << rtcs << "\n";
 }
 
 /// BenchPing's samples: doubles, in ns.
@@ -86,6 +102,12 @@ void add_bridge_cases(Registry& registry) {
     for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
         registry.add(
             {.subject = "bridge", .operation = "one-way", .detail = direction, .run = measure_bridge});
+    for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
+        registry.add({.subject = "bridge",
+                      .operation = "64-links",
+                      .extra_seconds = 10,
+                      .detail = direction,
+                      .run = measure_bridge});
     for (const int interval_ms : cold_intervals_ms)
         for (const char* direction : {"opros-to-rtm", "rtm-to-opros"})
             registry.add({.subject = "bridge",

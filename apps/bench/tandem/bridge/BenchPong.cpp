@@ -9,6 +9,9 @@
 #include "apps/bench/tandem/bridge/ping.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
 
 using namespace tandem::bench;
 
@@ -50,6 +53,25 @@ class BenchPong : public RTC::DataFlowComponentBase {
     RTC::OutPort<RTC::TimedDoubleSeq> pongOut_;
 };
 
+/// Sixteen ports through which nothing goes.
+class BenchIdle : public RTC::DataFlowComponentBase {
+  public:
+    explicit BenchIdle(RTC::Manager* manager) : RTC::DataFlowComponentBase(manager) {}
+
+    RTC::ReturnCode_t onInitialize() override {
+        for (int i = 0; i < 16; ++i) {
+            ports_.push_back(std::make_unique<RTC::InPort<RTC::TimedDoubleSeq>>(
+                ("in" + std::to_string(i)).c_str(), value_));
+            addInPort(ports_.back()->name(), *ports_.back());
+        }
+        return RTC::RTC_OK;
+    }
+
+  private:
+    RTC::TimedDoubleSeq value_;
+    std::vector<std::unique_ptr<RTC::InPort<RTC::TimedDoubleSeq>>> ports_;
+};
+
 extern "C" void BenchPongInit(RTC::Manager* manager) {
     // Manager::load() calls this function, whose name is that of the library with "Init" behind it.
     coil::Properties profile;
@@ -57,4 +79,7 @@ extern "C" void BenchPongInit(RTC::Manager* manager) {
     profile.setProperty("type_name", "BenchPong");
     profile.setProperty("category", "bench");
     manager->registerFactory(profile, RTC::Create<BenchPong>, RTC::Delete<BenchPong>);
+    profile.setProperty("implementation_id", "BenchIdle");
+    profile.setProperty("type_name", "BenchIdle");
+    manager->registerFactory(profile, RTC::Create<BenchIdle>, RTC::Delete<BenchIdle>);
 }
