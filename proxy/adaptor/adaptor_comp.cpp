@@ -195,6 +195,11 @@ void AdaptorComp::create_mirror_port(const link::Port& port) {
         else
             link_->reader(port.name).set_policy(policy);
     }
+    if (port.is_event_in_port()) {
+        fsm_ports_.push_back(std::make_unique<MirrorFsmPort>(port, link_->writer(port.name)));
+        addPort(port.name, fsm_ports_.back().get());
+        return;
+    }
     const auto& events = settings_.event_ports;
     if (link::is_data_port(port.kind) && std::find(events.begin(), events.end(), port.name) != events.end())
         return create_event_mirror(port);

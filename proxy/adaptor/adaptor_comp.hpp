@@ -5,6 +5,7 @@
 #include "proxy/adaptor/data/mirror_out_port.hpp"
 #include "proxy/adaptor/event/mirror_event_in_port.hpp"
 #include "proxy/adaptor/event/mirror_event_out_port.hpp"
+#include "proxy/adaptor/event/mirror_fsm_port.hpp"
 #include "proxy/adaptor/service/mirror_provided_port.hpp"
 #include "proxy/adaptor/service/mirror_required_port.hpp"
 #include "proxy/adaptor/settings.hpp"
@@ -93,6 +94,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     std::vector<std::unique_ptr<MirrorOutPort>> outputs_;
     std::vector<std::unique_ptr<MirrorEventInPort>> event_inputs_;
     std::vector<std::unique_ptr<MirrorEventOutPort>> event_outputs_;
+    std::vector<std::unique_ptr<MirrorFsmPort>> fsm_ports_;
     std::vector<MirrorRequiredPort*> required_; ///< service ports belong to the component, which deletes them
     std::mutex link_state_mutex_;               ///< the members below
     OutputDataPort<std::vector<double>> link_state_;

@@ -69,26 +69,30 @@ Reply InterceptorComp::serve(const link::Request& request) {
         if (port->port().name == request.port) return port->serve(request);
     for (const auto& service : built_in_services_)
         if (service.port().name == request.port) return service.serve(request);
-    return Reply::failure(CallStatus::no_such_operation, "no such service port");
+    return opros_rtcs_->serve(request);
 }
 
 Reply InterceptorComp::execute_command(const link::Request& request) {
     std::string error;
-    if (request.operation == control::activate) {
-        error = activate();
-    } else if (request.operation == control::deactivate) {
-        error = rtcs_->deactivate();
-        activated_by_link_ = false;
-    } else if (request.operation == control::reset) {
-        error = rtcs_->reset();
-    } else if (request.operation == control::state) {
-        error = receive_state(request);
-    } else if (request.operation == control::bind) {
-        error = bind(request.arguments);
-    } else if (request.operation == control::listen) {
-        error = listen(request.arguments);
-    } else {
-        return Reply::failure(CallStatus::no_such_operation, "unknown command");
+    try {
+        if (request.operation == control::activate) {
+            error = activate();
+        } else if (request.operation == control::deactivate) {
+            error = rtcs_->deactivate();
+            activated_by_link_ = false;
+        } else if (request.operation == control::reset) {
+            error = rtcs_->reset();
+        } else if (request.operation == control::state) {
+            opros_rtcs_->receive_state(request);
+        } else if (request.operation == control::bind) {
+            error = bind(request.arguments);
+        } else if (request.operation == control::listen) {
+            link_->serve_listen(request.arguments);
+        } else {
+            return Reply::failure(CallStatus::no_such_operation, "unknown command");
+        }
+    } catch (const link::LinkError& damaged) {
+        error = damaged.what();
     }
     return error.empty() ? Reply{} : Reply::failure(CallStatus::exception, error);
 }
@@ -105,15 +109,6 @@ std::string InterceptorComp::activate() {
     return error;
 }
 
-std::string InterceptorComp::receive_state(const link::Request& request) {
-    try {
-        opros_rtcs_->receive_state(request);
-        return "";
-    } catch (const link::LinkError& error) {
-        return error.what();
-    }
-}
-
 std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     try {
         const auto binding = control::decode_service_binding(arguments);
@@ -128,20 +123,20 @@ std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
     }
 }
 
-/// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
-std::string InterceptorComp::listen(std::span<const std::byte> arguments) {
-    try {
-        const auto names = control::decode_port_names(arguments);
-        for (const auto& port : written_ports_)
-            link_->writer(port).set_peer_listens(std::find(names.begin(), names.end(), port) != names.end());
-        return "";
-    } catch (const link::LinkError& error) {
-        return error.what();
-    }
+/// Asks the peer to ring the doorbell for the ports whose messages are handed over when they come. [task-thread]
+void InterceptorComp::publish_listened_channels() {
+    if (!link_->is_up()) return; // peer_connected() comes here again
+    auto channels = opros_rtcs_->listened_channels();
+    channels.insert(channels.end(), event_ports_.begin(), event_ports_.end());
+    const auto reply = link_->request_rings(channels, settings_.call_timeout);
+    if (reply.status != CallStatus::ok && link_->is_up())
+        spdlog::warn("{}: data and events of OPRoS components are handed over up to 1 s late: {}",
+                     getInstanceName(), reply.text());
 }
 
 void InterceptorComp::peer_connected() {
     opros_rtcs_->peer_connected();
+    publish_listened_channels();
     report_rtc_failures(); // there may have been no peer when it happened
 }
 

@@ -2,13 +2,13 @@
 #include "proxy/interceptor/interceptor_comp.hpp"
 
 #include "proxy/interceptor/data/link_buffer.hpp"
+#include "proxy/interceptor/data/mirror_event_port.hpp"
 #include "proxy/interceptor/data/mirror_in_port.hpp"
 #include "proxy/interceptor/data/mirror_out_port.hpp"
 #include "proxy/interceptor/manage/rtc_connector.hpp"
 #include "proxy/interceptor/manage/rtc_manager.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
-#include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type_text.hpp"
 
 #include <rtm/CORBA_SeqUtil.h>
@@ -81,8 +81,9 @@ void InterceptorComp::share_rtc_ports() {
                                          static_cast<LinkHandler&>(*this));
     for (const auto& component : table.components) drive(*manager.getComponent(component.name.c_str()));
     LinkBuffer::register_factory();
-    opros_rtcs_ = std::make_unique<OprosRtcs>(getInstanceName(), manager, *link_, settings_.link,
-                                              settings_.call_timeout);
+    opros_rtcs_ =
+        std::make_unique<OprosRtcs>(getInstanceName(), manager, *link_, settings_.link,
+                                    settings_.call_timeout, [this] { publish_listened_channels(); });
     own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [](const char*) {});
     create_mirror_ports(ports);
     link_->open();
@@ -104,7 +105,9 @@ void InterceptorComp::drive(RTC::RTObject_impl& rtc) {
 
 void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
     for (const auto& port : ports)
-        if (port.entry.has_ring())
+        if (port.entry.is_event_in_port())
+            create_event_mirror(port);
+        else if (port.entry.has_ring())
             create_data_mirror(port);
         else if (link::is_data_port(port.entry.kind))
             leave_out(fmt::format("port '{}' of {}: type {} cannot cross the link: {}", port.entry.name,
@@ -118,7 +121,7 @@ void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
         if (port.service_port.empty() || !connected.insert(port.service_port).second) continue;
         auto& mirror = *service_ports_.at(port.service_port);
         addPort(mirror);
-        connect(mirror, port, "");
+        connect(mirror, port, mirror.getName(), {});
     }
 }
 
@@ -135,7 +138,7 @@ std::string InterceptorComp::channel_key(const std::string& port) const {
 void InterceptorComp::create_data_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
     const std::string key = channel_key(entry.name);
-    LinkChannel channel;
+    LinkChannel channel = make_link_channel(wire::parse_signature(entry.signature));
     const auto policy = link::read_port_policy("parameter", entry.name, [this](const std::string& name) {
         return getProperties().getProperty(name);
     });
@@ -143,14 +146,8 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
         link_->writer(entry.name).set_policy(policy);
     else
         link_->reader(entry.name).set_policy(policy);
-    const auto type = wire::parse_signature(entry.signature);
-    channel.timed = wire::is_timed(type);
-    if (wire::contains(type, wire::Kind::any) || wire::contains(type, wire::Kind::fixed))
-        channel.transcoded =
-            std::make_shared<const wire::Type>(channel.timed ? wire::without_time(type) : type);
     if (entry.kind == PortKind::data_out) {
         channel.writer = &link_->writer(entry.name);
-        written_ports_.push_back(entry.name);
         auto mirror = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
         addInPort(entry.name.c_str(), *mirror);
         data_ports_.push_back(std::move(mirror));
@@ -162,7 +159,33 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
     }
     LinkBuffer::register_channel(key, channel);
     channel_keys_.push_back(key);
-    connect(*data_ports_.back(), port, key);
+    // "flush": the RTC's write() hands the data to the buffer in its own thread.
+    connect(*data_ports_.back(), port, entry.name,
+            {{"dataport.interface_type", "corba_cdr"},
+             {"dataport.dataflow_type", "push"},
+             {"dataport.subscription_type", "flush"},
+             {"dataport.serializer.cdr.endian", "little"},
+             {"dataport.buffer_type", LinkBuffer::factory_name},
+             {"dataport.buffer.channel", key}});
+}
+
+/// An EventInPort has one connection for each of its events.
+void InterceptorComp::create_event_mirror(const RtcPort& port) {
+    const auto& entry = port.entry;
+    auto mirror = std::make_unique<MirrorEventPort>(entry, link_->reader(entry.name));
+    auto& events = *mirror;
+    addOutPort(entry.name.c_str(), events);
+    data_ports_.push_back(std::move(mirror));
+    event_ports_.push_back(entry.name);
+    for (const auto& event : entry.operations)
+        connect(events, port, event.name,
+                {{"dataport.interface_type", "corba_cdr"},
+                 {"dataport.dataflow_type", "push"},
+                 {"dataport.subscription_type", "flush"},
+                 {"dataport.serializer.cdr.endian", "little"},
+                 {"dataport.fsm_event_name", event.name},
+                 {"dataport.allow_dup_connection", "YES"}});
+    link_->set_arrival_listener(entry.name, [&events] { events.deliver(); });
 }
 
 void InterceptorComp::create_service_mirror(const RtcPort& port) {
@@ -179,26 +202,16 @@ void InterceptorComp::create_service_mirror(const RtcPort& port) {
     }
 }
 
-/// Connects a mirror with the RTC's port. For a data port, `channel_key` tells the connector's buffer which
-/// channel of the link it is.
-void InterceptorComp::connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& channel_key) {
+/// Connects a mirror with the RTC's port, by a connection of that name.
+void InterceptorComp::connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
+                              const Properties& properties) {
     RTC::ConnectorProfile profile;
-    profile.name = mirror.getName();
+    profile.name = name.c_str();
     profile.connector_id = "";
     CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(mirror.getPortRef()));
     CORBA_SeqUtil::push_back(profile.ports, RTC::PortService::_duplicate(port.reference));
-    if (!channel_key.empty()) {
-        // "flush": the RTC's write() hands the data to the buffer in its own thread.
-        const std::pair<const char*, const char*> properties[] = {
-            {"dataport.interface_type", "corba_cdr"},
-            {"dataport.dataflow_type", "push"},
-            {"dataport.subscription_type", "flush"},
-            {"dataport.serializer.cdr.endian", "little"},
-            {"dataport.buffer_type", LinkBuffer::factory_name},
-            {"dataport.buffer.channel", channel_key.c_str()}};
-        for (const auto& [name, value] : properties)
-            CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(name, value));
-    }
+    for (const auto& [key, value] : properties)
+        CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV(key, value.c_str()));
     if (mirror.connect(profile) != RTC::RTC_OK)
         leave_out(fmt::format("port '{}' cannot be connected with that of {}: {}", mirror.getName(),
                               port.entry.component, mirror.connectError()));

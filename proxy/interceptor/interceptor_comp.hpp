@@ -45,8 +45,12 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void share_rtc_ports();
     void create_mirror_ports(const std::vector<RtcPort>& ports);
     void create_data_mirror(const RtcPort&);
+    void create_event_mirror(const RtcPort&);
     void create_service_mirror(const RtcPort&);
-    void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& channel_key);
+    /// Properties of a connection by name.
+    using Properties = std::vector<std::pair<const char*, std::string>>;
+    void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
+                 const Properties& properties);
     void drive(RTC::RTObject_impl& rtc);
     void leave_out(const std::string& reason);
     void disconnect_all();
@@ -61,10 +65,9 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
 
     // Each returns an empty string or an error of one line.
     std::string activate();
-    std::string receive_state(const link::Request&);
     std::string bind(std::span<const std::byte> arguments);
-    std::string listen(std::span<const std::byte> arguments);
 
+    void publish_listened_channels();
     void deactivate_if_activated_by_link();
     void report_rtc_failures();
     link::LinkOptions link_options() const;
@@ -85,8 +88,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::vector<std::unique_ptr<MirrorRequiredPort>> required_;
     std::vector<std::unique_ptr<MirrorProvidedPort>> provided_;
     std::vector<BuiltInService> built_in_services_;
-    std::vector<std::string> channel_keys_;  ///< registered with LinkBuffer
-    std::vector<std::string> written_ports_; ///< data ports whose messages go to the peer
+    std::vector<std::string> channel_keys_; ///< registered with LinkBuffer
+    std::vector<std::string> event_ports_;  ///< whose messages are handed over when they come
 
     RTC::TimedDoubleSeq link_state_;
     RTC::OutPort<RTC::TimedDoubleSeq> link_state_out_;

@@ -34,32 +34,45 @@ std::string without_references(const wire::Type& type) {
     return wire::to_named_signature(type);
 }
 
+/// The signature of an IDL type, known from the IDL that the RTC's library was built with.
+std::string data_signature(const std::string& type) {
+    const std::string signature = RTC::InterfaceSignatures::type(type);
+    if (signature.empty()) return "?{its IDL is not known to the RTM host; build the RTC's IDL with it}";
+    try {
+        return without_references(wire::parse_signature(signature));
+    } catch (const wire::SignatureError&) {
+        return "?{it is nested too deeply, or has too many members}";
+    }
+}
+
+/// The same of an event's argument, which is handed to the port as its bytes are.
+std::string argument_signature(const std::string& type) {
+    const std::string signature = data_signature(type);
+    const auto parsed = wire::parse_signature(signature);
+    if (wire::contains(parsed, wire::Kind::any) || wire::contains(parsed, wire::Kind::fixed))
+        return "?{arguments of events hold no any and no fixed}";
+    return signature;
+}
+
+/// The events of an EventInPort, which its profile lists as `NAME` or `NAME=TYPE`.
+std::vector<link::ServiceOperation> events_of(const RTC::PortProfile& profile) {
+    std::vector<link::ServiceOperation> events;
+    for (const auto& event : coil::split(property(profile, "dataport.fsm_events"), ",", true)) {
+        const auto equals = event.find('=');
+        events.push_back({event.substr(0, equals),
+                          equals == std::string::npos ? "" : argument_signature(event.substr(equals + 1))});
+    }
+    return events;
+}
+
 link::Port data_port(const RTC::PortProfile& profile, PortKind kind) {
     link::Port port;
     port.kind = kind;
     port.name = short_name(profile);
     port.type = property(profile, "dataport.data_type");
-    // Known from the IDL that the RTC's library was built with.
-    const std::string signature = RTC::InterfaceSignatures::type(port.type);
-    try {
-        if (signature.empty())
-            port.signature = "?{its IDL is not known to the RTM host; build the RTC's IDL with it}";
-        else
-            port.signature = without_references(wire::parse_signature(signature));
-    } catch (const wire::SignatureError&) {
-        port.signature = "?{it is nested too deeply, or has too many members}";
-    }
+    port.operations = events_of(profile);
+    port.signature = port.is_event_in_port() ? "{id}s{argument}v" : data_signature(port.type);
     return port;
-}
-
-/// The operations of an IDL interface; empty when its IDL is not compiled into this process, in which case a
-/// call itself shows whether it fits.
-std::vector<link::ServiceOperation> operations_of(const std::string& type) {
-    std::vector<link::ServiceOperation> operations;
-    if (const auto* known = RTC::InterfaceSignatures::find(type))
-        for (const auto& operation : *known)
-            operations.push_back({operation.name, operation.arguments + ":" + operation.result});
-    return operations;
 }
 
 link::Port service_port(const RTC::PortProfile& profile, const RTC::PortInterfaceProfile& interface) {
@@ -89,6 +102,14 @@ void make_names_unique(std::vector<RtcPort>& ports) {
 }
 
 } // namespace
+
+std::vector<link::ServiceOperation> operations_of(const std::string& interface) {
+    std::vector<link::ServiceOperation> operations;
+    if (const auto* known = RTC::InterfaceSignatures::find(interface))
+        for (const auto& operation : *known)
+            operations.push_back({operation.name, operation.arguments + ":" + operation.result});
+    return operations;
+}
 
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
     std::vector<RtcPort> ports;

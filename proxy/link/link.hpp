@@ -6,6 +6,7 @@
 #include "proxy/link/channel/arrival_notifier.hpp"
 #include "proxy/link/channel/channel_table.hpp"
 #include "proxy/link/peer_supervisor.hpp"
+#include "proxy/link/protocol/control.hpp"
 #include "proxy/link/protocol/link_error.hpp"
 #include "proxy/link/session/link_options.hpp"
 #include "proxy/link/session/link_state.hpp"
@@ -57,6 +58,11 @@ class Link {
     /// The reference is valid as long as the link.
     ChannelWriter& writer(const std::string& port) { return channels_.writer(port); }
     ChannelReader& reader(const std::string& port) { return channels_.reader(port); }
+
+    /// Executes control::listen: see ChannelTable. Throws LinkError when the arguments are damaged.
+    void serve_listen(std::span<const std::byte> arguments) {
+        channels_.set_listened_ports(control::decode_port_names(arguments));
+    }
 
     /// Calls `listener` in the notifier thread after messages of `port` have arrived; see ArrivalNotifier. Up to a second
     /// late until request_rings() has succeeded for this port.

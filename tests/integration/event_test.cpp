@@ -68,3 +68,66 @@ TEST_CASE("a name in event_ports that is no data port of the RTC is told") {
     CHECK(hosts.says("opros", "ready"));
     CHECK(hosts.stop_both());
 }
+
+namespace {
+
+/// CookComp and OvenRtc, whose state machine takes events through an EventInPort.
+struct OvenHosts : TwoHosts {
+    explicit OvenHosts(const std::string& connections) {
+        set_talker("CookComp");
+        set_rtc("OvenRtc");
+        set_connections(connections);
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "OPRoS events drive the state machine of an RTC by their ids, with and without argument, in order") {
+    OvenHosts hosts(TwoHosts::connection("event", "Talker", "button", "Adaptor", "panel"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    // Of each round: start does nothing before the minutes are set, and the last of two ticks ends it.
+    CHECK(hosts.says(
+        "rtm", "oven: idle\noven: 2 minutes, a time\noven: heating\noven: tick\noven: tick\noven: idle\n"));
+    CHECK(hosts.says(
+        "opros",
+        "port 'panel': events with content int are 'i': they can be minutes, start, tick; not label, "
+        "since the peer's EventInPort takes label 's', minutes 'i', start, tick"));
+    CHECK(hosts.says("opros",
+                     "port 'panel': a message cannot cross the link and is dropped, 1 so far: event 'bake' "
+                     "without content; the peer's EventInPort takes label 's', minutes 'i', start, tick"));
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE(
+    "ports with contents of several types may send to one EventInPort, also after the RTM host came back") {
+    OvenHosts hosts(TwoHosts::connection("event", "Talker", "button", "Adaptor", "panel") +
+                    TwoHosts::connection("event", "Talker", "label", "Adaptor", "panel"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    REQUIRE(hosts.says("rtm", "oven: label bread\n"));
+    REQUIRE(hosts.says("rtm", "oven: heating\n"));
+    hosts.kill("rtm");
+    REQUIRE(hosts.says("opros", "is down"));
+    const std::size_t killed = hosts.output("rtm").size();
+    hosts.start_rtm();
+    CHECK(hosts.says("rtm", "oven: label bread\n", killed));
+    CHECK(hosts.says("rtm", "oven: heating\n", killed));
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("events that no handler of the RTC's state machine takes are refused with all signatures") {
+    OvenHosts hosts(TwoHosts::connection("event", "Talker", "weight", "Adaptor", "knob"));
+    hosts.start_rtm();
+    REQUIRE(hosts.says("rtm", "ready"));
+    hosts.start_opros();
+    CHECK(hosts.exit_code("opros") == 1); // --strict
+    CHECK_THAT(
+        hosts.output("opros"),
+        Contains(
+            "port 'knob': events with content double are 'd', the peer's EventInPort takes turn 'i'; use a "
+            "content with one of these signatures"));
+}

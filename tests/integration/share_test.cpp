@@ -69,9 +69,10 @@ TEST_CASE("a shared OPRoS component is an RTC with ports, parameters and state")
                          Catch::Contains("Motor.torque DataOutPort IDL:RTC/TimedDouble:1.0") &&
                          Catch::Contains("Motor.angles DataOutPort IDL:RTC/TimedDoubleSeq:1.0") &&
                          !Catch::Contains("Motor.count"));
-    CHECK(hosts.says("rtm",
-                     "Motor: port 'count' is not shown: no standard data type of RTM has the members of "
-                     "OPRoS type long, 'x'"));
+    CHECK(hosts.says(
+        "rtm",
+        "Motor: port 'count' is not shown: no data type of RTM that this host knows has the members of "
+        "OPRoS type long, 'x', after a time; load an RTC whose IDL has such a structure"));
     CHECK(hosts.good({"info", "Motor"}, "MotorComp"));
     CHECK(hosts.good({"conf", "Motor"}, "gain=2"));
     CHECK(hosts.stop("opros") == 0);
@@ -245,4 +246,67 @@ TEST_CASE("an RTC calls the service of a shared OPRoS component") {
     CHECK(hosts.says("rtm", "service 'Shelf.dictionary.pages': there is no such word"));
     CHECK(hosts.stop("opros") == 0);
     CHECK(hosts.stop("rtm") == 0);
+}
+
+TEST_CASE("events of a shared OPRoS component are data ports of a structure of id and content") {
+    Shared hosts("Siren");
+    hosts.set_rtc("AlarmRtc");
+    hosts.set_interceptor("manage=no"); // it is not behind the link
+    hosts.add_component("Siren", "AlarmComp");
+    hosts.start();
+    REQUIRE(hosts.shows("Siren", "ACTIVE"));
+    CHECK_THAT(hosts.run({"tree"}).output,
+               Catch::Contains("Siren.alarm DataOutPort IDL:TestAlarm/TimedAlarm:1.0") &&
+                   Catch::Contains("Siren.notice DataInPort IDL:TestAlarm/TimedAlarm:1.0"));
+    CHECK(hosts.says("rtm",
+                     "Siren: port 'number' is not shown: no data type of RTM that this host knows has the "
+                     "members of OPRoS type event with content int, 'si', after a time"));
+    CHECK(hosts.good({"connect", "Siren:alarm", "AlarmRtc0:raised"}));
+    CHECK(hosts.good({"connect", "AlarmRtc0:answer", "Siren:notice"}));
+    CHECK(hosts.good({"activate", "AlarmRtc0"}));
+    CHECK(hosts.says("opros", "event: answer to hot "));
+    CHECK(hosts.says("opros", " at a time, "));
+    hosts.kill("opros");
+    CHECK(hosts.shows("Siren", "ERROR"));
+    const auto before = hosts.output("opros").size();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "event: answer to hot ", before));
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
+TEST_CASE("a service that a shared OPRoS component requires is that of an RTC") {
+    Shared hosts("Reader");
+    hosts.set_rtc("EchoRtc");
+    hosts.set_interceptor("manage=no"); // it is not behind the link
+    hosts.add_component("Reader", "TalkerComp");
+    hosts.set_adaptor_property("interfaces", "Reader.dictionary=TestDictionary::Dictionary.dictionary");
+    hosts.start();
+    REQUIRE(hosts.shows("Reader", "ACTIVE"));
+    CHECK_THAT(hosts.run({"info", "Reader"}).output, Catch::Contains("TestDictionary::Dictionary"));
+    CHECK(hosts.good({"activate", "EchoRtc0"}));
+    CHECK(hosts.good({"connect", "Reader:word", "EchoRtc0:word"}));
+    CHECK(hosts.good({"connect", "EchoRtc0:reply", "Reader:reply"}));
+    CHECK(hosts.says("opros", "refused: service 'Reader.dictionary.pages': not ready"));
+    CHECK(hosts.good({"connect", "Reader:dictionary", "EchoRtc0:dictionary"}));
+    CHECK(hosts.says("opros", "pages: 2 last 5"));
+    CHECK(hosts.says("opros", "NotFound")); // the RTC's exception
+    hosts.kill("opros");
+    CHECK(hosts.shows("Reader", "ERROR"));
+    const auto before = hosts.output("opros").size();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "pages: 2 last 5", before));
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("a required service that the application connects is not shared") {
+    Shared hosts("Reader, Shelf");
+    hosts.add_component("Reader", "TalkerComp");
+    hosts.add_component("Shelf", "ShelfComp");
+    hosts.set_connections(TwoHosts::connection("service", "Reader", "dictionary", "Shelf", "dictionary") +
+                          TwoHosts::connection("data", "Reader", "word", "Reader", "reply"));
+    hosts.start();
+    CHECK(hosts.says("opros", "port 'Reader.dictionary' is not shared: the application connects it"));
+    CHECK(hosts.says("opros",
+                     "pages: 2 last 5")); // of Shelf, whose next answer is an exception of its own kind
 }

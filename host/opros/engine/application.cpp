@@ -25,6 +25,7 @@ Application::Application(const std::filesystem::path& file, const ApplicationOpt
     // hardware moves. Connections come after, since components may add ports in onInitialize.
     load(profile);
     sort_components(profile);
+    directory_.set_profile_connections(profile.connections);
     initialize_all();
     connect_all(profile);
 }
@@ -34,6 +35,7 @@ Application::~Application() {
     if (stuck_components_.empty()) return;
     // A thread that has not returned may still use any of these, for as long as the process lives.
     for (auto& connection : connections_) static_cast<void>(connection.release());
+    directory_.release_connections();
     for (auto& component : components_) static_cast<void>(component.release());
 }
 
@@ -229,7 +231,10 @@ void Application::shut_down() {
     shut_down_ = true;
     stop();
     stop_task_queues();
-    if (stuck_components_.empty()) connections_.clear();
+    if (stuck_components_.empty()) {
+        directory_.disconnect_all();
+        connections_.clear();
+    }
     for (auto component = start_order_.rbegin(); component != start_order_.rend(); ++component)
         if (!is_stuck(**component)) run_bounded(**component, &ComponentHost::destroy);
 }

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "host/opros/engine/application_directory.hpp"
 
+#include "host/opros/engine/connect/make_connection.hpp"
+
+#include <RequiredServicePort.h>
+
+#include <algorithm>
+#include <stdexcept>
 #include <thread>
 
 namespace tandem::engine {
@@ -43,6 +49,28 @@ bool ApplicationDirectory::setProperty(const std::string& component, const std::
     ComponentHost* host = find_host(component);
     if (host) host->set_property(name, value);
     return host != nullptr;
+}
+
+bool ApplicationDirectory::isConnected(const std::string& component, const std::string& port) const {
+    return std::any_of(profile_connections_.begin(), profile_connections_.end(), [&](const auto& connection) {
+        return connection.source.component == component && connection.source.port == port;
+    });
+}
+
+std::string ApplicationDirectory::connect(const std::string& owner, Port& port, const std::string& component,
+                                          const std::string& component_port) {
+    ComponentHost *own = find_host(owner), *host = find_host(component);
+    Port* other = host ? host->component().getPort(component_port) : nullptr;
+    if (!own || !other) return "there is no port " + component + "." + component_port;
+    const bool is_required = dynamic_cast<RequiredServicePort*>(other) != nullptr;
+    try {
+        connections_[&port] =
+            is_required ? make_connection(*other, port, *own) : make_connection(port, *other, *host);
+        return "";
+    } catch (const std::runtime_error& error) {
+        connections_.erase(&port);
+        return error.what();
+    }
 }
 
 bool ApplicationDirectory::close(std::chrono::nanoseconds timeout) {

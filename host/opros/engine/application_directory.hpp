@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/opros/engine/connect/connection.hpp"
 #include "host/opros/engine/execute/component_host.hpp"
+#include "host/opros/engine/profile/application_profile.hpp"
 
 #include <ComponentDirectory.h>
 
 #include <atomic>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <vector>
 
 namespace tandem::engine {
 
-/// The directory of an application, for components that show others elsewhere. [any-thread] all functions but the
-/// constructor.
+/// The directory of an application, for components that show others elsewhere. [any-thread] where nothing else is said.
 class ApplicationDirectory final : public ComponentDirectory {
   public:
     /// The list is read at each call and must not change from the first one on.
@@ -27,6 +29,22 @@ class ApplicationDirectory final : public ComponentDirectory {
     bool setProperty(const std::string& component, const std::string& name,
                      const std::string& value) override;
 
+    bool isConnected(const std::string& component, const std::string& port) const override;
+    std::string connect(const std::string& owner, Port& port, const std::string& component,
+                        const std::string& component_port) override;
+    void disconnect(Port& port) override { connections_.erase(&port); }
+
+    /// What the application profile connects. [main-thread] Before any component can ask.
+    void set_profile_connections(std::vector<ConnectionProfile> connections) {
+        profile_connections_ = std::move(connections);
+    }
+    /// Ends all connections that components have asked for. [main-thread]
+    void disconnect_all() { connections_.clear(); }
+    /// Leaves them in memory, for a thread that does not return.
+    void release_connections() {
+        for (auto& [port, connection] : connections_) static_cast<void>(connection.release());
+    }
+
     /// Before this all transitions are refused.
     void open() { refusal_ = nullptr; }
     /// Refuses all transitions from now on, and waits for those under way. False if that takes longer than `timeout`.
@@ -36,6 +54,8 @@ class ApplicationDirectory final : public ComponentDirectory {
     ComponentHost* find_host(const std::string& name) const;
 
     const std::vector<std::unique_ptr<ComponentHost>>& components_;
+    std::vector<ConnectionProfile> profile_connections_;
+    std::map<Port*, std::unique_ptr<Connection>> connections_; ///< by the port of the component that asked
     std::atomic<const char*> refusal_{"the application has not started yet"}; ///< NULL: transitions are made
     std::atomic<int> transitions_{0};                                         ///< under way
 };

@@ -11,7 +11,8 @@
 /// What a directory can ask a component to do.
 enum ComponentTransition { TRANSITION_START, TRANSITION_STOP, TRANSITION_RECOVER, TRANSITION_DESTROY };
 
-/// The components of an application, for one of them that shows the others elsewhere. All functions [any-thread].
+/// The components of an application, for one of them that shows the others elsewhere. [any-thread] where
+/// nothing else is said.
 class ComponentDirectory {
   public:
     virtual ~ComponentDirectory() {}
@@ -30,6 +31,16 @@ class ComponentDirectory {
     /// thread that runs it. False when there is none of this name.
     virtual bool setProperty(const std::string& component, const std::string& name,
                              const std::string& value) = 0;
+    /// Whether the application profile has a connection from that port.
+    virtual bool isConnected(const std::string& component, const std::string& port) const = 0;
+    /// Connects a port of the component `owner` with one of `component`, as a connection of the application profile
+    /// would: an output event port with its input event port, whose events the component's own thread handles, or a
+    /// provided service port with its required one. Returns why it was not done, one line; empty when it was.
+    /// [main-thread]
+    virtual std::string connect(const std::string& owner, Port& port, const std::string& component,
+                                const std::string& component_port) = 0;
+    /// Ends that: on return the port is not in use. [main-thread]
+    virtual void disconnect(Port& port) = 0;
 };
 
 /// A component that also derives from this gets the directory of its application before onInitialize(), which comes

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/share/shared_component.hpp"
 
-#include "proxy/adaptor/archive/type_check.hpp"
-#include "proxy/adaptor/service/method_types.hpp"
+#include "proxy/adaptor/share/describe_ports.hpp"
 
 #include <InputDataPortInterface.h>
-#include <OutputDataPortInterface.h>
+#include <InputEventPortInterface.h>
 #include <ProvidedServicePort.h>
 
-#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 namespace tandem::adaptor {
 namespace control = link::control;
 using control::ComponentState;
-using link::PortKind;
 
 namespace {
 
@@ -37,37 +34,6 @@ bool is_internal(const std::string& property) { return property.starts_with("_op
 
 } // namespace
 
-/// From an output port of the component to a channel of the link.
-class SharedComponent::OutConnection final : public IDataPortLink {
-  public:
-    OutConnection(OutputDataPortInterface& source, const link::Port& port, link::ChannelWriter& channel)
-        : source_(source), mirror_(port, channel) {
-        opros_any sample = source.sample();
-        mirror_.checkType(sample); // the table was made from the same type: this only tells the mirror of it
-        source_.addConnection(this);
-    }
-    ~OutConnection() override { source_.removeConnection(this); }
-    OutConnection(const OutConnection&) = delete;
-    OutConnection& operator=(const OutConnection&) = delete;
-
-    /// Without a peer, or room, the message is dropped and the component does not see it: its other receivers count.
-    ReturnType push(opros_any& data) override {
-        const ReturnType result = mirror_.push(data);
-        return result == OPROS_OUT_OF_RESOURCES ? OPROS_SUCCESS : result;
-    }
-    ReturnType setSource(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
-    ReturnType addDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
-    ReturnType addDestination(RemoteDataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
-    ReturnType removeDestination(DataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
-    ReturnType removeDestination(RemoteDataPort*) override { return OPROS_UNSUPPORTED_METHOD; }
-    ReturnType clearDestination() override { return OPROS_UNSUPPORTED_METHOD; }
-    ReturnType clearSource() override { return OPROS_UNSUPPORTED_METHOD; }
-
-  private:
-    OutputDataPortInterface& source_;
-    MirrorInPort mirror_;
-};
-
 SharedComponent::SharedComponent(std::string name, ComponentDirectory& directory)
     : name_(std::move(name)), directory_(directory), component_(*directory.find(name_)) {}
 
@@ -81,99 +47,64 @@ SharedComponent::describe(link::PortTable& table,
         if (!is_internal(name)) entry.properties.push_back({name, value});
     table.components.push_back(std::move(entry));
 
-    std::vector<std::string> refused;
-    describe_data_ports(table, refused);
-    describe_service_ports(table, interfaces, refused);
-    return refused;
+    return describe_ports(name_, directory_, interfaces, table);
 }
 
-void SharedComponent::describe_data_ports(link::PortTable& table, std::vector<std::string>& refused) const {
-    for (const auto& name : component_.getPortNames(OPROS_DATA)) {
-        const auto* port = dynamic_cast<DataPort*>(component_.getPort(name));
-        if (!port) continue;
-        link::Port shared;
-        shared.kind =
-            dynamic_cast<const InputDataPortInterface*>(port) ? PortKind::data_in : PortKind::data_out;
-        shared.name = name_ + "." + name;
-        shared.component = name_;
-        const opros_any sample = port->sample();
-        shared.type = sample.type();
-        try {
-            if (!sample.serializable()) throw opros::archive::archive_type_exception();
-            shared.signature = wire::to_named_signature(type_of(sample, {}));
-            table.ports.push_back(std::move(shared));
-        } catch (const std::exception& error) { // thrown by the archive, or by the type's own load()
-            refused.push_back(
-                fmt::format("port '{}' is not shared: OPRoS type {} cannot be serialized ({}); give "
-                            "it save() and load()",
-                            shared.name, shared.type, error.what()));
-        }
-    }
-}
-
-void SharedComponent::describe_service_ports(link::PortTable& table,
-                                             const std::map<std::string, std::string>& interfaces,
-                                             std::vector<std::string>& refused) const {
-    for (const auto& name : component_.getPortNames(OPROS_SERVICE)) {
-        link::Port shared;
-        shared.kind = PortKind::service_provided;
-        shared.name = name_ + "." + name;
-        shared.component = name_;
-        shared.instance = name;
-        const auto interface = interfaces.find(shared.name);
-        shared.type = interface == interfaces.end() ? name : interface->second;
-        auto* provided = dynamic_cast<ProvidedServicePort*>(component_.getPort(name));
-        if (!provided || provided->isDynamic()) {
-            refused.push_back(
-                fmt::format("port '{}' is not shared: only provided service ports are", shared.name));
-            continue;
-        }
-        for (auto method = provided->getFirst(); method != provided->getEnd(); ++method) try {
-                shared.operations.push_back(
-                    {method->first, describe_method(*method->second).operation_signature()});
-            } catch (const wire::SignatureError&) {
-                refused.push_back(
-                    fmt::format("method '{}' of port '{}' is not shared: one of its types cannot be "
-                                "serialized",
-                                method->first, shared.name));
-            }
-        table.ports.push_back(std::move(shared));
-    }
-}
-
-void SharedComponent::connect(const link::PortTable& table, link::Link& link,
-                              const SetArrivalListener& set_listener, std::function<void()> state_changed) {
+void SharedComponent::connect(const std::string& owner, const link::PortTable& table, link::Link& link,
+                              const SetArrivalListener& set_listener, std::chrono::milliseconds call_timeout,
+                              std::function<void()> state_changed) {
+    owner_ = owner;
     for (const auto& port : table.ports)
-        if (port.component == name_) connect_port(port, link, set_listener);
+        if (port.component == name_) connect_port(port, link, set_listener, call_timeout);
     state_changed_ = std::move(state_changed);
     component_.addLifecycleListener(this);
     connected_ = true;
 }
 
 void SharedComponent::connect_port(const link::Port& port, link::Link& link,
-                                   const SetArrivalListener& set_listener) {
-    Port* own = component_.getPort(port.name.substr(name_.size() + 1));
+                                   const SetArrivalListener& set_listener,
+                                   std::chrono::milliseconds call_timeout) {
+    const auto set_port_listener = [set_listener, name = port.name](DataPortListener* listener) {
+        set_listener(name, listener);
+    };
+    const std::string own_name = port.name.substr(name_.size() + 1);
+    Port* own = component_.getPort(own_name);
+    std::string error;
     if (auto* output = dynamic_cast<OutputDataPortInterface*>(own)) {
-        outputs_.push_back(std::make_unique<OutConnection>(*output, port, link.writer(port.name)));
+        outputs_.push_back(std::make_unique<OutConnection<DataEnds>>(*output, port, link.writer(port.name)));
     } else if (auto* input = dynamic_cast<InputDataPortInterface*>(own)) {
-        auto mirror = std::make_unique<MirrorOutPort>(
-            port, link.reader(port.name),
-            [set_listener, name = port.name](DataPortListener* listener) { set_listener(name, listener); });
+        auto mirror = std::make_unique<MirrorOutPort>(port, link.reader(port.name), set_port_listener);
         if (mirror->checkType(input)) // from here on it is a source of the input port
             inputs_.push_back(std::move(mirror));
         else
-            spdlog::error("{}", mirror->typeError());
+            error = mirror->typeError();
+    } else if (auto* event_output = dynamic_cast<OutputEventPortInterface*>(own)) {
+        event_outputs_.push_back(
+            std::make_unique<OutConnection<EventEnds>>(*event_output, port, link.writer(port.name)));
+    } else if (dynamic_cast<InputEventPortInterface*>(own) != nullptr) {
+        event_inputs_.push_back(
+            std::make_unique<MirrorEventOutPort>(port, link.reader(port.name), set_port_listener));
+        error = directory_.connect(owner_, *event_inputs_.back(), name_, own_name);
     } else if (auto* provided = dynamic_cast<ProvidedServicePort*>(own)) {
         auto mirror = std::make_unique<MirrorRequiredPort>(port);
-        const std::string error = mirror->bindProvided(provided);
-        if (!error.empty()) spdlog::error("{}", error);
+        error = mirror->bindProvided(provided);
         services_.push_back(std::move(mirror));
+    } else {
+        required_.push_back(std::make_unique<SharedRequiredPort>(port, link, call_timeout));
+        error = directory_.connect(owner_, *required_.back(), name_, own_name);
     }
+    if (!error.empty()) spdlog::error("port '{}' is not shared: {}", port.name, error);
 }
 
 MirrorRequiredPort* SharedComponent::find_service(std::string_view name) const {
     for (const auto& service : services_)
         if (service->port() == name) return service.get();
+    return nullptr;
+}
+
+SharedRequiredPort* SharedComponent::find_required(std::string_view name) const {
+    for (const auto& port : required_)
+        if (port->port() == name) return port.get();
     return nullptr;
 }
 
@@ -183,6 +114,9 @@ void SharedComponent::disconnect() {
     component_.removeLifecycleListener(this);
     outputs_.clear();
     inputs_.clear();
+    event_outputs_.clear();
+    for (const auto& port : event_inputs_) directory_.disconnect(*port);
+    for (const auto& port : required_) directory_.disconnect(*port);
     for (const auto& service : services_) service->bindProvided(nullptr); // waits for the calls under way
 }
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/adaptor/data/mirror_in_port.hpp"
 #include "proxy/adaptor/data/mirror_out_port.hpp"
+#include "proxy/adaptor/event/mirror_event_out_port.hpp"
 #include "proxy/adaptor/service/mirror_required_port.hpp"
+#include "proxy/adaptor/share/out_connection.hpp"
+#include "proxy/adaptor/share/shared_required_port.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
 
 #include <ComponentDirectory.h>
-#include <IDataPortLink.h>
 #include <LifecycleListener.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <memory>
@@ -35,14 +37,15 @@ class SharedComponent final : private LifecycleListener {
     SharedComponent& operator=(const SharedComponent&) = delete;
 
     const std::string& name() const { return name_; }
-    /// Appends the component and those of its ports that can cross. `interfaces` are the IDL interfaces of service
-    /// ports by COMPONENT.PORT. Returns a line for each port and method that cannot.
+    /// Appends the component and those of its ports that can cross: see describe_ports().
     std::vector<std::string> describe(link::PortTable& table,
                                       const std::map<std::string, std::string>& interfaces) const;
 
-    /// Connects the ports of the table that belong to this component with the link. `state_changed` is called after
+    /// Connects the ports of the table that belong to this component with the link; `owner` is the name of the component
+    /// that shares it. `state_changed` is called after
     /// each change of the component's state; it must not wait. [main-thread]
-    void connect(const link::PortTable& table, link::Link& link, const SetArrivalListener& set_listener,
+    void connect(const std::string& owner, const link::PortTable& table, link::Link& link,
+                 const SetArrivalListener& set_listener, std::chrono::milliseconds call_timeout,
                  std::function<void()> state_changed);
     /// Ends both: on return the component's ports and state are not in use. [main-thread]
     void disconnect();
@@ -53,25 +56,27 @@ class SharedComponent final : private LifecycleListener {
     std::string execute(std::string_view command); // [worker-thread]
     /// The provided service port of that channel name; nullptr when there is none. [worker-thread]
     MirrorRequiredPort* find_service(std::string_view name) const;
+    /// The same of a required one. [worker-thread]
+    SharedRequiredPort* find_required(std::string_view name) const;
     /// Stops the component if execute() has started it: nobody else has asked for it. [task-thread]
     void peer_lost();
 
   private:
-    class OutConnection;
-
     void stateChanged(LifecycleState state) override;
-    void describe_data_ports(link::PortTable& table, std::vector<std::string>& refused) const;
-    void describe_service_ports(link::PortTable& table, const std::map<std::string, std::string>& interfaces,
-                                std::vector<std::string>& refused) const;
-    void connect_port(const link::Port& port, link::Link& link, const SetArrivalListener& set_listener);
+    void connect_port(const link::Port& port, link::Link& link, const SetArrivalListener& set_listener,
+                      std::chrono::milliseconds call_timeout);
 
     const std::string name_;
     ComponentDirectory& directory_;
     Component& component_;
+    std::string owner_;
     std::function<void()> state_changed_;
     bool connected_ = false;
-    std::vector<std::unique_ptr<OutConnection>> outputs_;
+    std::vector<std::unique_ptr<OutConnection<DataEnds>>> outputs_;
     std::vector<std::unique_ptr<MirrorOutPort>> inputs_;
+    std::vector<std::unique_ptr<OutConnection<EventEnds>>> event_outputs_;
+    std::vector<std::unique_ptr<MirrorEventOutPort>> event_inputs_;
+    std::vector<std::unique_ptr<SharedRequiredPort>> required_;
     std::vector<std::unique_ptr<MirrorRequiredPort>>
         services_; ///< each calls a provided port of the component
     std::atomic<bool> started_by_peer_{false}, exited_{false};

@@ -45,9 +45,9 @@ link::PortTable SharedComponents::find(const std::vector<std::string>& names,
 void SharedComponents::connect(link::Link& link, const SetArrivalListener& set_listener) {
     link_ = &link;
     for (const auto& component : components_)
-        component->connect(table_, link, set_listener, [this, &component = *component] {
-            link_->post([this, &component] { report(component); });
-        });
+        component->connect(
+            owner_, table_, link, set_listener, call_timeout_,
+            [this, &component = *component] { link_->post([this, &component] { report(component); }); });
 }
 
 void SharedComponents::disconnect() {
@@ -69,8 +69,9 @@ MirrorRequiredPort* SharedComponents::find_service(std::string_view name) const 
 Reply SharedComponents::serve(const link::Request& request) {
     try {
         if (request.operation == control::configure) return configure(request);
+        if (request.operation == control::bind) return bind(request);
         if (request.operation == control::listen) {
-            listen(request.arguments);
+            link_->serve_listen(request.arguments);
             return {};
         }
     } catch (const link::LinkError& error) {
@@ -88,6 +89,17 @@ Reply SharedComponents::serve(const link::Request& request) {
                          : Reply::failure(CallStatus::exception, error);
 }
 
+Reply SharedComponents::bind(const link::Request& request) {
+    const auto binding = control::decode_service_binding(request.arguments);
+    for (const auto& component : components_)
+        if (auto* port = component->find_required(binding.port)) {
+            port->bind(binding);
+            return {};
+        }
+    return Reply::failure(CallStatus::bad_arguments,
+                          fmt::format("no required service port '{}' is shared", binding.port));
+}
+
 Reply SharedComponents::configure(const link::Request& request) {
     const auto setting = control::decode_setting(request.arguments);
     if (find(setting.component) && directory_->setProperty(setting.component, setting.name, setting.value)) {
@@ -97,15 +109,6 @@ Reply SharedComponents::configure(const link::Request& request) {
     }
     return Reply::failure(CallStatus::bad_arguments,
                           fmt::format("no component '{}' is shared", setting.component));
-}
-
-/// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
-void SharedComponents::listen(std::span<const std::byte> arguments) {
-    const auto names = control::decode_port_names(arguments);
-    for (const auto& port : table_.ports)
-        if (port.kind == link::PortKind::data_out)
-            link_->writer(port.name).set_peer_listens(std::find(names.begin(), names.end(), port.name) !=
-                                                      names.end());
 }
 
 void SharedComponents::peer_connected() {

@@ -41,8 +41,8 @@ class SharedComponents {
 
   private:
     SharedComponent* find(std::string_view name) const;
+    link::Reply bind(const link::Request& request);
     link::Reply configure(const link::Request& request);
-    void listen(std::span<const std::byte> arguments);
     void report(SharedComponent& component);
 
     const std::string owner_;

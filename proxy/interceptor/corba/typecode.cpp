@@ -96,4 +96,9 @@ CORBA::TypeCode_ptr typecode_of(const Type& message) {
     return create(message.children.size() == 1 ? message.children.front() : message);
 }
 
+std::string repository_id(std::string name) {
+    for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "/");
+    return "IDL:" + name + ":1.0";
+}
+
 } // namespace tandem::interceptor

@@ -3,6 +3,7 @@
 
 #include "proxy/interceptor/corba/stamped_stream.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
+#include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
 
 #include <spdlog/spdlog.h>
@@ -28,6 +29,15 @@ std::map<std::string, LinkChannel>& channels() {
 }
 
 } // namespace
+
+LinkChannel make_link_channel(const wire::Type& message) {
+    LinkChannel channel;
+    channel.timed = wire::is_timed(message);
+    if (wire::contains(message, wire::Kind::any) || wire::contains(message, wire::Kind::fixed))
+        channel.transcoded =
+            std::make_shared<const wire::Type>(channel.timed ? wire::without_time(message) : message);
+    return channel;
+}
 
 void LinkBuffer::register_factory() {
     RTC::CdrBufferFactory::instance().addFactory(factory_name, coil::Creator<RTC::CdrBufferBase, LinkBuffer>,

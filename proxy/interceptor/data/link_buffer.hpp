@@ -24,6 +24,8 @@ struct LinkChannel {
     /// The message without its time, if it crosses in another form than the RTC's bytes have: it holds an any or a fixed.
     std::shared_ptr<const wire::Type> transcoded{};
 };
+/// A channel for messages of that type, without its ends.
+LinkChannel make_link_channel(const wire::Type& message);
 
 /// The buffer of a connector between the RTC's port and its mirror: what the RTC writes goes to the ring of the
 /// link, what it reads comes from there, in its own thread. The buffer factory creates it by the name

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
-#include "proxy/interceptor/opros/standard_type.hpp"
-#include "proxy/wire/signature_match.hpp"
+#include "proxy/interceptor/opros/shown_type.hpp"
+#include "proxy/interceptor/rtc_port.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <rtm/Manager.h>
@@ -137,10 +137,41 @@ void OprosRtc::add_port(const link::Port& port) {
     if (link::is_data_port(port.kind))
         add_data_port(port, name);
     else if (port.kind == link::PortKind::service_provided)
-        add_service_port(port, name);
+        add_provided_port(port, name);
+    else
+        add_required_port(port, name);
 }
 
-void OprosRtc::add_service_port(const link::Port& port, const std::string& name) {
+// The operations are those of the IDL, where it is known: the component's methods say nothing of out arguments and
+// exceptions.
+void OprosRtc::add_required_port(const link::Port& port, const std::string& name) {
+    link::Port required = port;
+    required.operations = operations_of(port.type);
+    Consumer consumer{std::make_unique<MirrorProvidedPort>(std::move(required), source_.call_timeout),
+                      std::make_unique<RTC::CorbaPort>(name.c_str())};
+    consumer.port->registerConsumer(port.instance.c_str(), port.type.c_str(), consumer.source->consumer());
+    addPort(*consumer.port);
+    consumers_.push_back(std::move(consumer));
+}
+
+void OprosRtc::send_interfaces() {
+    for (const auto& consumer : consumers_) {
+        const auto& port = consumer.source->port();
+        const auto binding = control::encode(control::ServiceBinding{port.name, port.operations});
+        const auto reply = source_.link->call({"", control::bind, "", binding}, source_.call_timeout);
+        if (reply.status != CallStatus::ok && source_.link->is_up())
+            spdlog::error("{}: required service port '{}' is not ready: {}", getInstanceName(), port.name,
+                          reply.text());
+    }
+}
+
+MirrorProvidedPort* OprosRtc::find_required(std::string_view channel) const {
+    for (const auto& consumer : consumers_)
+        if (consumer.source->port().name == channel) return consumer.source.get();
+    return nullptr;
+}
+
+void OprosRtc::add_provided_port(const link::Port& port, const std::string& name) {
     Service service;
     try {
         service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
@@ -158,19 +189,12 @@ void OprosRtc::add_service_port(const link::Port& port, const std::string& name)
 void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
     std::string type;
     try {
-        type = standard_type(port.signature);
-    } catch (const wire::SignatureError& error) { // it came from another process
+        type = shown_type(port);
+    } catch (const std::runtime_error& error) { // no type fits, or a signature of another process is damaged
         spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
         return;
     }
-    if (type.empty()) {
-        spdlog::warn(
-            "{}: port '{}' is not shown: no standard data type of RTM has the members of OPRoS type {}, '{}'",
-            getInstanceName(), name, port.type, port.signature);
-        return;
-    }
-    LinkChannel channel;
-    channel.timed = wire::is_timed(RTC::InterfaceSignatures::type(type));
+    LinkChannel channel = make_link_channel(wire::parse_signature(RTC::InterfaceSignatures::type(type)));
     const std::string key = channel_key(port);
     const bool is_input = port.kind == link::PortKind::data_in;
     if (is_input)

@@ -3,6 +3,7 @@
 
 #include "proxy/interceptor/opros/opros_in_port.hpp"
 #include "proxy/interceptor/opros/opros_out_port.hpp"
+#include "proxy/interceptor/service/mirror_provided_port.hpp"
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
@@ -22,7 +23,7 @@
 
 namespace tandem::interceptor {
 
-/// Shows one OPRoS component as an RTC: its data ports, its properties as configuration parameters, its life cycle.
+/// Shows one OPRoS component as an RTC: its data, event and service ports, its properties as configuration parameters, its life cycle.
 /// Whoever activates, deactivates or resets this RTC makes the OPRoS component start, stop or recover; what the OPRoS
 /// component does by itself is followed. Its context has a thread that runs when data have come.
 class OprosRtc final : public RTC::DataFlowComponentBase {
@@ -65,6 +66,10 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     /// Sends the values of the active configuration set that the OPRoS component does not have. `known` are those that
     /// it has, when they are not those that were sent last. [task-thread]
     void send_configuration(const std::vector<link::Property>* known = nullptr);
+    /// Tells the OPRoS component the operations of the interfaces that it requires. [task-thread]
+    void send_interfaces();
+    /// The required service port of that channel name; nullptr when there is none. [any-thread]
+    MirrorProvidedPort* find_required(std::string_view channel) const;
     /// Channels of the OutPorts that somebody is connected to, for whose messages the context is woken. [task-thread]
     std::vector<std::string> listen();
 
@@ -81,6 +86,11 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         std::unique_ptr<MirrorRequiredPort> target;
         std::unique_ptr<RTC::CorbaPort> port;
     };
+    /// A required service port: calls from across the link go to the object that it is connected with.
+    struct Consumer {
+        std::unique_ptr<MirrorProvidedPort> source;
+        std::unique_ptr<RTC::CorbaPort> port;
+    };
     struct Output {
         std::unique_ptr<OprosOutPort> port;
         std::string channel;
@@ -88,7 +98,8 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     };
     void add_port(const link::Port& port);
     void add_data_port(const link::Port& port, const std::string& name);
-    void add_service_port(const link::Port& port, const std::string& name);
+    void add_provided_port(const link::Port& port, const std::string& name);
+    void add_required_port(const link::Port& port, const std::string& name);
     void add_configuration();
     std::string channel_key(const link::Port& port) const;
     bool command(std::string_view command, std::chrono::milliseconds timeout);
@@ -102,6 +113,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     std::vector<std::unique_ptr<OprosInPort>> inputs_;
     std::vector<Output> outputs_;
     std::vector<Service> services_;
+    std::vector<Consumer> consumers_;
     std::vector<std::string> channel_keys_;     ///< registered with LinkBuffer
     std::map<std::string, std::string> values_; ///< bound to the configuration parameters
     std::map<std::string, std::string> sent_;   ///< what the OPRoS component has

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <thread>
-#include <vector>
 
 namespace tandem::interceptor {
 namespace control = link::control;
@@ -35,9 +34,9 @@ const link::SharedComponent* find_component(const link::PortTable& table, const 
 } // namespace
 
 OprosRtcs::OprosRtcs(std::string owner, RTC::Manager& manager, link::Link& link, std::string link_name,
-                     std::chrono::milliseconds call_timeout)
+                     std::chrono::milliseconds call_timeout, std::function<void()> connections_changed)
     : owner_(std::move(owner)), manager_(manager), link_(link), link_name_(std::move(link_name)),
-      call_timeout_(call_timeout) {}
+      call_timeout_(call_timeout), connections_changed_(std::move(connections_changed)) {}
 
 void OprosRtcs::set_peer_table(const link::PortTable& table) {
     const std::lock_guard lock(mutex_);
@@ -61,6 +60,17 @@ void OprosRtcs::receive_state(const link::Request& request) {
     link_.post([this, name = report.component] { follow(name); });
 }
 
+link::Reply OprosRtcs::serve(const link::Request& request) {
+    std::shared_ptr<Entry> owner; // keeps the port for the time of the call
+    {
+        const std::lock_guard lock(mutex_);
+        for (const auto& [name, entry] : rtcs_)
+            if (entry->rtc->find_required(request.port)) owner = entry;
+    }
+    if (!owner) return link::Reply::failure(link::CallStatus::no_such_operation, "no such service port");
+    return owner->rtc->find_required(request.port)->serve(request);
+}
+
 void OprosRtcs::peer_connected() {
     std::vector<std::string> changed;
     {
@@ -80,8 +90,10 @@ void OprosRtcs::peer_connected() {
         table = table_;
     }
     for (const auto& component : table.components)
-        if (auto* rtc = find(component.name)) rtc->send_configuration(&component.properties);
-    publish_listened_channels();
+        if (auto* rtc = find(component.name)) {
+            rtc->send_configuration(&component.properties);
+            rtc->send_interfaces();
+        }
 }
 
 void OprosRtcs::peer_lost() {
@@ -132,7 +144,7 @@ OprosRtc* OprosRtcs::create(const std::string& name) {
     source.link = &link_;
     source.link_name = link_name_;
     source.call_timeout = call_timeout_;
-    source.connections_changed = [this] { link_.post([this] { publish_listened_channels(); }); };
+    source.connections_changed = [this] { link_.post([this] { connections_changed_(); }); };
     source.configuration_changed = [this, name] {
         link_.post([this, name] {
             if (auto* rtc = find(name)) rtc->send_configuration();
@@ -148,6 +160,7 @@ OprosRtc* OprosRtcs::create(const std::string& name) {
         }
         spdlog::info("{}: OPRoS component {} is shown as an RTC", owner_, name);
         rtc.send_configuration(); // what rtc.conf has set
+        rtc.send_interfaces();
         return &rtc;
     } catch (const RTC::ManagerError& error) {
         spdlog::error("{}: OPRoS component {} cannot be shown as an RTC: {}", owner_, name, error.what());
@@ -172,8 +185,7 @@ void OprosRtcs::forget_finalized() {
     std::erase_if(rtcs_, [](const auto& entry) { return entry.second->rtc->is_finalized(); });
 }
 
-/// Asks the peer to ring the doorbell for the ports that somebody is connected to. [task-thread]
-void OprosRtcs::publish_listened_channels() {
+std::vector<std::string> OprosRtcs::listened_channels() {
     std::vector<std::shared_ptr<Entry>> all;
     {
         const std::lock_guard lock(mutex_);
@@ -183,10 +195,7 @@ void OprosRtcs::publish_listened_channels() {
     std::vector<std::string> channels;
     for (const auto& entry : all)
         for (auto& channel : entry->rtc->listen()) channels.push_back(std::move(channel));
-    if (!link_.is_up()) return; // peer_connected() comes here again
-    const auto reply = link_.request_rings(channels, call_timeout_);
-    if (reply.status != link::CallStatus::ok && link_.is_up())
-        spdlog::warn("{}: data of OPRoS components are forwarded up to 1 s late: {}", owner_, reply.text());
+    return channels;
 }
 
 void OprosRtcs::close() {

@@ -8,9 +8,11 @@
 #include <rtm/Manager.h>
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace tandem::interceptor {
 
@@ -19,9 +21,10 @@ namespace tandem::interceptor {
 /// not there they are in ERROR.
 class OprosRtcs {
   public:
-    /// `owner` is InterceptorComp's name, for messages. The references must outlive this object.
+    /// `owner` is InterceptorComp's name, for messages; `connections_changed` is called in the task thread when
+    /// listened_channels() may have become others. The references must outlive this object.
     OprosRtcs(std::string owner, RTC::Manager& manager, link::Link& link, std::string link_name,
-              std::chrono::milliseconds call_timeout);
+              std::chrono::milliseconds call_timeout, std::function<void()> connections_changed);
     ~OprosRtcs() { close(); }
     OprosRtcs(const OprosRtcs&) = delete;
     OprosRtcs& operator=(const OprosRtcs&) = delete;
@@ -31,9 +34,14 @@ class OprosRtcs {
     /// Executes control::state. Throws link::LinkError for a damaged report. [worker-thread]
     void receive_state(const link::Request& request);
 
+    /// Calls the service that a component requires; not ready, or no such port, is a reply, too. [worker-thread]
+    link::Reply serve(const link::Request& request);
+
     // [task-thread]
     void peer_connected();
     void peer_lost();
+    /// The ports that somebody is connected to, for whose messages the peer has to ring the doorbell.
+    std::vector<std::string> listened_channels();
 
     /// Removes all. After Link::close(): the link's threads are not in this object. [manager's thread]
     void close();
@@ -52,13 +60,13 @@ class OprosRtcs {
     OprosRtc* create(const std::string& name);
     void remove(const std::string& name);
     void forget_finalized();
-    void publish_listened_channels();
 
     const std::string owner_;
     RTC::Manager& manager_;
     link::Link& link_;
     const std::string link_name_;
     const std::chrono::milliseconds call_timeout_;
+    const std::function<void()> connections_changed_;
 
     std::mutex mutex_; ///< the members below; not held while an RTC is used
     link::PortTable table_;

@@ -2,6 +2,7 @@
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 
 #include "proxy/interceptor/corba/generic_user_exception.hpp"
+#include "proxy/interceptor/corba/typecode.hpp"
 #include "proxy/link/protocol/service_exception.hpp"
 
 #include <rtm/InterfaceSignatures.h>
@@ -12,14 +13,11 @@
 namespace tandem::interceptor {
 namespace {
 
-/// The repository id that the consumer's _narrow() will ask for. Where the IDL is not known to this process, it
-/// is put together from the type name as omniidl would; a pragma prefix cannot be guessed.
-std::string repository_id(const std::string& type) {
-    std::string known = RTC::InterfaceSignatures::repositoryId(type);
-    if (!known.empty()) return known;
-    std::string path = type;
-    for (auto at = path.find("::"); at != std::string::npos; at = path.find("::")) path.replace(at, 2, "/");
-    return "IDL:" + path + ":1.0";
+/// The repository id that the consumer's _narrow() will ask for; a prefix of an IDL that this process does not know
+/// cannot be guessed.
+std::string interface_id(const std::string& type) {
+    const std::string known = RTC::InterfaceSignatures::repositoryId(type);
+    return known.empty() ? repository_id(type) : known;
 }
 
 /// Maps a failed reply to the CORBA system exception that tells the caller most about it. COMPLETED_NO: the
@@ -50,7 +48,7 @@ std::string repository_id(const std::string& type) {
 MirrorRequiredPort::MirrorRequiredPort(link::Port port, link::Link& link,
                                        std::chrono::milliseconds call_timeout)
     : port_(std::move(port)), link_(link), call_timeout_(call_timeout),
-      servant_(repository_id(port_.type), *this) {
+      servant_(interface_id(port_.type), *this) {
     tables_.push_back(std::make_unique<const link::OperationTable>(port_.operations));
 }
 

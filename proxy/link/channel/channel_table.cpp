@@ -44,6 +44,12 @@ std::uint64_t ChannelTable::unbind_all() {
     return unread;
 }
 
+void ChannelTable::set_listened_ports(const std::vector<std::string>& ports) {
+    const std::lock_guard lock(mutex_);
+    for (auto& [name, writer] : writers_)
+        writer.set_peer_listens(std::find(ports.begin(), ports.end(), name) != ports.end());
+}
+
 std::chrono::nanoseconds ChannelTable::check_deadlines() {
     const std::lock_guard lock(mutex_);
     const auto now = std::chrono::steady_clock::now();

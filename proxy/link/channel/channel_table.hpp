@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace tandem::link {
 
@@ -29,6 +30,9 @@ class ChannelTable {
     void bind(const std::shared_ptr<shm::Segment>& segment, const PortTable& ports, shm::Side owner);
     /// Returns how many messages were under way, which nobody will read.
     std::uint64_t unbind_all();
+
+    /// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
+    void set_listened_ports(const std::vector<std::string>& ports);
 
     /// Logs each port whose sender has been silent for longer than its deadline, once for each silence. Returns how soon
     /// to call it again; longest_wait if no port has a deadline. [supervisor-thread]

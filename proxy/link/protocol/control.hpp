@@ -26,8 +26,10 @@ inline constexpr std::string_view listen = "listen"; ///< names of the data port
 /// seconds to open. Below the 10 s after which opros_host gives an onStop up.
 inline constexpr std::chrono::milliseconds activation_timeout{10'000}, deactivation_timeout{5'000};
 
+/// A ServiceBinding: what a required service now offers; from InterceptorComp, the operations of its interface.
+inline constexpr std::string_view bind = "bind";
+
 // Executed by InterceptorComp.
-inline constexpr std::string_view bind = "bind"; ///< a ServiceBinding: what a required service now offers
 inline constexpr std::string_view state =
     "state"; ///< a StateReport: an OPRoS component has changed its state
 
@@ -56,7 +58,8 @@ struct Setting {
 std::vector<std::byte> encode(const Setting&);
 Setting decode_setting(std::span<const std::byte>); ///< Throws LinkError when damaged.
 
-/// What an OPRoS component provides for a service that the RTC requires.
+/// What an OPRoS component provides for a service that the RTC requires, or the operations of the interface that a shared
+/// OPRoS component requires; none if its IDL is not known.
 struct ServiceBinding {
     std::string port;
     std::vector<ServiceOperation> operations;

@@ -33,10 +33,14 @@ struct Port {
     std::string type;      ///< as its own model calls it, for messages: `IDL:RTC/TimedDouble:1.0`, `Chair`
     std::string signature; ///< data ports: of the message, RTM's leading time included
     std::string instance;  ///< service ports: name of the interface instance
-    std::vector<ServiceOperation> operations; ///< service ports: empty when the model cannot tell
-    std::string component{};                  ///< whose port it is: a name in PortTable::components
+    /// Service ports: empty when the model cannot tell. Of an EventInPort: its events, each with the signature of its
+    /// argument, empty for none; a message is an event's id and its argument, `sv`.
+    std::vector<ServiceOperation> operations;
+    std::string component{}; ///< whose port it is: a name in PortTable::components
     bool operator==(const Port&) const = default;
 
+    /// Whether it is an EventInPort of RTM: a data port that takes events by their ids.
+    bool is_event_in_port() const { return kind == PortKind::data_in && !operations.empty(); }
     /// Whether it is a data port whose messages cross the link, and which so has a ring.
     bool has_ring() const { return is_data_port(kind) && signature.find(no_signature) == std::string::npos; }
 };

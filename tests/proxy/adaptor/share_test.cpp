@@ -80,6 +80,11 @@ class Directory : public ComponentDirectory {
         find(component)->setProperty(name, value);
         return true;
     }
+    bool isConnected(const std::string&, const std::string&) const override { return false; }
+    std::string connect(const std::string&, Port&, const std::string&, const std::string&) override {
+        return "this engine connects nothing";
+    }
+    void disconnect(Port&) override {}
 
   private:
     std::vector<Motor*> components_;

@@ -116,4 +116,19 @@ std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection,
     return connect_services(connection, required, provided, target);
 }
 
+std::unique_ptr<Connection> make_connection(Port& source, Port& destination, ComponentHost& target) {
+    auto* out = dynamic_cast<OutputEventPortInterface*>(&source);
+    auto* in = dynamic_cast<InputEventPortInterface*>(&destination);
+    if (out && in) {
+        // The second one shows a bridge's port an event of the other one's type.
+        if (!out->checkType(static_cast<EventPort*>(in)) || !in->checkType(static_cast<EventPort*>(out)))
+            throw std::runtime_error(out->typeError());
+        return std::make_unique<EventConnection>(*out, *in, target);
+    }
+    auto* required = dynamic_cast<RequiredServicePort*>(&source);
+    auto* provided = dynamic_cast<ProvidedServicePort*>(&destination);
+    if (!required || !provided) throw std::runtime_error("ports of these kinds cannot be connected");
+    return std::make_unique<ServiceConnection>(*required, *provided, target);
+}
+
 } // namespace tandem::engine

@@ -15,4 +15,8 @@ namespace tandem::engine {
 std::unique_ptr<Connection> make_connection(const ConnectionProfile& connection, ComponentHost& source,
                                             ComponentHost& target);
 
+/// [main-thread] The same without a profile, from a port of a bridge to one of a component: an output event port to an
+/// input one of `target`, or a required service port to a provided one of `target`. Throws std::runtime_error, one line.
+std::unique_ptr<Connection> make_connection(Port& source, Port& destination, ComponentHost& target);
+
 } // namespace tandem::engine

@@ -8,6 +8,7 @@
 #include <rtm/Typename.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 #include <string>
+#include <type_traits>
 
 namespace RTC {
 
@@ -65,6 +66,16 @@ class EventBinder1 : public ConnectorDataListenerT<P0> {
     R (TOP::*m_handler)(P0);
 };
 
+/// Repository id of the type of an event's argument; empty for a type that has none.
+template <class T, bool is_class = std::is_class<T>::value>
+struct EventArgument {
+    static std::string id() { return CORBA_Util::toRepositoryId<T>(); }
+};
+template <class T>
+struct EventArgument<T, false> {
+    static std::string id() { return ""; }
+};
+
 /// Applies a connection's properties `buffer.*` to the machine's event queue; the port itself keeps no
 /// messages.
 class EventConnListener : public ConnectorListener {
@@ -96,17 +107,22 @@ class EventInPort : public InPortBase {
     }
     template <class TOP, class R, class P0>
     void bindEvent(const char* name, R (TOP::*handler)(P0)) {
+        describeEvent(name + ("=" + EventArgument<P0>::id()));
         addConnectorDataListener(ConnectorDataListenerType::ON_RECEIVED,
                                  new EventBinder1<FsmType, TOP, R, P0>(m_fsm, name, handler));
     }
     template <class TOP, class R>
     void bindEvent(const char* name, R (TOP::*handler)()) {
+        describeEvent(name);
         addConnectorDataListener(ConnectorDataListenerType::ON_RECEIVED,
                                  new EventBinder0<FsmType, TOP, R>(m_fsm, name, handler));
     }
     bool read(std::string /*name*/ = "") override { return true; }
 
   private:
+    // Ours: the port's profile has the names of its events, `NAME` or `NAME=TYPE`, since its type says nothing of them.
+    void describeEvent(const std::string& event) { appendProperty("dataport.fsm_events", event.c_str()); }
+
     std::string m_name;
     FsmType& m_fsm;
 };

@@ -38,6 +38,8 @@ class InterfaceSignatures {
     /// Signature of a data type by repository id, `{tm}({sec}u{nsec}u){data}d` for IDL:RTC/TimedDouble:1.0 (a
     /// message's own pair of parentheses is dropped); empty when unknown.
     static std::string type(const std::string& repository_id);
+    /// Repository ids of all data types that are known now, in alphabetical order.
+    static std::vector<std::string> types();
     /// Makes a data type known from its TypeCode; ports do this for what they carry.
     static void addType(const char* repository_id, CORBA::TypeCode_ptr code);
     /// Signature of any TypeCode, a struct with its parentheses.

@@ -239,6 +239,14 @@ std::string InterfaceSignatures::type(const std::string& repository_id) {
     return found == signatures.types.end() ? "" : found->second;
 }
 
+std::vector<std::string> InterfaceSignatures::types() {
+    SignatureRegistry& signatures = signature_registry();
+    std::lock_guard<std::mutex> lock(signatures.mutex);
+    std::vector<std::string> ids;
+    for (const auto& entry : signatures.types) ids.push_back(entry.first);
+    return ids;
+}
+
 // The signature is made before the lock: a TypeCode of another library may take its time.
 void InterfaceSignatures::addType(const char* repository_id, CORBA::TypeCode_ptr code) {
     const std::string text = strip_outer_parentheses(signature(code));

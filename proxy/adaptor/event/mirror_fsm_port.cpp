@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "proxy/adaptor/event/mirror_fsm_port.hpp"
+
+#include "proxy/adaptor/archive/cdr_archive.hpp"
+#include "proxy/adaptor/archive/type_check.hpp"
+#include "proxy/wire/signature_match.hpp"
+#include "proxy/wire/time.hpp"
+#include "proxy/wire/type_text.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <stdexcept>
+
+namespace tandem::adaptor {
+
+MirrorFsmPort::MirrorFsmPort(link::Port peer, link::ChannelWriter& channel)
+    : peer_(std::move(peer)), channel_(channel) {
+    for (const auto& [name, signature] : peer_.operations) {
+        auto& event = events_[name];
+        try {
+            wire::Type type = wire::parse_signature(signature);
+            event.problem = wire::first_unsupported(type);
+            event.argument = wire::is_timed(type) ? wire::without_time(type) : type;
+            event.signature = wire::to_signature(event.argument);
+        } catch (const wire::SignatureError& error) { // it came from another process
+            event.problem = error.what();
+        }
+    }
+}
+
+/// `minutes 'i', open, close`.
+std::string MirrorFsmPort::describe_events() const {
+    std::vector<std::string> texts;
+    for (const auto& [name, event] : events_)
+        texts.push_back(!event.problem.empty()    ? fmt::format("{} ({})", name, event.problem)
+                        : event.signature.empty() ? name
+                                                  : fmt::format("{} '{}'", name, event.signature));
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+bool MirrorFsmPort::checkType(EventPort* source) {
+    Content content{source->sample(), "?", {}};
+    std::vector<std::string> others;
+    for (const auto& [name, event] : events_) {
+        bool fits = event.problem.empty() && event.signature.empty();
+        if (event.problem.empty() && !fits && content.sample.serializable()) try {
+                const auto type = type_of(content.sample, event.argument);
+                content.signature = wire::to_signature(type);
+                fits = wire::types_fit(type, event.argument);
+            } catch (const std::exception&) { // of the archive, or of the type's own load(): '?' says so
+            }
+        if (fits)
+            content.events.insert(name);
+        else
+            others.push_back(name);
+    }
+    const std::string text = fmt::format("port '{}': events with content {} are '{}'", peer_.name,
+                                         content.sample.type(), content.signature);
+    type_error_.clear();
+    if (content.events.empty())
+        type_error_ = fmt::format("{}, the peer's EventInPort takes {}; use a content with one of these "
+                                  "signatures, of a type with save() and load()",
+                                  text, describe_events());
+    else if (!others.empty())
+        spdlog::info("{}: they can be {}; not {}, since the peer's EventInPort takes {}", text,
+                     fmt::join(content.events, ", "), fmt::join(others, ", "), describe_events());
+    if (type_error_.empty()) contents_[content.sample.type()] = std::move(content);
+    return type_error_.empty();
+}
+
+/// What is to be encoded for the event; nullptr if it has not the argument that the peer takes.
+const opros_any* MirrorFsmPort::argument_of(const Event& event) const {
+    for (const auto& [type, content] : contents_) {
+        if (!content.events.contains(event.getId())) continue;
+        if (event.getContent().empty()) return &content.sample;
+        if (type == event.getContent().type()) return &event.getContent();
+    }
+    return nullptr;
+}
+
+ReturnType MirrorFsmPort::refuse(const Event& event) {
+    const auto& content = event.getContent();
+    channel_.refuse(fmt::format("event '{}' {}; the peer's EventInPort takes {}", event.getId(),
+                                content.empty() ? "without content" : "with content " + content.type(),
+                                describe_events()));
+    return OPROS_BAD_INPUT_PARAMETER;
+}
+
+ReturnType MirrorFsmPort::push(Event* event) {
+    if (!event) return OPROS_BAD_INPUT_PARAMETER;
+    const auto at = events_.find(event->getId());
+    const opros_any* content = at == events_.end() ? nullptr : argument_of(*event);
+    if (!content) return refuse(*event);
+    const std::string& signature = at->second.signature;
+    const std::uint64_t stamp = wire::wall_clock_stamp();
+    const std::lock_guard lock(argument_mutex_);
+    try {
+        wire::CdrWriter argument(argument_);
+        CdrOarchive archive(argument);
+        if (!signature.empty()) content->encode(archive);
+    } catch (const std::exception&) { // a string with a NUL in it, for instance
+        return refuse(*event);
+    }
+    const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {
+        out.put_string(event->getId());
+        out.put_string(signature);
+        out.put(static_cast<std::uint32_t>(argument_.size()));
+        out.put_block(argument_.data(), argument_.size(), 1);
+    });
+    return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+}
+
+} // namespace tandem::adaptor

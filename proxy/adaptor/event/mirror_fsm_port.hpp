@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/channel/channel.hpp"
+#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/wire/type.hpp"
+
+#include <InputEventPortInterface.h>
+
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tandem::adaptor {
+
+/// Mirrors an EventInPort of the peer, whose messages are events of a state machine. An event goes to the handler of its
+/// id; its content is the argument, without RTM's time, or is left out where the handler has none. Several ports may
+/// send here, with contents of types of their own.
+class MirrorFsmPort final : public InputEventPortInterface {
+  public:
+    /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
+    MirrorFsmPort(link::Port peer, link::ChannelWriter& channel);
+
+    /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: the peer has no such event, or with
+    /// another argument, which is counted as a dropped message. An event without content has its type's default value.
+    ReturnType push(Event* event) override;
+    ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
+    ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
+
+    /// The type shows in the source only, which the host asks about as well.
+    bool checkType(Event*) override { return true; }
+    /// Called when the host connects this port: true if the source's content fits at least one event. Logs a line about
+    /// those that it does not fit.
+    bool checkType(EventPort* source) override;
+    std::string typeError() const override { return type_error_; }
+
+  private:
+    struct PeerEvent {
+        std::string problem;     ///< why it cannot cross; empty if it can
+        std::string signature{}; ///< of its argument, without RTM's time; empty: it has none
+        wire::Type argument{};
+    };
+    /// The contents of one connected port's events.
+    struct Content {
+        opros_any sample;
+        std::string signature;
+        std::set<std::string> events; ///< ids of the events that take it
+    };
+    const opros_any* argument_of(const Event& event) const;
+    std::string describe_events() const;
+    ReturnType refuse(const Event& event);
+
+    const link::Port peer_;
+    link::ChannelWriter& channel_;
+    std::map<std::string, PeerEvent> events_;
+    std::map<std::string, Content> contents_; ///< by their types; complete before anybody pushes
+    std::string type_error_;
+    std::mutex argument_mutex_;
+    std::vector<std::byte> argument_; ///< kept for its memory
+};
+
+} // namespace tandem::adaptor

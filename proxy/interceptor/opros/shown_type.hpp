@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "proxy/link/protocol/port_table.hpp"
+
+#include <string>
+
+namespace tandem::interceptor {
+
+/// The repository id of the RTM data type that shows a data or event port of an OPRoS component: the IDL structure that
+/// the port's type names; otherwise the first of RTM's standard types, otherwise the first known type with a leading
+/// time, whose members are those of the port's signature (`IDL:RTC/TimedDoubleSeq:1.0` for `ad`). The content of an event
+/// may be a structure or its members. Throws std::runtime_error, one line, when none fits.
+std::string shown_type(const link::Port& port);
+
+} // namespace tandem::interceptor
