@@ -34,7 +34,7 @@ bool peer_has_gone(CallStatus status) {
 /// Removes the ports of the peer whose mirrors would have the name of another port. Returns a line about the last of
 /// them; empty if there is none.
 std::string remove_doubles(link::PortTable& peer, const link::PortTable& own, const std::string& link) {
-    std::set<std::string> names{"linkState"};
+    std::set<std::string> names{"linkState", "missedDeadline"};
     for (const auto& port : own.ports) names.insert(port.name);
     std::string error;
     std::erase_if(peer.ports, [&](const link::Port& port) {
@@ -48,7 +48,10 @@ std::string remove_doubles(link::PortTable& peer, const link::PortTable& own, co
 
 } // namespace
 
-AdaptorComp::AdaptorComp() : Component("AdaptorComp") { addPort("linkState", &link_state_); }
+AdaptorComp::AdaptorComp() : Component("AdaptorComp") {
+    addPort("linkState", &link_state_);
+    addPort("missedDeadline", &missed_deadline_);
+}
 
 AdaptorComp::~AdaptorComp() { close_link(); }
 
@@ -189,7 +192,8 @@ link::PortPolicy AdaptorComp::policy_of(const std::string& port) const {
 
 void AdaptorComp::create_mirror_port(const link::Port& port) {
     if (port.has_ring()) {
-        const auto policy = policy_of(port.name);
+        auto policy = policy_of(port.name);
+        add_queue_policy(port.queue, policy);
         if (port.kind == PortKind::data_in)
             link_->writer(port.name).set_policy(policy);
         else
@@ -272,6 +276,14 @@ std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
 // ---- the peer connects, disconnects, calls
 
 void AdaptorComp::link_state_changed(bool) { publish_link_state(); }
+
+/// The receivers' own threads handle the event.
+void AdaptorComp::deadline_missed(const std::string& port) {
+    EventData<std::string> event;
+    event.setId("missedDeadline");
+    event.setContentData(port);
+    missed_deadline_.push(&event);
+}
 
 void AdaptorComp::peer_connected() {
     publish_listened_ports();

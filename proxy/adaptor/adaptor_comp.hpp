@@ -15,6 +15,7 @@
 #include <Component.h>
 #include <ComponentDirectory.h>
 #include <OutputDataPort.h>
+#include <OutputEventPort.h>
 
 #include <memory>
 #include <mutex>
@@ -27,7 +28,8 @@ namespace tandem::adaptor {
 /// The OPRoS side of the proxy: an ordinary OPRoS component that creates mirrors of the ports of the RTC
 /// behind InterceptorComp. Starting and stopping it activates and deactivates that RTC; an RTC in ERROR puts
 /// it in ERROR. The OPRoS components that its property `share` names are shown as RTCs there. Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down}
-/// when the link comes up or goes down, and when the component is started.
+/// when the link comes up or goes down, and when the component is started. Its output event port `missedDeadline` sends
+/// the name of a port whose sender was silent for longer than its deadline_ms.
 class AdaptorComp final : public Component, public ComponentDirectoryUser, private link::LinkHandler {
   public:
     AdaptorComp();
@@ -53,6 +55,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     // LinkHandler, in the link's threads.
     std::string check_peer_ports(link::PortTable&) override;
     void link_state_changed(bool up) override;
+    void deadline_missed(const std::string& port) override;
     void peer_connected() override;
     void peer_disconnected() override;
     link::Reply serve(const link::Request&) override;
@@ -96,7 +99,8 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     std::vector<std::unique_ptr<MirrorEventOutPort>> event_outputs_;
     std::vector<std::unique_ptr<MirrorFsmPort>> fsm_ports_;
     std::vector<MirrorRequiredPort*> required_; ///< service ports belong to the component, which deletes them
-    std::mutex link_state_mutex_;               ///< the members below
+    OutputEventPort<std::string> missed_deadline_;
+    std::mutex link_state_mutex_; ///< the members below
     OutputDataPort<std::vector<double>> link_state_;
     std::uint64_t link_state_sequence_ = 0;
 };

@@ -50,6 +50,12 @@ void InterceptorComp::link_state_changed(bool up) {
     link_state_out_.write();
 }
 
+void InterceptorComp::deadline_missed(const std::string& port) {
+    setTimestamp(missed_deadline_);
+    missed_deadline_.data = port.c_str();
+    missed_deadline_out_.write();
+}
+
 void InterceptorComp::peer_disconnected() {
     for (auto& port : required_) port->unbind();
     opros_rtcs_->peer_lost();

@@ -29,7 +29,8 @@ using link::PortKind;
 using link::Reply;
 
 InterceptorComp::InterceptorComp(RTC::Manager* manager)
-    : RTC::DataFlowComponentBase(manager), link_state_out_("linkState", link_state_) {}
+    : RTC::DataFlowComponentBase(manager), link_state_out_("linkState", link_state_),
+      missed_deadline_out_("missedDeadline", missed_deadline_) {}
 
 InterceptorComp::~InterceptorComp() { disconnect_all(); }
 
@@ -39,6 +40,7 @@ RTC::ReturnCode_t InterceptorComp::onInitialize() {
     try {
         settings_ = read_settings(getProperties());
         addOutPort("linkState", link_state_out_);
+        addOutPort("missedDeadline", missed_deadline_out_);
         share_rtc_ports();
         return RTC::RTC_OK;
     } catch (const std::runtime_error& error) {

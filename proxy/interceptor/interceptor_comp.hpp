@@ -28,7 +28,8 @@ namespace tandem::interceptor {
 /// The RTM side of the proxy: an ordinary RTC that shares the ports of other RTCs of its manager with
 /// AdaptorComp, and activates, deactivates and resets these RTCs when AdaptorComp asks for it. Its OutPort
 /// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or
-/// goes down. If the peer dies, the RTCs are deactivated. The OPRoS components that AdaptorComp shares are RTCs of this
+/// goes down. Its OutPort `missedDeadline` sends the name of a port whose sender was silent for longer
+/// than its deadline_ms. If the peer dies, the RTCs are deactivated. The OPRoS components that AdaptorComp shares are RTCs of this
 /// manager while this component is there.
 class InterceptorComp final : public RTC::DataFlowComponentBase, private link::LinkHandler {
   public:
@@ -58,6 +59,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     // LinkHandler, in the link's threads.
     std::string check_peer_ports(link::PortTable&) override;
     void link_state_changed(bool up) override;
+    void deadline_missed(const std::string& port) override;
     void peer_connected() override;
     void peer_disconnected() override;
     link::Reply serve(const link::Request&) override;
@@ -94,6 +96,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     RTC::TimedDoubleSeq link_state_;
     RTC::OutPort<RTC::TimedDoubleSeq> link_state_out_;
     std::uint64_t link_state_sequence_ = 0;
+    RTC::TimedString missed_deadline_;
+    RTC::OutPort<RTC::TimedString> missed_deadline_out_;
 };
 
 } // namespace tandem::interceptor

@@ -65,12 +65,28 @@ std::vector<link::ServiceOperation> events_of(const RTC::PortProfile& profile) {
     return events;
 }
 
+/// The port's settings `buffer.*`, as rtc.conf has them; the ring's own where there are none.
+link::QueuePolicy queue_of(const RTC::PortProfile& profile) {
+    link::QueuePolicy queue;
+    double length = 0, timeout_s = 1; // OpenRTM's default
+    if (coil::stringTo(length, property(profile, "buffer.length").c_str()) && length >= 1 && length <= 1e6)
+        queue.length = static_cast<std::uint32_t>(length);
+    coil::stringTo(timeout_s, property(profile, "buffer.write.timeout").c_str());
+    const std::string full = coil::normalize(property(profile, "buffer.write.full_policy"));
+    if (full == "do_nothing") queue.full = link::QueuePolicy::Full::refuse;
+    if (full != "block") return queue;
+    queue.full = link::QueuePolicy::Full::wait;
+    queue.wait_ms = timeout_s > 0 && timeout_s < 1e6 ? static_cast<std::uint32_t>(1000 * timeout_s) : 0;
+    return queue;
+}
+
 link::Port data_port(const RTC::PortProfile& profile, PortKind kind) {
     link::Port port;
     port.kind = kind;
     port.name = short_name(profile);
     port.type = property(profile, "dataport.data_type");
     port.operations = events_of(profile);
+    if (kind == PortKind::data_in && port.operations.empty()) port.queue = queue_of(profile);
     port.signature = port.is_event_in_port() ? "{id}s{argument}v" : data_signature(port.type);
     return port;
 }
@@ -114,7 +130,7 @@ std::vector<link::ServiceOperation> operations_of(const std::string& interface) 
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
     std::vector<RtcPort> ports;
     RTC::PortServiceList_var services = rtc.get_ports();
-    std::set<std::string> names{"linkState"}; // taken by the proxies' own port
+    std::set<std::string> names{"linkState", "missedDeadline"}; // taken by the proxies' own ports
     for (CORBA::ULong i = 0; i < services->length(); ++i) {
         RTC::PortService_var reference = RTC::PortService::_duplicate(services[i]);
         RTC::PortProfile_var profile = reference->get_port_profile();

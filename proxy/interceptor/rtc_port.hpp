@@ -24,7 +24,7 @@ struct RtcPort {
 std::vector<link::ServiceOperation> operations_of(const std::string& interface);
 
 /// Lists the ports of an RTC. A service port with several interfaces gives one entry for each, named
-/// `port.instance`. A port named `linkState` is left out, because both proxies have one of that name.
+/// `port.instance`. Ports named `linkState` or `missedDeadline` are left out, because both proxies have such.
 /// A data port whose type cannot cross has link::no_signature in its entry. Throws CORBA::Exception if the RTC does
 /// not answer.
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc);

@@ -24,6 +24,10 @@ class LinkHandler {
     /// function runs, nobody watches whether it is alive.
     virtual void link_state_changed(bool up) = 0;
 
+    /// The sender of a port has been silent for longer than the port's deadline. [supervisor-thread] Must not wait for the
+    /// peer.
+    virtual void deadline_missed(const std::string& port) = 0;
+
     /// Follow link_state_changed(true) and link_state_changed(false). [task-thread] May call the peer.
     virtual void peer_connected() = 0;
     virtual void peer_disconnected() = 0;

@@ -62,7 +62,7 @@ void PeerSupervisor::run() {
         if (!peer_watched_) watch_peer(*session);
         if (!state_.is_up() && !peer_refused_ && session->segment()->peer_published()) try_connect(*session);
         if (state_.session() == session)
-            sleep_until_event(state_.is_up() ? channels_.check_deadlines() : shm::longest_wait);
+            sleep_until_event(state_.is_up() ? check_deadlines() : shm::longest_wait);
     }
     disconnect("");
 }
@@ -78,6 +78,14 @@ void PeerSupervisor::watch_peer(const LinkSession& session) {
             "link '{}': process {} of the peer cannot be watched ({}); its end is noticed by the segment's "
             "lock alone",
             options_.name, segment.peer_pid(), std::generic_category().message(*refusal));
+}
+
+/// Returns how soon to look again.
+std::chrono::nanoseconds PeerSupervisor::check_deadlines() {
+    std::vector<std::string> missed;
+    const auto next_check = channels_.check_deadlines(missed);
+    for (const auto& port : missed) handler_.deadline_missed(port);
+    return next_check;
 }
 
 void PeerSupervisor::sleep_until_event(std::chrono::nanoseconds bound) {

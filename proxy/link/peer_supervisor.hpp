@@ -43,6 +43,7 @@ class PeerSupervisor {
     /// Why the session must end, in one line; empty while it can go on.
     std::string end_reason(const LinkSession& session) const;
     void watch_peer(const LinkSession& session);
+    std::chrono::nanoseconds check_deadlines();
     void sleep_until_event(std::chrono::nanoseconds bound);
     void try_connect(LinkSession& session);
     bool chunks_suffice(const LinkSession& session);

@@ -71,6 +71,10 @@ ObservedRing read_ring(const ReadOnlySnapshot& file, ObservedObject object, std:
     ring.counters.received = word(offsetof(RingHeader, received));
     ring.counters.skipped = word(offsetof(RingHeader, skipped));
     ring.counters.bytes_received = word(offsetof(RingHeader, bytes_received));
+    ring.counters.converted =
+        word(offsetof(RingHeader, converted_by_writer)) + word(offsetof(RingHeader, converted_by_reader));
+    ring.counters.undecodable = word(offsetof(RingHeader, undecodable));
+    ring.counters.missed_deadlines = word(offsetof(RingHeader, missed_deadlines));
     if (ring.bytes != ring_bytes(ring) || !std::has_single_bit(ring.capacity) ||
         ring.max_record > ring.capacity / 2 || writer > 1)
         ring.damage = "its header is not that of a ring of " + std::to_string(ring.bytes) + " bytes";

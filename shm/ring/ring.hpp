@@ -37,6 +37,9 @@ struct RingHandle {
 /// add up exactly.
 struct RingCounters {
     std::uint64_t sent, refused, overwritten, skipped, received, bytes_sent, bytes_received;
+    // Counted by those who use the ring: messages that were converted before they were written or after they were read,
+    // messages that were received and could not be decoded, and times at which the next one did not come in time.
+    std::uint64_t converted, undecodable, missed_deadlines;
     std::uint64_t dropped() const { return refused + overwritten + skipped; }
     /// 0 also if more is counted as gone than as sent: the words are read one after the other, and a writer
     /// killed between a record and its count leaves one more received than sent.

@@ -58,6 +58,11 @@ class alignas(layout::line_pair) RingProducer {
     }
     /// Counts a message that its sender could not make, as sent and dropped. Returns false.
     bool refuse();
+    /// Drops the oldest record, if one waits for the reader.
+    bool drop_one() {
+        fits(ring_.capacity + 1); // never: but this looks where the reader is
+        return !corrupt_ && tail_ < head_ && drop_oldest();
+    }
 
     /// reserve(), copy and commit() in one.
     bool write(const void* bytes, std::size_t count, std::uint64_t stamp);

@@ -29,6 +29,11 @@ class RingReader {
     bool corrupt() const { return consumer_.corrupt(); }
     RingCounters counters() const { return read_counters(ring_); }
 
+    // For the counters of the ring's users: see RingCounters.
+    void count_converted() { count_one(ring_.view.shared->converted_by_reader); }
+    void count_undecodable() { count_one(ring_.view.shared->undecodable); }
+    void count_missed_deadline() { count_one(ring_.view.shared->missed_deadlines); }
+
   private:
     RingHandle ring_;
     RingConsumer<RealAtomics> consumer_;

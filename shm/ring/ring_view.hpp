@@ -31,6 +31,11 @@ struct RingView {
     std::byte* chunk(std::uint32_t index) const { return chunks + index * chunk_bytes; }
 };
 
+/// Adds 1 to a counter that no other thread writes.
+inline void count_one(layout::Word64& counter) {
+    counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+}
+
 /// Bytes of the ring that a record with this payload takes: whole lines.
 constexpr std::uint64_t record_size(std::uint64_t payload_bytes) {
     return (layout::record_header + payload_bytes + layout::line - 1) & ~std::uint64_t{layout::line - 1};

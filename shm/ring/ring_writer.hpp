@@ -27,6 +27,8 @@ class RingWriter {
 
     /// Whether a message of that length can be published without dropping an older one.
     bool has_room(std::size_t bytes) { return producer_.has_room(bytes); }
+    /// Drops the oldest message that waits, counted as overwritten. False: none does.
+    bool drop_oldest() { return producer_.drop_one(); }
     void refuse() { producer_.refuse(); } ///< Counts a message that could not be made, as sent and dropped.
 
     /// reserve(), copy, commit(). False: dropped.
@@ -40,6 +42,7 @@ class RingWriter {
     /// The shared words are impossible: nothing is sent any more.
     bool corrupt() const { return producer_.corrupt(); }
     RingCounters counters() const { return read_counters(ring_); }
+    void count_converted() { count_one(ring_.view.shared->converted_by_writer); } ///< see RingCounters
 
   private:
     bool take_memory();

@@ -149,14 +149,19 @@ struct BasicRingHeader {
     Word64 bytes_sent;
     Word64 published; // records; the sequence number of the newest
     Word64 sample;    // publication time of every 64th record: 63 .. 16 time / 16 ns | 15 .. 0 sequence / 64
-    std::byte unused2[64];
+    Word64 converted_by_writer; // counters of the users: see RingCounters
+    std::byte unused2[56];
     // The reader's line.
     alignas(line_pair)
         Word64 tail; // start of the oldest record; moved by the reader, or by the writer to drop it
     Word64 received; // counters
     Word64 skipped;
     Word64 bytes_received;
-    std::byte unused3[96];
+    std::byte unused3[32];
+    Word64 converted_by_reader; // counters of the users: see RingCounters
+    Word64 undecodable;
+    Word64 missed_deadlines;
+    std::byte unused4[40];
     alignas(line_pair) Histogram age; // from published to read, of every 64th record; counted by the reader
 };
 using RingHeader = BasicRingHeader<RealAtomics>;

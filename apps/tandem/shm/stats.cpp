@@ -32,13 +32,14 @@ std::string cell(std::uint64_t value) { return std::to_string(value); }
 // A damaged object keeps its line, so that nobody looks for it in vain.
 std::string format_rings(const shm::Observation& observation) {
     Table table({"ring", "writer", ">sent", ">received", ">refused", ">overwritten", ">skipped", ">waiting",
-                 ">bytes sent", ">bytes received"});
+                 ">converted", ">undecodable", ">missed", ">bytes sent", ">bytes received"});
     for (const auto& ring : observation.rings) {
         const auto& c = ring.counters;
         if (ring.damage.empty())
             table.add_row({replace_nonprintable(ring.name), name_of(ring.writer), cell(c.sent),
                            cell(c.received), cell(c.refused), cell(c.overwritten), cell(c.skipped),
-                           cell(c.waiting()), cell(c.bytes_sent), cell(c.bytes_received)});
+                           cell(c.waiting()), cell(c.converted), cell(c.undecodable),
+                           cell(c.missed_deadlines), cell(c.bytes_sent), cell(c.bytes_received)});
         else
             table.add_row({replace_nonprintable(ring.name), "damaged"});
     }
@@ -114,6 +115,9 @@ nlohmann::json ring_json(const shm::ObservedRing& ring) {
             {"received", c.received},
             {"dropped", {{"refused", c.refused}, {"overwritten", c.overwritten}, {"skipped", c.skipped}}},
             {"waiting", ring.counters.waiting()},
+            {"converted", c.converted},
+            {"undecodable", c.undecodable},
+            {"missed_deadlines", c.missed_deadlines},
             {"bytes_sent", c.bytes_sent},
             {"bytes_received", c.bytes_received},
             {"age", histogram_json(ring.age)}};

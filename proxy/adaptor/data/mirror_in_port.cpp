@@ -73,7 +73,9 @@ ReturnType MirrorInPort::push_converted(opros_any& value, TypeCheck& check) {
         std::copy(message->begin(), message->end(), room.begin());
         return true;
     });
-    return sent ? OPROS_SUCCESS : OPROS_OUT_OF_RESOURCES;
+    if (!sent) return OPROS_OUT_OF_RESOURCES;
+    channel_.count_converted();
+    return OPROS_SUCCESS;
 }
 
 } // namespace tandem::adaptor

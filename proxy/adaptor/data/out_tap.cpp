@@ -62,6 +62,7 @@ opros::archive::iarchive* OutTap::open(std::span<const std::byte> bytes, std::ui
             return nullptr;
         }
         bytes = converted_;
+        port_.channel().count_converted_locked();
     }
     if (check_.set_time) stamp = wire::wall_clock_stamp();
     const wire::CdrReader reader(bytes);
@@ -79,6 +80,7 @@ bool OutTap::setListener(DataPortListener* listener) {
 }
 
 void OutTap::undecodable(const std::string& why) {
+    port_.channel().count_undecodable_locked(); // next() has the lock
     // Connected types match, so this happens only if the peer is broken; then it may happen in every cycle.
     if (undecodable_.should_log())
         spdlog::error("port '{}': a message of {} bytes does not decode ({}) and is dropped, {} so far",

@@ -50,6 +50,7 @@ void MirrorEventOutPort::send(const shm::Record& record) {
         prototype_->setContent(content_);
         push_event(prototype_.get()); // every connection makes a copy
     } catch (const std::exception& error) {
+        channel_.count_undecodable_locked(); // read() has the lock
         if (undecodable_.should_log())
             spdlog::error("port '{}': a message of {} bytes is no event ({}) and is dropped, {} so far",
                           peer_.name, record.bytes.size(), error.what(), undecodable_.count());

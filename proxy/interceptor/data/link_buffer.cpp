@@ -12,6 +12,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <thread>
 
 namespace tandem::interceptor {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using RTC::BufferStatus;
 
 constexpr std::size_t time_bytes = 8;
+constexpr double max_read_wait_s = 10; // a cycle that waits longer looks like one that hangs
 
 // The buffer factory creates buffers without arguments. A new buffer finds its channel here, by a property of
 // its connector.
@@ -55,6 +57,14 @@ void LinkBuffer::unregister_channel(const std::string& key) {
 }
 
 void LinkBuffer::init(const coil::Properties& properties) {
+    // Settings of the port in rtc.conf; those for a full buffer are the writer's, which is the peer.
+    const std::string empty_policy = coil::normalize(properties.getProperty("read.empty_policy"));
+    readback_ = empty_policy == "readback";
+    double timeout_s = 1; // OpenRTM's default
+    coil::stringTo(timeout_s, properties.getProperty("read.timeout").c_str());
+    if (empty_policy == "block" && timeout_s > 0)
+        read_wait_ =
+            std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * std::min(timeout_s, max_read_wait_s)));
     const std::lock_guard lock(channels_mutex);
     // A key that is not registered leaves both ends empty: write() and read() then say PRECONDITION_NOT_MET.
     const auto found = channels().find(properties.getProperty("channel"));
@@ -145,28 +155,49 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;
 }
 
+/// `read_one` returns whether there was a message.
+template <class Read>
+BufferStatus LinkBuffer::read_or_wait(Read&& read_one) {
+    constexpr auto pause = std::chrono::microseconds(200);
+    if (read_one()) return BufferStatus::OK;
+    if (read_wait_.count() == 0) return BufferStatus::EMPTY;
+    const auto deadline = std::chrono::steady_clock::now() + read_wait_;
+    while (std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(pause);
+        if (read_one()) return BufferStatus::OK;
+    }
+    return BufferStatus::TIMEOUT;
+}
+
 BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) {
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     BufferStatus status = BufferStatus::OK;
     // false: messages in their order, as RTM's own ring buffer returns them.
-    const bool found = channel_.reader->read(
-        false, [&](const shm::Record& record) { status = copy_message(record, message); });
-    return found ? status : BufferStatus::EMPTY;
+    const auto found = read_or_wait([&] {
+        return channel_.reader->read(
+            false, [&](const shm::Record& record) { status = copy_message(record, message); });
+    });
+    if (!readback_) return found == BufferStatus::OK ? status : found;
+    if (found == BufferStatus::OK && status == BufferStatus::OK) {
+        last_ = message;
+        has_last_ = true;
+    } else if (found != BufferStatus::OK && has_last_) {
+        message = last_;
+        return BufferStatus::OK;
+    }
+    return found == BufferStatus::OK ? status : found;
 }
 
 BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader, bool& read_in_place) {
+    read_in_place = !needs_copy();
+    if (!read_in_place) return read(message, {});
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
-    BufferStatus status = BufferStatus::OK;
-    const bool found = channel_.reader->read(false, [&](const shm::Record& record) {
-        read_in_place = channel_.transcoded == nullptr;
-        if (!read_in_place) {
-            status = copy_message(record, message);
-            return;
-        }
-        StampedInStream in(record.bytes, channel_.timed, record.stamp_ns);
-        reader(in);
+    return read_or_wait([&] {
+        return channel_.reader->read(false, [&](const shm::Record& record) {
+            StampedInStream in(record.bytes, channel_.timed, record.stamp_ns);
+            reader(in);
+        });
     });
-    return found ? status : BufferStatus::EMPTY;
 }
 
 BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& message) {
@@ -176,7 +207,8 @@ BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& 
         try {
             wire::CdrReader in(record.bytes);
             from_cdr(*channel_.transcoded, in, stream.emplace());
-        } catch (const CORBA::SystemException& error) { // the peer is another process
+        } catch (const CORBA::SystemException& error) {  // the peer is another process
+            channel_.reader->count_undecodable_locked(); // read() has the lock
             if (undecodable_.should_log())
                 spdlog::error(
                     "a message of {} bytes from the link does not decode ({}) and is dropped, {} so far",

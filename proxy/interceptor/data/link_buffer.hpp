@@ -8,6 +8,7 @@
 #include <rtm/CdrBufferBase.h>
 #include <rtm/InPlaceBuffer.h>
 
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -41,13 +42,13 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
 
     void init(const coil::Properties& properties) override;
 
-    // Nothing here waits: the ring drops its oldest message when it is full, and reading an empty one returns
-    // EMPTY at once.
+    // Nothing here waits, unless `read.empty_policy` is block: the ring drops its oldest message when it is full, and
+    // reading an empty one returns EMPTY at once, or the last message with the policy readback.
     RTC::BufferStatus write(const RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     RTC::BufferStatus read(RTC::ByteData& message, std::chrono::nanoseconds timeout) override;
     // Messages are marshalled where they travel, and unmarshalled from there, unless they cross in another form.
     std::size_t minInPlaceLength() const override {
-        return channel_.transcoded ? std::numeric_limits<std::size_t>::max() : 0;
+        return needs_copy() ? std::numeric_limits<std::size_t>::max() : 0;
     }
     RTC::BufferStatus writeInPlace(const RTC::Marshal& marshal) override;
     RTC::BufferStatus readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
@@ -74,13 +75,19 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);
     std::span<const std::byte> transcode_to_link(std::span<const std::byte> body);
+    bool needs_copy() const { return channel_.transcoded || readback_; }
+    template <class Read>
+    RTC::BufferStatus read_or_wait(Read&& read_one);
     RTC::BufferStatus copy_message(const shm::Record& record, RTC::ByteData& message);
     RTC::BufferStatus write_status(bool written) const;
 
     LinkChannel channel_;
-    bool last_was_long_ = false;        ///< the last message did not fit into a record of the ring
-    RTC::ByteData last_;                ///< what get() returned last
-    std::vector<std::byte> transcoded_; ///< kept for its memory
+    bool readback_ = false;                ///< an empty ring gives the last message again
+    std::chrono::nanoseconds read_wait_{}; ///< how long a reader waits for a message
+    bool has_last_ = false;                ///< last_ was read
+    bool last_was_long_ = false;           ///< the last message did not fit into a record of the ring
+    RTC::ByteData last_;                   ///< what get() returned last, and with readback_ read()
+    std::vector<std::byte> transcoded_;    ///< kept for its memory
     process::LogThrottle undecodable_;
 };
 

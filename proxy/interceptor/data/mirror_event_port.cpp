@@ -34,6 +34,7 @@ void MirrorEventPort::take(const shm::Record& record) {
     const auto event = events_.find(id);
     id_.clear();
     if (!in.ok() || event == events_.end() || event->second.signature != signature) { // from another process
+        channel_.count_undecodable_locked();                                          // read() has the lock
         if (undecodable_.should_log())
             spdlog::error(
                 "port '{}': a message of {} bytes is no event of this port and is dropped, {} so far",

@@ -3,6 +3,7 @@
 
 #include "shm/segment/segment_file.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -19,19 +20,44 @@ bool ChannelWriter::publish(std::span<const std::byte> message, std::uint64_t st
         last_stamp_ = stamp;
         has_last_ = true;
     }
-    if (policy_.wait.count() != 0 && !wait_for_room(message.size())) {
-        bound_->ring.cancel_reservation();
-        bound_->ring.refuse();
-        if (no_room_.should_log())
-            spdlog::warn("port '{}': the reader is too slow: a message waited {} ms for room and is dropped, "
-                         "{} so far",
-                         port_, policy_.wait.count(), no_room_.count());
+    if ((policy_.wait.count() != 0 || policy_.length != 0) && !make_room(message.size()))
         return report_damage();
-    }
     if (!bound_->ring.commit(message.size(), stamp)) return report_damage();
+    if (room_ != 0) --room_;
     // After the commit, so that whoever the doorbell wakes finds the message.
     if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
     return true;
+}
+
+/// False: the message is dropped, which is counted and logged. Otherwise the ring drops its oldest where it must.
+bool ChannelWriter::make_room(std::size_t bytes) {
+    if (policy_.wait.count() != 0)
+        return wait_for_room(bytes) ||
+               drop_for_room(fmt::format("waited {} ms for room", policy_.wait.count()));
+    if (is_below_length()) return true;
+    if (policy_.refuse) return drop_for_room(fmt::format("finds {} others in the queue", policy_.length));
+    while (!is_below_length() && bound_->ring.drop_oldest()) continue;
+    return true;
+}
+
+/// Looks at the reader's counters only when the messages that it had read at the last look are used up.
+bool ChannelWriter::is_below_length() {
+    if (policy_.length == 0) return true;
+    if (room_ == 0) {
+        const std::uint64_t waiting = bound_->ring.counters().waiting();
+        room_ = waiting < policy_.length ? policy_.length - static_cast<std::uint32_t>(waiting) : 0;
+    }
+    return room_ != 0;
+}
+
+/// Always returns false.
+bool ChannelWriter::drop_for_room(const std::string& why) {
+    bound_->ring.cancel_reservation();
+    bound_->ring.refuse();
+    if (no_room_.should_log())
+        spdlog::warn("port '{}': the reader is too slow: a message {} and is dropped, {} so far", port_, why,
+                     no_room_.count());
+    return false;
 }
 
 /// Asks again and again, since nobody tells a writer that its reader has read: that would cost every reader a system
@@ -39,7 +65,7 @@ bool ChannelWriter::publish(std::span<const std::byte> message, std::uint64_t st
 bool ChannelWriter::wait_for_room(std::size_t bytes) {
     constexpr auto pause = std::chrono::microseconds(50);
     const auto deadline = std::chrono::steady_clock::now() + policy_.wait;
-    while (!bound_->ring.has_room(bytes)) {
+    while (!bound_->ring.has_room(bytes) || !is_below_length()) {
         if (bound_->ring.corrupt() || std::chrono::steady_clock::now() >= deadline) return false;
         std::this_thread::sleep_for(pause);
     }
@@ -93,6 +119,11 @@ void ChannelWriter::set_peer_listens(bool listens) {
     peer_listens_.store(listens, std::memory_order_relaxed);
 }
 
+void ChannelWriter::count_converted() {
+    const std::lock_guard lock(mutex_);
+    if (bound_) bound_->ring.count_converted();
+}
+
 void ChannelWriter::refuse(std::string_view why) {
     const std::lock_guard lock(mutex_);
     if (bound_) bound_->ring.refuse();
@@ -119,6 +150,7 @@ bool ChannelWriter::corrupt() const {
 void ChannelWriter::bind(std::shared_ptr<shm::Segment> segment, shm::RingWriter ring) {
     const std::lock_guard lock(mutex_);
     bound_.emplace(BoundRing<shm::RingWriter>{std::move(segment), std::move(ring)});
+    room_ = 0;
     send_last_again();
 }
 
@@ -180,6 +212,7 @@ bool ChannelReader::has_missed_deadline(std::chrono::steady_clock::time_point no
     if (silent_ || now - last_change_ <= policy_.deadline) return false;
     silent_ = true;
     ++missed_deadlines_;
+    bound_->ring.count_missed_deadline();
     return true;
 }
 

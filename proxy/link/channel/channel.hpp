@@ -85,6 +85,8 @@ class ChannelWriter {
         return false;
     }
 
+    /// Counts a message that was written after a conversion.
+    void count_converted();
     /// Counts a message that cannot cross, as sent and dropped, and logs `why`, one line, not too often.
     void refuse(std::string_view why);
 
@@ -107,7 +109,10 @@ class ChannelWriter {
 
   private:
     bool publish(std::span<const std::byte> message, std::uint64_t stamp);
+    bool make_room(std::size_t bytes);
     bool wait_for_room(std::size_t bytes);
+    bool is_below_length();
+    bool drop_for_room(const std::string& why);
     void send_last_again();
     bool report_refusal(std::size_t bytes);
     bool report_damage();
@@ -120,6 +125,7 @@ class ChannelWriter {
     std::size_t reported_limit_ = 0; ///< the ring's limit when a too long message was last logged
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
+    std::uint32_t room_ = 0;      ///< with a length: messages that are known to fit
     std::vector<std::byte> last_; ///< with keep_last: the last message
     std::uint64_t last_stamp_ = 0;
     bool has_last_ = false;
@@ -157,6 +163,18 @@ class ChannelReader {
         auto record = bound_ ? bound_->ring.read() : std::nullopt;
         if (!record) report_damage();
         return record;
+    }
+
+    /// Count a message that was read: it was converted, or it is no value of the port's type. With the lock held.
+    void count_converted_locked() {
+        if (bound_) bound_->ring.count_converted();
+    }
+    void count_undecodable_locked() {
+        if (bound_) bound_->ring.count_undecodable();
+    }
+    void count_undecodable() {
+        const std::lock_guard lock(mutex_);
+        count_undecodable_locked();
     }
 
     shm::RingCounters counters() const; ///< of the bound ring; zeros if there is none

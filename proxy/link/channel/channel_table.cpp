@@ -50,14 +50,16 @@ void ChannelTable::set_listened_ports(const std::vector<std::string>& ports) {
         writer.set_peer_listens(std::find(ports.begin(), ports.end(), name) != ports.end());
 }
 
-std::chrono::nanoseconds ChannelTable::check_deadlines() {
+std::chrono::nanoseconds ChannelTable::check_deadlines(std::vector<std::string>& missed) {
     const std::lock_guard lock(mutex_);
     const auto now = std::chrono::steady_clock::now();
     std::chrono::nanoseconds next_check = shm::longest_wait;
     for (auto& [name, reader] : readers_) {
-        if (reader.has_missed_deadline(now))
+        if (reader.has_missed_deadline(now)) {
+            missed.push_back(name);
             spdlog::warn("port '{}': no message for {} ms, its deadline; {} times so far", name,
                          reader.deadline().count(), reader.missed_deadlines());
+        }
         next_check = std::min(next_check, reader.deadline_check_in());
     }
     return next_check;

@@ -34,9 +34,9 @@ class ChannelTable {
     /// Rings the peer's doorbell from now on for messages of the ports in the list, and of no others.
     void set_listened_ports(const std::vector<std::string>& ports);
 
-    /// Logs each port whose sender has been silent for longer than its deadline, once for each silence. Returns how soon
-    /// to call it again; longest_wait if no port has a deadline. [supervisor-thread]
-    std::chrono::nanoseconds check_deadlines();
+    /// Logs each port whose sender has been silent for longer than its deadline, once for each silence, and appends its name
+    /// to `missed`. Returns how soon to call it again; longest_wait if no port has a deadline. [supervisor-thread]
+    std::chrono::nanoseconds check_deadlines(std::vector<std::string>& missed);
 
     /// True if a bound ring holds words that its protocol cannot produce: a process outside of the link has
     /// written there, and nothing more would pass through that ring.

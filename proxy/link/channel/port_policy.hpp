@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/link/protocol/port_table.hpp"
 #include "proxy/link/protocol/setting.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace tandem::link {
@@ -14,6 +16,10 @@ struct PortPolicy {
     bool keep_last = false; ///< `keep_last`, of the sender: a peer that comes (again) gets the last message
     /// `wait_ms`, of the sender: how long a message waits for room before it is dropped. 0: the oldest message gives way.
     std::chrono::milliseconds wait{0};
+    /// Messages that may wait for the reader; 0: as many as the ring holds. Beyond that a message waits, as above, or else
+    /// the oldest gives way, or with `refuse` the new one.
+    std::uint32_t length = 0;
+    bool refuse = false;
     /// `deadline_ms`, of the receiver: the longest time without a message; 0: none.
     std::chrono::milliseconds deadline{0};
 };
@@ -39,6 +45,14 @@ PortPolicy read_port_policy(const char* kind, const std::string& port, Find&& fi
     policy.wait = std::min(milliseconds("wait_ms"), max_wait);
     policy.deadline = milliseconds("deadline_ms");
     return policy;
+}
+
+/// Adds what the receiving port asks of its queue; a wait that the user has set counts before its own.
+inline void add_queue_policy(const QueuePolicy& queue, PortPolicy& policy) {
+    policy.length = queue.length;
+    policy.refuse = queue.full == QueuePolicy::Full::refuse;
+    if (queue.full == QueuePolicy::Full::wait && policy.wait.count() == 0)
+        policy.wait = std::min(std::chrono::milliseconds(queue.wait_ms), max_wait);
 }
 
 } // namespace tandem::link

@@ -11,13 +11,16 @@ namespace tandem::link {
 namespace {
 
 // Bytes of a port, a property and a component at least, to refuse a count that the table cannot hold.
-constexpr std::size_t min_port_bytes = 29, min_property_bytes = 13, min_component_bytes = 17;
+constexpr std::size_t min_port_bytes = 41, min_property_bytes = 13, min_component_bytes = 17;
 
 void put(wire::CdrWriter& out, const Port& port) {
     out.put(static_cast<std::uint32_t>(port.kind));
     for (const auto* text : {&port.name, &port.type, &port.signature, &port.instance}) out.put_string(*text);
     put(out, port.operations);
     out.put_string(port.component);
+    out.put(port.queue.length);
+    out.put(static_cast<std::uint32_t>(port.queue.full));
+    out.put(port.queue.wait_ms);
 }
 
 void put(wire::CdrWriter& out, const SharedComponent& component) {
@@ -45,6 +48,11 @@ Port get_port(wire::CdrReader& in) {
     for (auto* text : {&port.name, &port.type, &port.signature, &port.instance}) *text = in.get_string();
     port.operations = get_service_operations(in);
     port.component = in.get_string();
+    port.queue.length = in.get<std::uint32_t>();
+    port.queue.full = static_cast<QueuePolicy::Full>(in.get<std::uint32_t>());
+    port.queue.wait_ms = in.get<std::uint32_t>();
+    if (port.queue.full > QueuePolicy::Full::wait)
+        throw LinkError("the peer's port table has a queue of unknown policy");
     return port;
 }
 

@@ -26,6 +26,15 @@ struct ServiceOperation {
     bool operator==(const ServiceOperation&) const = default;
 };
 
+/// What an InPort of RTM asks of its buffer, by `buffer.*` of rtc.conf.
+struct QueuePolicy {
+    enum class Full : std::uint32_t { overwrite, refuse, wait };
+    std::uint32_t length = 0; ///< messages that wait at most; 0: as many as the ring holds
+    Full full = Full::overwrite;
+    std::uint32_t wait_ms = 0; ///< with Full::wait
+    bool operator==(const QueuePolicy&) const = default;
+};
+
 /// One port that a side shares with its peer, which creates a mirror of the same name.
 struct Port {
     PortKind kind{};
@@ -37,6 +46,7 @@ struct Port {
     /// argument, empty for none; a message is an event's id and its argument, `sv`.
     std::vector<ServiceOperation> operations;
     std::string component{}; ///< whose port it is: a name in PortTable::components
+    QueuePolicy queue{};     ///< of a data port that receives
     bool operator==(const Port&) const = default;
 
     /// Whether it is an EventInPort of RTM: a data port that takes events by their ids.
@@ -70,7 +80,7 @@ struct PortTable {
 };
 
 /// In CDR: count, and of each component name, type, count, and of each property name and value; then count, and of
-/// each port kind, name, type, signature, instance, operations and component.
+/// each port kind, name, type, signature, instance, operations, component and queue.
 std::vector<std::byte> encode(const PortTable&);
 /// Throws LinkError when the bytes, which another process wrote, are no table.
 PortTable decode_port_table(std::span<const std::byte>);

@@ -11,7 +11,7 @@ namespace {
 
 // Version of what both sides must agree on beside the segment's layout; raise it when the port table, the
 // requests or the records change. A segment of another version is refused.
-constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0003; // "tandem", 3
+constexpr std::uint64_t protocol_version = 0x7461'6e64'656d'0004; // "tandem", 4
 
 template <class T>
 void publish_blob(shm::Segment& segment, const std::string& name, const T* data, std::size_t bytes) {

@@ -50,6 +50,7 @@ struct Peer : link::LinkHandler {
     ~Peer() override { link.close(); }
     std::string check_peer_ports(link::PortTable&) override { return ""; }
     void link_state_changed(bool) override {}
+    void deadline_missed(const std::string&) override {}
     void peer_connected() override {}
     void peer_disconnected() override {}
     Reply serve(const link::Request& request) override {

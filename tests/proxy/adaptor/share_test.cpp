@@ -100,6 +100,7 @@ struct RtmSide : link::LinkHandler {
         return "";
     }
     void link_state_changed(bool) override {}
+    void deadline_missed(const std::string&) override {}
     void peer_connected() override {}
     void peer_disconnected() override {}
     Reply serve(const link::Request& request) override {

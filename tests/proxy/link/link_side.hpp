@@ -53,6 +53,7 @@ struct LinkSide : LinkHandler {
         return refusal;
     }
     void link_state_changed(bool up) override { ++(up ? ups : downs); }
+    void deadline_missed(const std::string& port) override { missed.push_back(port); }
     void peer_connected() override { ++came; }
     void peer_disconnected() override { ++went; }
     Reply serve(const Request& request) override { return on_call(request); }
@@ -62,6 +63,7 @@ struct LinkSide : LinkHandler {
     std::function<Reply(const Request&)> on_call = [](const Request& request) {
         return Reply{CallStatus::ok, {request.arguments.begin(), request.arguments.end()}};
     };
+    std::vector<std::string> missed; ///< [supervisor-thread]
     std::atomic<int> ups{0}, downs{0}, came{0}, went{0};
     Link link;
 };

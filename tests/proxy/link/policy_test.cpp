@@ -116,6 +116,60 @@ TEST_CASE("a silence beyond a port's deadline is counted once, and again after t
     CHECK(reader.missed_deadlines() == 1); // the same silence
     REQUIRE(send_number(a->link.writer("reference"), 1));
     CHECK(eventually([&] { return reader.missed_deadlines() == 2; }));
+    CHECK(reader.counters().missed_deadlines == 2); // in the segment, for observers
+    b->link.close();
+    CHECK(b->missed == std::vector<std::string>{"reference", "reference"});
+}
+
+TEST_CASE("a queue of a length holds as many messages, and drops the oldest or the newest as it is told") {
+    const auto name = unique_name("length");
+    auto a = side(shm::Side::second, name, joystick_table());
+    auto b = side(shm::Side::first, name);
+    a->link.wait_until_up(soon, "peer");
+    b->link.wait_until_up(soon, "peer");
+    auto& writer = a->link.writer("reference");
+    auto& reader = b->link.reader("reference");
+    PortPolicy policy;
+    QueuePolicy queue;
+    queue.length = 3;
+    SECTION("overwrite") {
+        add_queue_policy(queue, policy);
+        writer.set_policy(policy);
+        for (int i = 0; i < 10; ++i) CHECK(send_number(writer, i));
+        for (const double expected : {7, 8, 9}) CHECK(receive_number(reader) == expected);
+        CHECK_FALSE(receive_number(reader));
+        for (int i = 10; i < 12; ++i) CHECK(send_number(writer, i));
+        CHECK(receive_number(reader) == 10);
+        CHECK(reader.counters().overwritten == 7);
+    }
+    SECTION("refuse") {
+        queue.full = QueuePolicy::Full::refuse;
+        add_queue_policy(queue, policy);
+        writer.set_policy(policy);
+        for (int i = 0; i < 10; ++i) CHECK(send_number(writer, i) == (i < 3));
+        CHECK(receive_number(reader) == 0);
+        CHECK(send_number(writer, 10));
+        CHECK_FALSE(send_number(writer, 11));
+        for (const double expected : {1, 2, 10}) CHECK(receive_number(reader) == expected);
+        CHECK(reader.counters().refused == 8);
+    }
+    SECTION("wait") {
+        queue.full = QueuePolicy::Full::wait;
+        queue.wait_ms = 1;
+        add_queue_policy(queue, policy);
+        writer.set_policy(policy);
+        for (int i = 0; i < 4; ++i) CHECK(send_number(writer, i) == (i < 3));
+        policy.wait = max_wait;
+        writer.set_policy(policy);
+        std::thread consumer([&] {
+            while (!receive_number(reader)) std::this_thread::sleep_for(1ms);
+        });
+        CHECK(send_number(writer, 4));
+        consumer.join();
+        CHECK(reader.counters().refused == 1);
+    }
+    const auto counters = reader.counters();
+    CHECK(counters.sent == counters.received + counters.dropped() + counters.waiting());
 }
 
 TEST_CASE("settings of one port go before those of all") {
