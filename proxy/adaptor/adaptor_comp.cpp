@@ -80,7 +80,7 @@ ReturnType AdaptorComp::onInitialize() {
         });
         link_->open();
         // The host connects ports as soon as this function returns, so the peer's table must be here by then.
-        link_->wait_until_up(settings_.wait, peer_name);
+        wait_for_peer(settings_.wait);
         create_mirror_ports();
         return OPROS_SUCCESS;
     } catch (const std::runtime_error& error) {
@@ -103,6 +103,11 @@ void AdaptorComp::create_link() {
     options.wait = link::wait_options_from_environment();
     link_ =
         std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
+}
+
+/// A host that is to end meanwhile does not wait to the end. Throws LinkError.
+void AdaptorComp::wait_for_peer(std::chrono::milliseconds timeout) {
+    link_->wait_until_up(timeout, peer_name, [this] { return directory_ && directory_->isEnding(); });
 }
 
 ReturnType AdaptorComp::onStart() {
@@ -130,7 +135,7 @@ CallStatus AdaptorComp::activate_rtc() {
     for (;;) {
         const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
             deadline - std::chrono::steady_clock::now());
-        link_->wait_until_up(std::max(left, 0ms), peer_name);
+        wait_for_peer(std::max(left, 0ms));
         const auto status = drive_rtc(control::activate);
         if (!peer_has_gone(status) || left <= 0ms) return status;
         std::this_thread::sleep_for(1ms); // until the link knows, too

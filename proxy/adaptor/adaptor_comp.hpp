@@ -62,6 +62,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     link::Reply execute_command(const link::Request&);
 
     void create_link();
+    void wait_for_peer(std::chrono::milliseconds timeout);
     void close_link();
     std::string first_refusal() const;
     void create_mirror_ports();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/rtc_port.hpp"
 
+#include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <rtm/InterfaceSignatures.h>
@@ -118,14 +119,6 @@ void make_names_unique(std::vector<RtcPort>& ports) {
 }
 
 } // namespace
-
-std::vector<link::ServiceOperation> operations_of(const std::string& interface) {
-    std::vector<link::ServiceOperation> operations;
-    if (const auto* known = RTC::InterfaceSignatures::find(interface))
-        for (const auto& operation : *known)
-            operations.push_back({operation.name, operation.arguments + ":" + operation.result});
-    return operations;
-}
 
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
     std::vector<RtcPort> ports;

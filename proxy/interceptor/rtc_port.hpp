@@ -19,10 +19,6 @@ struct RtcPort {
     RTC::PortService_var reference;
 };
 
-/// The operations of an IDL interface; empty when its IDL is not compiled into this process, in which case a call itself
-/// shows whether it fits.
-std::vector<link::ServiceOperation> operations_of(const std::string& interface);
-
 /// Lists the ports of an RTC. A service port with several interfaces gives one entry for each, named
 /// `port.instance`. Ports named `linkState` or `missedDeadline` are left out, because both proxies have such.
 /// A data port whose type cannot cross has link::no_signature in its entry. Throws CORBA::Exception if the RTC does

@@ -7,10 +7,14 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 namespace tandem::link {
 namespace {
 
 constexpr std::size_t max_waiting_sends = 256;
+constexpr std::chrono::milliseconds longest_wait_step{
+    100}; // until whoever waits is asked whether it gives up
 
 } // namespace
 
@@ -41,10 +45,17 @@ void Link::close() {
     arrivals_.stop();
 }
 
-void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& peer_name) {
-    const auto result = state_.wait_until_up(timeout);
-    if (result.up) return;
-    if (!result.refusal.empty()) throw LinkError(result.refusal);
+void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& peer_name,
+                         const std::function<bool()>& gives_up) {
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
+    do {
+        const auto result = state_.wait_until_up(std::min(timeout, longest_wait_step));
+        if (result.up) return;
+        if (!result.refusal.empty()) throw LinkError(result.refusal);
+        if (gives_up())
+            throw LinkError(fmt::format("link '{}': {} had not come when this host was asked to end",
+                                        options_.name, peer_name));
+    } while (!state_.is_closing() && std::chrono::steady_clock::now() < deadline);
     throw LinkError(
         fmt::format("link '{}': {} did not come within {} s; start it with link={}, or allow more time",
                     options_.name, peer_name, static_cast<double>(timeout.count()) / 1000.0, options_.name));

@@ -32,9 +32,11 @@ class Link {
     /// From here on a process that truncates the segment's file ends the session, not this process: this is
     /// the one place that installs shm's handler of SIGBUS.
     void open();
-    /// Waits for the peer. Throws LinkError, one line, if it does not come within `timeout` or its ports were
-    /// refused. `peer_name` is what the message calls it.
-    void wait_until_up(std::chrono::milliseconds timeout, const std::string& peer_name);
+    /// Waits for the peer. Throws LinkError, one line, if it does not come within `timeout` or before `gives_up`, which is
+    /// asked now and then, or if its ports were refused. `peer_name` is what the message calls it.
+    void wait_until_up(
+        std::chrono::milliseconds timeout, const std::string& peer_name,
+        const std::function<bool()>& gives_up = [] { return false; });
     /// Ends all threads and leaves the segment; waits for tasks and calls that are being executed. Afterwards
     /// nothing calls the handler any more. [not in a handler's function]
     void close();

@@ -70,6 +70,27 @@ TEST_CASE("link check fails for a configured connection that cannot be made, and
     CHECK_THAT(result.output, Contains("EchoRtc0.reply"));
 }
 
+TEST_CASE("link check shows the conversions that are asked for, and suggests partners by type") {
+    JoinedFolder folder;
+    for (const char* component : {"TalkerComp", "Adaptor"})
+        folder.edit("joined/opros/joined.xml",
+                    std::string("component_name=\"") + component + "\" port_name=\"word\"",
+                    std::string("component_name=\"") + component + "\" port_name=\"numbers\"");
+    folder.edit("joined/opros/joined.xml", "</properties>",
+                "<property name=\"convert.numbers\">widen</property></properties>");
+    const auto result = folder.tandem({"link", "check", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 0);
+    CHECK_THAT(result.output, Contains("TalkerComp.numbers") && Contains(" widen\n"));
+    CHECK_THAT(result.output,
+               Contains("without a partner: EchoRtc0.word (data input, '(uu)s'): no connection of ") &&
+                   Contains(" names it; by type it fits TalkerComp.word\n") &&
+                   Contains(" names it; by type it fits EchoRtc0.word\n"));
+    CHECK_THAT(result.output,
+               Contains("without a partner: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
+                   !Contains("it fits EchoRtc0.picture"));
+}
+
 TEST_CASE("link check names a link that only one side has") {
     JoinedFolder folder;
     folder.edit("joined/rtm/rtc.conf", "link=TalkerComp-EchoRtc", "link=other");

@@ -44,6 +44,22 @@ TEST_CASE("tandem link profile connects what fits and tells why the rest does no
     CHECK(std::filesystem::exists(folder.path() / "joined/opros/AdaptorComp.xml"));
 }
 
+TEST_CASE("tandem link profile makes event ports of the RTC's data ports that events fit") {
+    ScratchFolder folder;
+    folder.add_component("AlarmComp");
+    folder.add_component("AlarmRtc");
+    const auto result = folder.tandem({"link", "profile", "AlarmComp", "AlarmRtc", "--out", "joined"});
+    INFO(result.output);
+    CHECK(result.exit_code() == 0);
+    CHECK_THAT(result.output, Contains("event  AlarmComp.alarm   AlarmRtc0.raised  type\n"));
+    CHECK_THAT(result.output, Contains("event  AlarmRtc0.answer  AlarmComp.notice  type\n"));
+    CHECK_THAT(result.output,
+               Contains("not connected: AlarmComp.number (event output): no input event port of "
+                        "AlarmRtc0 is left that fits\n"));
+    CHECK_THAT(content(folder.path() / "joined/opros/joined.xml"),
+               Contains("<property name=\"event_ports\">answer, raised<"));
+}
+
 TEST_CASE("tandem link profile takes over how the RTC's own rtc.conf executes it") {
     ScratchFolder folder;
     folder.add_component("TalkerComp");

@@ -137,6 +137,25 @@ TEST_CASE("tandem run ends when a host cannot start, with the host's own line") 
     CHECK_THAT(run.output(), Contains(") exited with 1 before it was ready\n"));
 }
 
+TEST_CASE("tandem run does not wait for a host that waits for one that could not start") {
+    Run run;
+    std::ofstream(run.folder().path() / "joined/rtm/rtc.conf", std::ios::app)
+        << "manager.components.precreate: NoSuchRtc\n";
+    const auto application = run.folder().path() / "joined/opros/joined.xml";
+    std::ifstream in(application);
+    std::string xml{std::istreambuf_iterator<char>(in), {}};
+    const std::string end = "</properties>";
+    REQUIRE(xml.find(end) != std::string::npos);
+    xml.insert(xml.find(end),
+               "<property name=\"wait\">600</property>"); // far beyond the time that a host has to end
+    std::ofstream(application) << xml;
+    run.start();
+    CHECK(run.exit_code() == 1);
+    INFO(run.output());
+    CHECK_THAT(run.output(), Contains("had not come when this host was asked to end") && !Contains("killed"));
+    CHECK_FALSE(run.left_in_shared_memory());
+}
+
 TEST_CASE("tandem run --lockstep gives each component as many cycles as its period, in any run the same") {
     std::string replies[2];
     for (auto& reply : replies) {

@@ -36,15 +36,30 @@ std::string port_name(const JoinedPorts& joined, const engine::PortReference& re
            reference.port;
 }
 
-/// What happens to a value on its way; "" if its bytes are the same.
-std::string conversion(const json& from, const json& to) {
+/// What AdaptorComp's property convert.PORT asks for one of the two ports; "" if there is none.
+std::string asked_conversion(const JoinedPorts& joined, const engine::ConnectionProfile& connection) {
+    for (const auto* end : {&connection.source, &connection.target}) {
+        const auto component = joined.components.find(end->component);
+        if (component == joined.components.end()) continue;
+        const auto& properties = component->second.properties;
+        const auto found = properties.find("convert." + end->port);
+        if (found != properties.end()) return found->second;
+    }
+    return "";
+}
+
+/// What happens to a value on its way, which can be made; "" if its bytes are the same.
+std::string conversion(const json& from, const json& to, const std::string& asked) {
     const std::string sent = text_at(from, "signature"), received = text_at(to, "signature");
-    if (sent.empty() || received.empty()) return "";
+    if (sent.empty() || received.empty() || text_at(from, "kind") == "event") return "";
+    if (!asked.empty()) return asked;
     switch (wire::match_signatures(sent, received)) {
     case wire::SignatureMatch::add_time:
         return "tm is set";
     case wire::SignatureMatch::strip_time:
         return "tm is left out";
+    case wire::SignatureMatch::mismatch:
+        return "device"; // the only conversion that is made unasked
     default:
         return "";
     }
@@ -64,13 +79,16 @@ json describe_connections(const JoinedPorts& joined) {
         const auto& connection = joined.application.connections[i];
         if (!crosses_a_link(joined, connection) && joined.connection_errors[i].empty()) continue;
         const json from = port_of(joined, connection.source), to = port_of(joined, connection.target);
-        connections.push_back({{"from", port_name(joined, connection.source)},
-                               {"to", port_name(joined, connection.target)},
-                               {"from_port", from},
-                               {"to_port", to},
-                               {"conversion", from.is_null() || to.is_null() ? "" : conversion(from, to)},
-                               {"location", connection.location.text()},
-                               {"error", joined.connection_errors[i]}});
+        connections.push_back(
+            {{"from", port_name(joined, connection.source)},
+             {"to", port_name(joined, connection.target)},
+             {"from_port", from},
+             {"to_port", to},
+             {"conversion", from.is_null() || to.is_null() || !joined.connection_errors[i].empty()
+                                ? ""
+                                : conversion(from, to, asked_conversion(joined, connection))},
+             {"location", connection.location.text()},
+             {"error", joined.connection_errors[i]}});
     }
     return connections;
 }
@@ -88,8 +106,14 @@ json describe_unconnected(const JoinedPorts& joined) {
             std::string reason = text_at(port, "reason"); // of a port that cannot cross
             if (reason.empty())
                 reason = "no connection of " + joined.application.location.file.string() + " names it";
-            ports.push_back(
-                {{"port", port_name(joined, reference)}, {"of", std::move(port)}, {"reason", reason}});
+            json fitting = json::array();
+            if (const auto found = joined.suggestions.find(reference.text());
+                found != joined.suggestions.end())
+                for (const auto& partner : found->second) fitting.push_back(port_name(joined, partner));
+            ports.push_back({{"port", port_name(joined, reference)},
+                             {"of", std::move(port)},
+                             {"reason", reason},
+                             {"fitting", std::move(fitting)}});
         }
     return ports;
 }
@@ -123,6 +147,13 @@ void add_rows(Table& table, const json& connection) {
             }
 }
 
+std::string fitting_text(const json& fitting) {
+    std::string text;
+    for (const auto& name : fitting)
+        text += (text.empty() ? "; by type it fits " : ", ") + name.get<std::string>();
+    return text;
+}
+
 std::string format_report(const json& report) {
     std::string text;
     for (const auto& link : report["links"])
@@ -138,7 +169,7 @@ std::string format_report(const json& report) {
             "without a partner: " + text_at(port, "port") + " (" + text_at(port["of"], "kind") + " " +
             text_at(port["of"], "direction") +
             (text_at(port["of"], "signature").empty() ? "" : ", '" + text_at(port["of"], "signature") + "'") +
-            "): " + text_at(port, "reason") + "\n";
+            "): " + text_at(port, "reason") + fitting_text(port["fitting"]) + "\n";
     for (const auto& connection : report["connections"])
         if (connection["error"] != "")
             text += text_at(connection, "location") +

@@ -31,15 +31,17 @@ void copy_adaptor_profile(const fs::path& folder) {
                              "; install Tandem again (cmake --install)");
 }
 
-void add_subcomponent(pugi::xml_node list, const std::string& name, const std::string& reference,
-                      const std::string& link) {
+pugi::xml_node add_subcomponent(pugi::xml_node list, const std::string& name, const std::string& reference) {
     auto entry = list.append_child("subcomponent");
     entry.append_child("name").text().set(name.c_str());
     entry.append_child("reference").text().set(reference.c_str());
-    if (link.empty()) return;
-    auto property = entry.append_child("properties").append_child("property");
-    property.append_attribute("name") = "link";
-    property.text().set(link.c_str());
+    return entry;
+}
+
+void add_property(pugi::xml_node properties, const char* name, const std::string& value) {
+    auto property = properties.append_child("property");
+    property.append_attribute("name") = name;
+    property.text().set(value.c_str());
 }
 
 void add_connection(pugi::xml_node list, const std::string& component, const PortPair& pair) {
@@ -124,8 +126,8 @@ std::vector<std::string> JoinFolder::write_rtc_conf(const ComponentPair& pair) c
     return left_out;
 }
 
-void JoinFolder::write_application(const ComponentPair& pair,
-                                   const std::vector<PortPair>& connections) const {
+void JoinFolder::write_application(const ComponentPair& pair, const std::vector<PortPair>& connections,
+                                   const std::set<std::string>& event_ports) const {
     copy_adaptor_profile(path_ / "opros");
     pugi::xml_document document;
     auto declaration = document.append_child(pugi::node_declaration);
@@ -134,8 +136,13 @@ void JoinFolder::write_application(const ComponentPair& pair,
     auto package = document.append_child("package_profile");
     package.append_child("name").text().set(path_.filename().c_str());
     auto subcomponents = package.append_child("subcomponents");
-    add_subcomponent(subcomponents, pair.opros.name, pair.opros.location.file.string(), "");
-    add_subcomponent(subcomponents, adaptor_name, "AdaptorComp.xml", link_);
+    add_subcomponent(subcomponents, pair.opros.name, pair.opros.location.file.string());
+    auto properties =
+        add_subcomponent(subcomponents, adaptor_name, "AdaptorComp.xml").append_child("properties");
+    add_property(properties, "link", link_);
+    std::string names;
+    for (const auto& name : event_ports) names += (names.empty() ? "" : ", ") + name;
+    if (!names.empty()) add_property(properties, "event_ports", names);
     auto list = package.append_child("port_connections");
     for (const auto& each : connections) add_connection(list, pair.opros.name, each);
     if (!document.save_file(application().c_str(), "  "))

@@ -6,6 +6,7 @@
 #include "apps/tandem/link/port_pairs.hpp"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,9 @@ class JoinFolder {
     /// Writes rtm/rtc.conf, which creates the RTC and shares its ports. Returns what it has not taken over from an
     /// rtc.conf in the folder of the RTC, a line each.
     std::vector<std::string> write_rtc_conf(const ComponentPair& pair) const;
-    /// Writes opros/AdaptorComp.xml and the application with these connections.
-    void write_application(const ComponentPair& pair, const std::vector<PortPair>& connections) const;
+    /// Writes opros/AdaptorComp.xml and the application with these connections, and these ports of the RTC as event ports.
+    void write_application(const ComponentPair& pair, const std::vector<PortPair>& connections,
+                           const std::set<std::string>& event_ports) const;
     void keep() { keep_ = true; }
 
     const std::string& link() const { return link_; }

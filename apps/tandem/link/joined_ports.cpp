@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/link/joined_ports.hpp"
 
+#include "apps/tandem/link/port_pairs.hpp"
 #include "apps/tandem/opros/partner_ports.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/shared_ports/link_ports.hpp"
@@ -9,9 +10,13 @@
 #include "host/opros/engine/profile/flatten_composites.hpp"
 
 #include <algorithm>
+#include <set>
 
 namespace tandem::command {
 namespace {
+
+constexpr std::size_t max_trials =
+    2000; // of two large components: each takes a few microseconds to milliseconds
 
 /// Fills in what is found, component by component.
 class Collector {
@@ -46,13 +51,15 @@ class Collector {
                               : entry.file;
         const auto profile = engine::read_component_profile(file);
         const auto library = engine::find_component_library(profile, dirs);
-        if (is_adaptor(library)) return add_adaptor(entry, adaptor_link(entry, profile));
+        if (is_adaptor(library))
+            return add_adaptor(entry, adaptor_link(entry, profile), adaptor_properties(entry, profile));
         engine::require_opros_component(library);
-        joined_.components[entry.name] = {entry, describe_in_child(library, file, options_)["ports"], "", "",
-                                          false};
+        joined_.components[entry.name] = {
+            entry, describe_in_child(library, file, options_)["ports"], "", "", false, {}};
     }
 
-    void add_adaptor(const engine::Subcomponent& entry, const std::string& link) {
+    void add_adaptor(const engine::Subcomponent& entry, const std::string& link,
+                     std::map<std::string, std::string> properties) {
         joined_links_.push_back(link);
         const auto shared = finder_.find(link);
         if (!shared) {
@@ -65,8 +72,12 @@ class Collector {
                                          (named.empty() ? "none" : named) + ")");
         }
         tables_[entry.name] = link::encode_as_text(shared->table);
-        joined_.components[entry.name] = {entry, describe_mirrors(shared->table), link,
-                                          shared->table.component_names(), shared->running};
+        joined_.components[entry.name] = {entry,
+                                          describe_mirrors(shared->table, event_ports(properties)),
+                                          link,
+                                          shared->table.component_names(),
+                                          shared->running,
+                                          std::move(properties)};
     }
 
     void note_links_without_adaptor() {
@@ -82,6 +93,7 @@ class Collector {
         }
     }
 
+    /// Those of the application, and those of ports that it leaves unconnected with each other.
     void try_connections() {
         std::vector<TrialConnection> trials;
         auto& errors = joined_.connection_errors;
@@ -90,6 +102,8 @@ class Collector {
             if (is_known(connection))
                 trials.push_back({connection.type, connection.source, connection.target});
         }
+        const std::size_t own = trials.size();
+        add_suggestions(trials);
         std::vector<std::string> excluded;
         for (const auto& entry : joined_.application.subcomponents)
             if (joined_.components.count(entry.name) == 0) excluded.push_back(entry.name);
@@ -97,6 +111,35 @@ class Collector {
         std::size_t next = 0;
         for (std::size_t i = 0; i < errors.size(); ++i)
             if (is_known(joined_.application.connections[i])) errors[i] = found.at(next++);
+        for (std::size_t i = own; i < trials.size(); ++i) {
+            if (!found.at(i).empty()) continue;
+            joined_.suggestions[trials[i].source.text()].push_back(trials[i].target);
+            joined_.suggestions[trials[i].target.text()].push_back(trials[i].source);
+        }
+    }
+
+    void add_suggestions(std::vector<TrialConnection>& trials) const {
+        std::set<std::string> connected;
+        for (const auto& connection : joined_.application.connections)
+            connected.insert({connection.source.text(), connection.target.text()});
+        const auto free_ports = [&](const JoinedComponent& component) {
+            nlohmann::json ports = nlohmann::json::array();
+            for (const auto& port : component.ports)
+                if (connected.count(component.entry.name + "." + port["name"].get<std::string>()) == 0)
+                    ports.push_back(port);
+            return ports;
+        };
+        for (const auto& [adaptor_name, adaptor] : joined_.components)
+            for (const auto& [name, component] : joined_.components) {
+                if (adaptor.link.empty() || !component.link.empty()) continue;
+                for (const auto& pair : possible_pairs(free_ports(component), free_ports(adaptor))) {
+                    if (trials.size() >= max_trials) return;
+                    engine::PortReference opros{name, pair.opros["name"]},
+                        rtc{adaptor_name, pair.rtc["name"]};
+                    if (!pair.from_opros()) std::swap(opros, rtc);
+                    trials.push_back({port_type(pair.opros), opros, rtc});
+                }
+            }
     }
 
     bool is_known(const engine::ConnectionProfile& connection) const {

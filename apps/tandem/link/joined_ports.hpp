@@ -21,6 +21,7 @@ struct JoinedComponent {
     std::string link;     ///< of an AdaptorComp, otherwise empty
     std::string rtc;      ///< the RTC behind it
     bool running = false; ///< an RTM host shares these ports now
+    std::map<std::string, std::string> properties{}; ///< of an AdaptorComp
     /// As the user knows the component: the RTC's name for an AdaptorComp.
     const std::string& name() const { return link.empty() ? entry.name : rtc; }
 };
@@ -29,6 +30,9 @@ struct JoinedPorts {
     engine::ApplicationProfile application;
     std::map<std::string, JoinedComponent> components; ///< by their names in the application
     std::vector<std::string> connection_errors;        ///< by connection; empty for one that can be made
+    /// Of ports that no connection names: such ports on the other side of a link that they could be connected with, by
+    /// COMPONENT.PORT of the application.
+    std::map<std::string, std::vector<engine::PortReference>> suggestions;
     std::vector<std::string> errors; ///< what keeps a component or a link from being looked at
 };
 

@@ -113,6 +113,11 @@ class Matcher {
 
 } // namespace
 
+PortType port_type(const json& port) {
+    if (port["kind"] == "data") return OPROS_DATA;
+    return port["kind"] == "event" ? OPROS_EVENT : OPROS_SERVICE;
+}
+
 std::vector<PortPair> possible_pairs(const json& opros_ports, const json& rtc_ports) {
     std::vector<PortPair> pairs;
     for (const auto& opros : opros_ports)

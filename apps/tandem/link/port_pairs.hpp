@@ -2,6 +2,8 @@
 // Which ports of an OPRoS component and of the RTC behind its AdaptorComp belong together.
 #pragma once
 
+#include <OPRoSTypes.h>
+
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -23,6 +25,9 @@ struct PortMatch {
     std::vector<PortPair> pairs;
     std::vector<std::string> left_out; ///< a line for each port without a partner, with the reason
 };
+
+/// The type that connections of the port have.
+PortType port_type(const nlohmann::json& port);
 
 /// All pairs of ports of one kind whose directions fit.
 std::vector<PortPair> possible_pairs(const nlohmann::json& opros_ports, const nlohmann::json& rtc_ports);

@@ -10,9 +10,11 @@
 #include "apps/tandem/shared_ports/rtc_conf_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"
 #include "host/opros/engine/load/plugin_dirs.hpp"
+#include "proxy/wire/signature_match.hpp"
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 
 namespace tandem::command {
 namespace {
@@ -28,14 +30,9 @@ std::string as_link_name(std::string text) {
     return text.substr(0, 60);
 }
 
-PortType port_type(const json& port) {
-    if (port["kind"] == "data") return OPROS_DATA;
-    return port["kind"] == "event" ? OPROS_EVENT : OPROS_SERVICE;
-}
-
 /// The ports of AdaptorComp: the mirrors, and its own.
-json adaptor_ports(const link::PortTable& table) {
-    json ports = describe_mirrors(table);
+json adaptor_ports(const link::PortTable& table, const std::set<std::string>& event_ports) {
+    json ports = describe_mirrors(table, event_ports);
     ports.push_back({{"name", "linkState"}, {"kind", "data"}, {"direction", "output"}, {"type", nullptr}});
     return ports;
 }
@@ -53,6 +50,38 @@ void find_errors(std::vector<PortPair>& pairs, const ComponentPair& components, 
     const auto errors =
         try_connections_in_child(trials, {}, {{adaptor_name, link::encode_as_text(table)}}, options);
     for (std::size_t i = 0; i < pairs.size(); ++i) pairs[i].error = errors.at(i);
+}
+
+/// Data ports of the RTC whose messages may be events: an id and a content.
+std::set<std::string> possible_event_ports(const link::PortTable& table) {
+    std::set<std::string> names;
+    for (const auto& port : table.ports) {
+        if (!port.has_ring() || port.is_event_in_port()) continue;
+        auto type = wire::parse_signature(port.signature);
+        if (wire::is_timed(type)) type = wire::without_time(type);
+        if (type.children.size() > 1 && type.children.front().kind == wire::Kind::string)
+            names.insert(port.name);
+    }
+    return names;
+}
+
+/// Those of them that an event port of the OPRoS component fits. The application is written so that they are event ports.
+std::set<std::string> find_event_ports(const JoinFolder& folder, const ComponentPair& components,
+                                       const json& opros_ports, const link::PortTable& table,
+                                       const InspectOptions& options) {
+    json events = json::array();
+    for (const auto& port : opros_ports)
+        if (port["kind"] == "event") events.push_back(port);
+    const auto possible = possible_event_ports(table);
+    std::set<std::string> found;
+    if (events.empty() || possible.empty()) return found;
+    folder.write_application(components, {}, possible);
+    auto pairs = possible_pairs(events, describe_mirrors(table, possible));
+    find_errors(pairs, components, table, options);
+    for (const auto& pair : pairs)
+        if (const std::string name = pair.rtc["name"]; pair.error.empty() && possible.contains(name))
+            found.insert(name);
+    return found;
 }
 
 json report(const ComponentPair& components, const JoinFolder& folder, const PortMatch& match,
@@ -99,7 +128,7 @@ int link_profile(const LinkProfileOptions& options) {
     JoinFolder folder(out, as_link_name(options.link.empty() ? components.opros.name + "-" + components.type
                                                              : options.link));
     auto notes = folder.write_rtc_conf(components);
-    folder.write_application(components, {});
+    folder.write_application(components, {}, {});
 
     RtcConfOptions conf_options;
     conf_options.timeout_s = options.timeout_s;
@@ -111,7 +140,9 @@ int link_profile(const LinkProfileOptions& options) {
     inspect.timeout_s = options.timeout_s;
     const json opros_ports =
         describe_in_child(components.library, components.opros.location.file, inspect)["ports"];
-    const json rtc_ports = adaptor_ports(table);
+    const auto event_ports = find_event_ports(folder, components, opros_ports, table, inspect);
+    folder.write_application(components, {}, event_ports);
+    const json rtc_ports = adaptor_ports(table, event_ports);
     auto pairs = possible_pairs(opros_ports, rtc_ports);
     find_errors(pairs, components, table, inspect);
     const auto match =
@@ -119,7 +150,7 @@ int link_profile(const LinkProfileOptions& options) {
     if (opros_ports.empty() && !options.initialize)
         notes.push_back(components.opros.name +
                         " has no ports before its onInitialize; --initialize runs it, in a child process");
-    folder.write_application(components, match.pairs);
+    folder.write_application(components, match.pairs, event_ports);
     folder.keep();
 
     const json result = report(components, folder, match, notes);

@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/partner_ports.hpp"
 
+#include <utility>
+
 namespace tandem::command {
 
 bool is_adaptor(const std::filesystem::path& library) { return library.stem() == "AdaptorComp"; }
 
-std::string adaptor_link(const engine::Subcomponent& entry, const engine::ComponentProfile& profile) {
-    std::string link;
+std::map<std::string, std::string> adaptor_properties(const engine::Subcomponent& entry,
+                                                      const engine::ComponentProfile& profile) {
+    std::map<std::string, std::string> all;
     // As in the host: those of the application win.
     for (const auto* properties : {&profile.properties, &entry.properties})
-        for (const auto& [name, value] : *properties)
-            if (name == "link") link = value;
+        for (const auto& [name, value] : *properties) all[name] = value;
+    return all;
+}
+
+std::set<std::string> event_ports(const std::map<std::string, std::string>& properties) {
+    const auto found = properties.find("event_ports");
+    std::set<std::string> names;
+    if (found == properties.end()) return names;
+    std::string name;
+    for (const char c : found->second + ",")
+        if (c == ',')
+            names.insert(std::exchange(name, ""));
+        else if (c != ' ' && c != '\t' && c != '\n')
+            name += c;
+    names.erase("");
+    return names;
+}
+
+std::string adaptor_link(const engine::Subcomponent& entry, const engine::ComponentProfile& profile) {
+    const std::string link = adaptor_properties(entry, profile)["link"];
     if (link.empty())
         throw engine::SetupError(entry.location, "component '" + entry.name +
                                                      "': property 'link' is missing: give it the name that "

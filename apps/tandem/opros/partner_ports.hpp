@@ -7,6 +7,8 @@
 #include "host/opros/engine/profile/component_profile.hpp"
 
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 
 namespace tandem::command {
@@ -16,5 +18,12 @@ bool is_adaptor(const std::filesystem::path& library);
 
 /// The link that an AdaptorComp of the application joins, by its properties. Throws engine::SetupError without one.
 std::string adaptor_link(const engine::Subcomponent& entry, const engine::ComponentProfile& profile);
+
+/// The properties that an AdaptorComp of the application has: those of its profile, and those of the application, which
+/// replace them.
+std::map<std::string, std::string> adaptor_properties(const engine::Subcomponent& entry,
+                                                      const engine::ComponentProfile& profile);
+/// The names in its property `event_ports`.
+std::set<std::string> event_ports(const std::map<std::string, std::string>& properties);
 
 } // namespace tandem::command

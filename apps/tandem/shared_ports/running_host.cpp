@@ -6,6 +6,14 @@
 #include "shm/inspect/observer.hpp"
 
 namespace tandem::command {
+namespace {
+
+const char* kind_of(const link::Port& port, const std::set<std::string>& event_ports) {
+    if (!link::is_data_port(port.kind)) return "service";
+    return port.is_event_in_port() || event_ports.contains(port.name) ? "event" : "data";
+}
+
+} // namespace
 
 // InterceptorComp is the second side of each link, and publishes its table when it joins.
 std::optional<link::PortTable> read_shared_ports(const std::string& link) {
@@ -17,14 +25,14 @@ std::optional<link::PortTable> read_shared_ports(const std::string& link) {
     return std::nullopt;
 }
 
-nlohmann::json describe_mirrors(const link::PortTable& table) {
+nlohmann::json describe_mirrors(const link::PortTable& table, const std::set<std::string>& event_ports) {
     using nlohmann::json;
     static constexpr const char* directions[] = {"output", "input", "provided",
                                                  "required"}; // by link::PortKind
     json ports = json::array();
     for (const auto& port : table.ports) {
         json out{{"name", port.name},
-                 {"kind", link::is_data_port(port.kind) ? "data" : "service"},
+                 {"kind", kind_of(port, event_ports)},
                  {"direction", directions[static_cast<std::size_t>(port.kind)]},
                  {"type", nullptr}};
         if (link::is_data_port(port.kind)) out["signature"] = wire::without_names(port.signature);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace tandem::command {
@@ -14,7 +15,8 @@ namespace tandem::command {
 std::optional<link::PortTable> read_shared_ports(const std::string& link);
 
 /// The mirrors of these ports as describe_component() describes ports, without types, which are compared when the ports
-/// are connected; data ports with "signature", services with the operations that are known as "methods".
-nlohmann::json describe_mirrors(const link::PortTable& table);
+/// are connected; data and event ports with "signature", services, and ports of state machines, with the operations that
+/// are known as "methods". `event_ports`: those that AdaptorComp's property of that name has.
+nlohmann::json describe_mirrors(const link::PortTable& table, const std::set<std::string>& event_ports = {});
 
 } // namespace tandem::command

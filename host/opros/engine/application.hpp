@@ -31,6 +31,8 @@ struct ApplicationOptions {
     bool strict = false;
     /// [main-thread] Called before each callback of the set-up, so that one that hangs can be named.
     std::function<void(const std::string& component, const char* callback)> on_setup_step;
+    /// [any-thread] Whether the host was asked to end, which components that wait for others want to know.
+    std::function<bool()> is_ending = [] { return false; };
     /// How long the end of the application waits for each callback that is still running.
     std::chrono::nanoseconds grace = std::chrono::seconds(10);
 };
@@ -97,7 +99,7 @@ class Application {
     // after all components.
     std::vector<std::shared_ptr<plugin::Library>> libraries_;
     std::vector<std::unique_ptr<ComponentHost>> components_; // as listed in the profile
-    ApplicationDirectory directory_{components_};
+    ApplicationDirectory directory_{components_, options_.is_ending};
     std::vector<ComponentHost*> start_order_;
     std::vector<std::unique_ptr<Connection>> connections_;
     std::vector<std::unique_ptr<Executor>> executors_;

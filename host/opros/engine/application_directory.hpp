@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -18,9 +19,11 @@ namespace tandem::engine {
 /// The directory of an application, for components that show others elsewhere. [any-thread] where nothing else is said.
 class ApplicationDirectory final : public ComponentDirectory {
   public:
-    /// The list is read at each call and must not change from the first one on.
-    explicit ApplicationDirectory(const std::vector<std::unique_ptr<ComponentHost>>& components)
-        : components_(components) {}
+    /// The list is read at each call and must not change from the first one on. `is_ending`: whether the host was asked to
+    /// end.
+    explicit ApplicationDirectory(const std::vector<std::unique_ptr<ComponentHost>>& components,
+                                  std::function<bool()> is_ending)
+        : components_(components), is_ending_(std::move(is_ending)) {}
 
     std::vector<std::string> names() const override;
     Component* find(const std::string& name) override;
@@ -29,6 +32,7 @@ class ApplicationDirectory final : public ComponentDirectory {
     bool setProperty(const std::string& component, const std::string& name,
                      const std::string& value) override;
 
+    bool isEnding() const override { return is_ending_(); }
     bool isConnected(const std::string& component, const std::string& port) const override;
     std::string connect(const std::string& owner, Port& port, const std::string& component,
                         const std::string& component_port) override;
@@ -54,6 +58,7 @@ class ApplicationDirectory final : public ComponentDirectory {
     ComponentHost* find_host(const std::string& name) const;
 
     const std::vector<std::unique_ptr<ComponentHost>>& components_;
+    const std::function<bool()> is_ending_;
     std::vector<ConnectionProfile> profile_connections_;
     std::map<Port*, std::unique_ptr<Connection>> connections_; ///< by the port of the component that asked
     std::atomic<const char*> refusal_{"the application has not started yet"}; ///< NULL: transitions are made

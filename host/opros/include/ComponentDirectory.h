@@ -31,6 +31,8 @@ class ComponentDirectory {
     /// thread that runs it. False when there is none of this name.
     virtual bool setProperty(const std::string& component, const std::string& name,
                              const std::string& value) = 0;
+    /// Whether the host was asked to end, perhaps while the application is being set up.
+    virtual bool isEnding() const = 0;
     /// Whether the application profile has a connection from that port.
     virtual bool isConnected(const std::string& component, const std::string& port) const = 0;
     /// Connects a port of the component `owner` with one of `component`, as a connection of the application profile

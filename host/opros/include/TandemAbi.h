@@ -3,7 +3,7 @@
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
-#define TANDEM_OPROS_ABI 8 // headers: 0c03366c3f6f7979
+#define TANDEM_OPROS_ABI 8 // headers: a50449567fa9c2cc
 
 // Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
 // or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.

@@ -65,6 +65,7 @@ int run(Options options) {
     options.host.on_setup_step = [&shutdown_watcher](const std::string& component, const char* callback) {
         shutdown_watcher.begin_step(component, callback);
     };
+    options.host.is_ending = shutdown_watcher.signalled();
     // After the watcher and before any component: a component may call exit() in its set-up.
     const tandem::process::ExitGuard exit_guard;
     tandem::engine::Application application(options.application, options.host);

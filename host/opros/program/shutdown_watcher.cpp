@@ -20,7 +20,7 @@ struct ShutdownWatcher::State {
     std::binary_semaphore signalled{0}, setup_finished{0};
 
     process::StepTimer timer{"the reading of profiles and loading of libraries"};
-    std::atomic<bool> setup_over{false};
+    std::atomic<bool> setup_over{false}, ending{false};
 };
 
 ShutdownWatcher::ShutdownWatcher(const sigset_t& signals, std::chrono::nanoseconds grace)
@@ -39,6 +39,7 @@ void ShutdownWatcher::watch(State& state, const sigset_t& signals, std::chrono::
     }
     if (number <= 0) sigwait(&signals, &number);
     spdlog::info("stopping on {}", strsignal(number));
+    state.ending = true;
     state.signalled.release();
     if (state.setup_finished.try_acquire_for(grace)) exit_on_second_signal(signals);
     spdlog::error("{} does not return within {} s; the host exits", state.timer.step(),
@@ -62,6 +63,10 @@ void ShutdownWatcher::exit_on_second_signal(const sigset_t& signals) {
 
 void ShutdownWatcher::begin_step(const std::string& component, const char* callback) {
     state_->timer.begin(std::string(callback) + " of component " + component);
+}
+
+std::function<bool()> ShutdownWatcher::signalled() const {
+    return [state = state_] { return state->ending.load(); };
 }
 
 void ShutdownWatcher::wait_for_signal() {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,8 @@ class ShutdownWatcher {
     void begin_step(const std::string& component, const char* callback);
     /// [main-thread] The set-up is over: waits for the signal.
     void wait_for_signal();
+    /// Returns a function that says whether a signal has come. [any-thread] both
+    std::function<bool()> signalled() const;
 
   private:
     struct State;

@@ -2,7 +2,7 @@
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
 #include "proxy/interceptor/opros/shown_type.hpp"
-#include "proxy/interceptor/rtc_port.hpp"
+#include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
 
 #include <rtm/Manager.h>

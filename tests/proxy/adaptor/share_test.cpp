@@ -80,6 +80,7 @@ class Directory : public ComponentDirectory {
         find(component)->setProperty(name, value);
         return true;
     }
+    bool isEnding() const override { return false; }
     bool isConnected(const std::string&, const std::string&) const override { return false; }
     std::string connect(const std::string&, Port&, const std::string&, const std::string&) override {
         return "this engine connects nothing";
