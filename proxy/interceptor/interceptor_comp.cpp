@@ -88,6 +88,8 @@ void InterceptorComp::share_rtc_ports() {
                                     settings_.call_timeout, [this] { publish_listened_channels(); });
     own_driver_ = std::make_unique<RtcDriver>(*this, settings_.call_timeout, [](const char*) {});
     create_mirror_ports(ports);
+    shared_ports_ = ports;
+    for (const auto& component : table.components) watch_ports(*manager.getComponent(component.name.c_str()));
     link_->open();
     spdlog::info("{}: sharing {} ports of {} on link '{}'", getInstanceName(), ports.size(),
                  table.component_names(), settings_.link);
@@ -117,13 +119,43 @@ void InterceptorComp::create_mirror_ports(const std::vector<RtcPort>& ports) {
                                   wire::first_unsupported(wire::parse_signature(port.entry.signature))));
         else
             create_service_mirror(port);
-    // A service port with several interfaces has an entry for each, but is connected once.
-    std::set<std::string> connected;
-    for (const auto& port : ports) {
-        if (port.service_port.empty() || !connected.insert(port.service_port).second) continue;
-        auto& mirror = *service_ports_.at(port.service_port);
-        addPort(mirror);
-        connect(mirror, port, mirror.getName(), {});
+    for (const auto& [name, mirror] : service_ports_) addPort(*mirror);
+    for (const auto& port : ports) connect_port(port);
+}
+
+RTC::PortBase* InterceptorComp::find_mirror(const RtcPort& port) {
+    if (!port.service_port.empty()) return service_ports_.at(port.service_port).get();
+    const auto found = data_ports_.find(port.entry.name);
+    return found == data_ports_.end() ? nullptr : found->second.get();
+}
+
+/// Connects the port with its mirror, if it has one. An EventInPort has one connection for each of its events; a service
+/// port with several interfaces has an entry for each, but is connected once.
+void InterceptorComp::connect_port(const RtcPort& port) {
+    auto* mirror = find_mirror(port);
+    if (!mirror) return;
+    const std::string& name = port.entry.name;
+    if (!port.service_port.empty()) {
+        const RTC::ConnectorProfileList_var present = mirror->get_connector_profiles();
+        if (present->length() == 0) connect(*mirror, port, mirror->getName(), {});
+        return;
+    }
+    // "flush": the RTC's write() hands the data to the buffer in its own thread.
+    const Properties properties{{"dataport.interface_type", "corba_cdr"},
+                                {"dataport.dataflow_type", "push"},
+                                {"dataport.subscription_type", "flush"},
+                                {"dataport.serializer.cdr.endian", "little"}};
+    if (!port.entry.is_event_in_port()) {
+        Properties of_data = properties;
+        of_data.emplace_back("dataport.buffer_type", LinkBuffer::factory_name);
+        of_data.emplace_back("dataport.buffer.channel", channel_key(name));
+        return connect(*mirror, port, name, of_data);
+    }
+    for (const auto& event : port.entry.operations) {
+        Properties of_event = properties;
+        of_event.emplace_back("dataport.fsm_event_name", event.name);
+        of_event.emplace_back("dataport.allow_dup_connection", "YES");
+        connect(*mirror, port, event.name, of_event);
     }
 }
 
@@ -152,41 +184,23 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
         channel.writer = &link_->writer(entry.name);
         auto mirror = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
         addInPort(entry.name.c_str(), *mirror);
-        data_ports_.push_back(std::move(mirror));
+        data_ports_[entry.name] = std::move(mirror);
     } else {
         channel.reader = &link_->reader(entry.name);
         auto mirror = std::make_unique<MirrorInPort>(entry.name.c_str(), entry.type.c_str());
         addOutPort(entry.name.c_str(), *mirror);
-        data_ports_.push_back(std::move(mirror));
+        data_ports_[entry.name] = std::move(mirror);
     }
     LinkBuffer::register_channel(key, channel);
     channel_keys_.push_back(key);
-    // "flush": the RTC's write() hands the data to the buffer in its own thread.
-    connect(*data_ports_.back(), port, entry.name,
-            {{"dataport.interface_type", "corba_cdr"},
-             {"dataport.dataflow_type", "push"},
-             {"dataport.subscription_type", "flush"},
-             {"dataport.serializer.cdr.endian", "little"},
-             {"dataport.buffer_type", LinkBuffer::factory_name},
-             {"dataport.buffer.channel", key}});
 }
-
-/// An EventInPort has one connection for each of its events.
 void InterceptorComp::create_event_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
     auto mirror = std::make_unique<MirrorEventPort>(entry, link_->reader(entry.name));
     auto& events = *mirror;
     addOutPort(entry.name.c_str(), events);
-    data_ports_.push_back(std::move(mirror));
+    data_ports_[entry.name] = std::move(mirror);
     event_ports_.push_back(entry.name);
-    for (const auto& event : entry.operations)
-        connect(events, port, event.name,
-                {{"dataport.interface_type", "corba_cdr"},
-                 {"dataport.dataflow_type", "push"},
-                 {"dataport.subscription_type", "flush"},
-                 {"dataport.serializer.cdr.endian", "little"},
-                 {"dataport.fsm_event_name", event.name},
-                 {"dataport.allow_dup_connection", "YES"}});
     link_->set_arrival_listener(entry.name, [&events] { events.deliver(); });
 }
 
@@ -221,10 +235,11 @@ void InterceptorComp::connect(RTC::PortBase& mirror, const RtcPort& port, const 
 
 void InterceptorComp::disconnect_all() {
     if (link_) link_->close(); // first: its threads use everything below
+    port_watchers_.clear();
     opros_rtcs_.reset();
     rtcs_.reset();
     own_driver_.reset();
-    for (auto& port : data_ports_) port->disconnect_all();
+    for (auto& [name, port] : data_ports_) port->disconnect_all();
     for (auto& [name, port] : service_ports_) port->disconnect_all();
     for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);
     channel_keys_.clear();

@@ -5,6 +5,7 @@
 #include "proxy/interceptor/opros/opros_rtcs.hpp"
 #include "proxy/interceptor/rtc_group.hpp"
 #include "proxy/interceptor/rtc_port.hpp"
+#include "proxy/interceptor/rtc_port_watcher.hpp"
 #include "proxy/interceptor/service/mirror_provided_port.hpp"
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/interceptor/settings.hpp"
@@ -52,6 +53,11 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     using Properties = std::vector<std::pair<const char*, std::string>>;
     void connect(RTC::PortBase& mirror, const RtcPort& port, const std::string& name,
                  const Properties& properties);
+    RTC::PortBase* find_mirror(const RtcPort& port);
+    void connect_port(const RtcPort& port);
+    void watch_ports(RTC::RTObject_impl& rtc);
+    void port_added(RTC::RTObject_impl& rtc, const std::string& name);
+    void port_removed(const std::string& component, const std::string& name);
     void drive(RTC::RTObject_impl& rtc);
     void leave_out(const std::string& reason);
     void disconnect_all();
@@ -85,7 +91,9 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::set<std::string> unreported_failures_; ///< one line each: RTCs that went to ERROR or have exited
 
     // The mirrors: created by share_rtc_ports(), then constant until disconnect_all().
-    std::vector<std::unique_ptr<RTC::PortBase>> data_ports_;
+    std::vector<RtcPort> shared_ports_;
+    std::vector<std::unique_ptr<RtcPortWatcher>> port_watchers_;
+    std::map<std::string, std::unique_ptr<RTC::PortBase>> data_ports_;
     std::map<std::string, std::unique_ptr<RTC::CorbaPort>> service_ports_;
     std::vector<std::unique_ptr<MirrorRequiredPort>> required_;
     std::vector<std::unique_ptr<MirrorProvidedPort>> provided_;

@@ -22,13 +22,6 @@ std::string property(const RTC::PortProfile& profile, const char* key) {
     return NVUtil::toString(profile.properties, key);
 }
 
-/// The port's name without the leading instance name, which RTCs put into their profile: `Rtc0.out` -> `out`.
-std::string short_name(const RTC::PortProfile& profile) {
-    const std::string full(profile.name);
-    const auto dot = full.rfind('.');
-    return dot == std::string::npos ? full : full.substr(dot + 1);
-}
-
 /// The signature of a data port's type. A reference in it would have to be kept alive by somebody: data ports carry none.
 std::string without_references(const wire::Type& type) {
     if (wire::contains(type, wire::Kind::object)) return "?{it holds an object reference}";
@@ -119,6 +112,12 @@ void make_names_unique(std::vector<RtcPort>& ports) {
 }
 
 } // namespace
+
+std::string short_name(const RTC::PortProfile& profile) {
+    const std::string full(profile.name);
+    const auto dot = full.rfind('.');
+    return dot == std::string::npos ? full : full.substr(dot + 1);
+}
 
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {
     std::vector<RtcPort> ports;

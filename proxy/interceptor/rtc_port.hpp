@@ -19,6 +19,9 @@ struct RtcPort {
     RTC::PortService_var reference;
 };
 
+/// The port's name without the leading instance name, which RTCs put into their profile: `Rtc0.out` -> `out`.
+std::string short_name(const RTC::PortProfile& profile);
+
 /// Lists the ports of an RTC. A service port with several interfaces gives one entry for each, named
 /// `port.instance`. Ports named `linkState` or `missedDeadline` are left out, because both proxies have such.
 /// A data port whose type cannot cross has link::no_signature in its entry. Throws CORBA::Exception if the RTC does

@@ -64,3 +64,25 @@ TEST_CASE("two pairs of hosts with two links each share their RTCs at the same t
     CHECK(pairs[1].stop_both());
     for (const auto& hosts : pairs) CHECK_FALSE(hosts.left_in_shared_memory());
 }
+
+TEST_CASE("a port that an RTC removes and adds again carries data again, and a new one is told") {
+    TwoHosts hosts;
+    hosts.leave_out_talker_and_rtc();
+    hosts.set_rtc("ShiftRtc");
+    hosts.add_component("Motor", "MotorComp");
+    hosts.set_connections(TwoHosts::connection("data", "Adaptor", "number", "Motor", "speed"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "Motor torque 80.")); // twice the number of the cycle
+    CHECK(hosts.says(
+        "rtm", "port 'number' of ShiftRtc0 was removed: nothing crosses there until it is added again"));
+    CHECK(hosts.says(
+        "rtm", "port 'extra' was added to ShiftRtc0 after its ports were shared and is not shared; start "
+               "the RTM host again"));
+    CHECK(hosts.says("rtm", "port 'number' of ShiftRtc0 is there again"));
+    CHECK(hosts.says("opros", "Motor torque 200."));
+    CHECK(hosts.output("opros").find("Motor torque 120.") ==
+          std::string::npos); // of a cycle without the port
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}

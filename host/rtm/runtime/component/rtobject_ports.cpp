@@ -7,6 +7,16 @@
 #include <typeinfo>
 
 namespace RTC {
+namespace {
+
+// Of an added port after it has its settings: a listener may connect it. Returns true, for its callers.
+template <class Listeners>
+bool notify(Listeners& listeners, const PortProfile& profile) {
+    listeners.forEach([&](auto& listener) { listener(profile); });
+    return true;
+}
+
+} // namespace
 
 // The caller owns the profile. Built at each call, because ports and properties change.
 ComponentProfile* RTObject_impl::get_component_profile() {
@@ -51,21 +61,22 @@ bool RTObject_impl::addNamed(const char* name, PortBase& port) {
     set_servant_owner(&port, find_servant_owner(this));
     if (m_portAdmin.addPort(port)) {
         port.setPortConnectListenerHolder(&m_portConnectListeners);
-        m_actionListeners.portaction_[0].forEach([&](auto& listener) { listener(port.getPortProfile()); });
         return true;
     }
     RTC_ERROR(("there is already a port %s; the second one is not added", name));
     return false;
 }
 
-bool RTObject_impl::addPort(PortBase& port) { return addNamed(port.getName(), port); }
+bool RTObject_impl::addPort(PortBase& port) {
+    return addNamed(port.getName(), port) && notify(m_actionListeners.portaction_[0], port.getPortProfile());
+}
 
 bool RTObject_impl::addPort(CorbaPort& port) {
     const std::string name(port.getName());
     coil::Properties& node = m_properties.getNode("port.corbaport." + name.substr(name.rfind('.') + 1));
     if (const auto* common = m_properties.findNode("port.corba")) node << *common;
     port.init(node);
-    return addNamed(name.c_str(), port);
+    return addNamed(name.c_str(), port) && notify(m_actionListeners.portaction_[0], port.getPortProfile());
 }
 
 // False: the component has a port of that name.
@@ -75,7 +86,7 @@ bool RTObject_impl::addInPort(const char* name, InPortBase& inport) {
     if (!addNamed(name, inport)) return false;
     inport.init(node);
     m_inports.push_back(&inport);
-    return true;
+    return notify(m_actionListeners.portaction_[0], inport.getPortProfile());
 }
 
 bool RTObject_impl::addOutPort(const char* name, OutPortBase& outport) {
@@ -84,12 +95,18 @@ bool RTObject_impl::addOutPort(const char* name, OutPortBase& outport) {
     if (!addNamed(name, outport)) return false;
     outport.init(node);
     m_outports.push_back(&outport);
-    return true;
+    return notify(m_actionListeners.portaction_[0], outport.getPortProfile());
 }
 
 // Ports of other components, which a composite shows as its own.
-bool RTObject_impl::addPort(PortService_ptr port) { return m_portAdmin.addPort(port); }
-bool RTObject_impl::removePort(PortService_ptr port) { return m_portAdmin.removePort(port); }
+bool RTObject_impl::addPort(PortService_ptr port) {
+    return m_portAdmin.addPort(port) &&
+           notify(m_actionListeners.portaction_[0], PortProfile_var(port->get_port_profile()).in());
+}
+bool RTObject_impl::removePort(PortService_ptr port) {
+    return m_portAdmin.removePort(port) &&
+           notify(m_actionListeners.portaction_[1], PortProfile_var(port->get_port_profile()).in());
+}
 
 bool RTObject_impl::removeInPort(InPortBase& port) {
     std::erase(m_inports, &port);
@@ -106,8 +123,7 @@ bool RTObject_impl::removePort(PortBase& port) {
     std::erase_if(m_outports, [&](OutPortBase* p) { return static_cast<PortBase*>(p) == &port; });
     if (!m_portAdmin.removePort(port)) return false;
     port.setPortConnectListenerHolder(nullptr); // the port may outlive the component
-    m_actionListeners.portaction_[1].forEach([&](auto& listener) { listener(port.getPortProfile()); });
-    return true;
+    return notify(m_actionListeners.portaction_[1], port.getPortProfile());
 }
 
 void RTObject_impl::deletePortByName(const char* port_name) {

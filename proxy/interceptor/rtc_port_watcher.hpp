@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <rtm/RTObject.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace tandem::interceptor {
+
+/// Tells of ports that are added to an RTC or removed from it.
+class RtcPortWatcher {
+  public:
+    enum class Change { added, removed };
+    /// `changed` gets the port's name without that of the RTC, in the thread that changes the ports: it must not wait.
+    RtcPortWatcher(RTC::RTObject_impl& rtc,
+                   std::function<void(const std::string& port, Change change)> changed);
+    ~RtcPortWatcher();
+    RtcPortWatcher(const RtcPortWatcher&) = delete;
+    RtcPortWatcher& operator=(const RtcPortWatcher&) = delete;
+
+  private:
+    class Listener;
+    RTC::RTObject_impl& rtc_;
+    const std::string name_;
+    std::unique_ptr<Listener> added_, removed_;
+};
+
+} // namespace tandem::interceptor
