@@ -3,6 +3,7 @@
 
 #include "proxy/adaptor/archive/device_conversions.hpp"
 #include "proxy/adaptor/archive/signature_archive.hpp"
+#include "proxy/adaptor/archive/union_cases.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type_text.hpp"
 
@@ -16,57 +17,19 @@ namespace {
 using wire::Kind;
 using wire::Type;
 
-/// The cases of the union in `type` that has most of them; 0 if it has none.
-std::size_t count_cases(const Type& type) {
-    std::size_t most = type.kind == Kind::union_type ? type.children.size() - 1 : 0;
-    for (const Type& child : type.children) most = std::max(most, count_cases(child));
-    return most;
-}
-
-/// A value of the discriminator for that case; of the default case the first that no other case has.
-std::int64_t label_of(const Type& type, const Type& chosen) {
-    if (!chosen.labels.empty()) return chosen.labels.front();
-    const auto is_taken = [&](std::int64_t value) {
-        return std::any_of(type.children.begin() + 1, type.children.end(), [&](const Type& each) {
-            return std::find(each.labels.begin(), each.labels.end(), value) != each.labels.end();
-        });
-    };
-    std::int64_t value = 0;
-    while (is_taken(value)) ++value;
-    return value;
-}
-
-/// The type with each union replaced by a structure of its discriminator and its case number `run`. `values` gets
-/// what a SignatureArchive has to give out so that load() takes that case.
-Type choose_cases(const Type& type, std::size_t run, std::vector<long long>& values) {
-    Type chosen = type;
-    if (type.kind == Kind::union_type) {
-        const Type& member = type.children[1 + run % (type.children.size() - 1)];
-        values.push_back(label_of(type, member));
-        chosen.kind = Kind::structure;
-        chosen.children = {type.children.front(), choose_cases(member, run, values)};
-        chosen.children.back().labels.clear();
-        return chosen;
-    }
-    for (Type& child : chosen.children) child = choose_cases(child, run, values);
-    // An any is asked for as a string and the octets of its value.
-    if (type.children.empty()) values.insert(values.end(), type.kind == Kind::any ? 2 : 1, 0);
-    return chosen;
-}
-
-Type load_type(const opros_any& sample, std::vector<long long> values) {
+std::string load_signature(const opros_any& sample, std::vector<long long> values) {
     SignatureArchive recorder(std::move(values));
     opros_any scratch(sample); // decode() overwrites it, and the sample belongs to the port
     scratch.decode(recorder);
-    return wire::parse_signature(recorder.signature());
+    return recorder.signature();
 }
 
 bool reads_every_case(const opros_any& sample, const Type& expected, std::size_t cases) {
     for (std::size_t run = 0; run < cases; ++run) {
         std::vector<long long> values;
-        const Type chosen = wire::parse_signature(wire::to_signature(choose_cases(expected, run, values)));
+        const Type chosen = choose_union_cases(expected, run, values);
         try {
-            if (!wire::types_fit(load_type(sample, std::move(values)), chosen)) return false;
+            if (!is_chosen_type(load_signature(sample, std::move(values)), chosen)) return false;
         } catch (const std::exception&) { // the type's own load() refuses that case
             return false;
         }
@@ -117,12 +80,12 @@ TypeCheck unconverted(const Type& own, const Type& peer, bool sends) {
 } // namespace
 
 Type type_of(const opros_any& sample, const Type& peer) {
-    if (const std::size_t cases = count_cases(peer); cases != 0) {
+    if (const std::size_t cases = count_union_cases(peer); cases != 0) {
         if (reads_every_case(sample, peer, cases)) return peer;
         if (wire::is_timed(peer))
             if (Type rest = wire::without_time(peer); reads_every_case(sample, rest, cases)) return rest;
     }
-    return load_type(sample, {});
+    return wire::parse_signature(load_signature(sample, {}));
 }
 
 TypeCheck check_type(const opros_any& sample, const link::Port& peer, bool sends,

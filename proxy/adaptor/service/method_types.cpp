@@ -2,12 +2,15 @@
 #include "proxy/adaptor/service/method_types.hpp"
 
 #include "proxy/adaptor/archive/signature_archive.hpp"
+#include "proxy/adaptor/archive/union_cases.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/type_text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
+#include <exception>
 
 namespace tandem::adaptor {
 namespace {
@@ -19,11 +22,20 @@ using wire::Type;
 /// Has a method load its types from archives that record them.
 class Recorder final : public MethodDescription {
   public:
+    Recorder() = default;
+    /// The values are given out as SignatureArchive says, to the result and to each argument.
+    Recorder(std::vector<long long> of_result, std::vector<std::vector<long long>> of_arguments)
+        : result_(std::move(of_result)), values_(std::move(of_arguments)) {}
+
     opros::archive::iarchive& result() override { return result_; }
     opros::archive::iarchive& argument(bool writable) override {
         writable_.push_back(writable);
-        return arguments_.emplace_back();
+        const std::size_t index = arguments_.size();
+        return arguments_.emplace_back(index < values_.size() ? values_[index] : std::vector<long long>());
     }
+    const std::vector<bool>& writable() const { return writable_; }
+    const std::string& result_signature() const { return result_.signature(); }
+    const std::string& argument_signature(std::size_t index) const { return arguments_[index].signature(); }
     MethodTypes types() const {
         MethodTypes types;
         if (!result_.signature().empty()) types.result = recorded_type(result_);
@@ -39,6 +51,7 @@ class Recorder final : public MethodDescription {
     }
 
     SignatureArchive result_;
+    std::vector<std::vector<long long>> values_;
     std::deque<SignatureArchive> arguments_; ///< the method has references to them
     std::vector<bool> writable_;
 };
@@ -72,6 +85,55 @@ bool returns_everything(const MethodTypes& method, const wire::Operation& operat
            types_fit(*method.result, operation.reply);
 }
 
+/// The cases of the union of the operation that has most of them; 0 if it has none.
+std::size_t count_cases(const wire::Operation& operation) {
+    std::size_t most = operation.result ? count_union_cases(*operation.result) : 0;
+    for (const auto& argument : operation.arguments) most = std::max(most, count_union_cases(argument.type));
+    return most;
+}
+
+/// Whether the method reads case number `run` of each union of the operation, and everything else.
+bool reads_cases(Method& method, const wire::Operation& operation, std::size_t run,
+                 std::vector<bool>& writable) {
+    std::vector<long long> of_result;
+    std::vector<std::vector<long long>> of_arguments;
+    std::vector<Type> chosen;
+    const auto message_of = [](const Type& type) {
+        Type message;
+        message.children.push_back(type);
+        return message;
+    };
+    const Type result =
+        operation.result ? choose_union_cases(message_of(*operation.result), run, of_result) : Type{};
+    for (const auto& argument : operation.arguments)
+        chosen.push_back(choose_union_cases(message_of(argument.type), run, of_arguments.emplace_back()));
+    Recorder recorder(std::move(of_result), std::move(of_arguments));
+    if (!method.describe(recorder)) return false;
+    writable = recorder.writable();
+    if (writable.size() != chosen.size() || !is_chosen_type(recorder.result_signature(), result))
+        return false;
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        if (!is_chosen_type(recorder.argument_signature(i), chosen[i])) return false;
+    return true;
+}
+
+/// The operation's types, if the method reads every case of its unions; nothing if not, or if there are none.
+std::optional<MethodTypes> match_unions(Method& method, const wire::Operation& operation) {
+    const std::size_t cases = count_cases(operation);
+    if (cases == 0) return std::nullopt;
+    std::vector<bool> writable;
+    try {
+        for (std::size_t run = 0; run < cases; ++run)
+            if (!reads_cases(method, operation, run, writable)) return std::nullopt;
+    } catch (const std::exception&) { // a type's own load() refuses that case
+        return std::nullopt;
+    }
+    MethodTypes types{{}, operation.result};
+    for (std::size_t i = 0; i < operation.arguments.size(); ++i)
+        types.arguments.push_back({operation.arguments[i].type, writable[i]});
+    return types;
+}
+
 } // namespace
 
 std::string MethodTypes::operation_signature() const {
@@ -81,7 +143,9 @@ std::string MethodTypes::operation_signature() const {
     return text + ":" + (result ? type_signature(*result) : "");
 }
 
-MethodTypes describe_method(Method& method) {
+MethodTypes describe_method(Method& method, const wire::Operation* expected) {
+    if (expected)
+        if (auto types = match_unions(method, *expected)) return *types;
     std::string why = "each type needs save() and load()";
     try {
         Recorder recorder;

@@ -23,8 +23,9 @@ struct MethodTypes {
     std::string operation_signature() const;
 };
 
-/// Throws wire::SignatureError, one line, when an argument or the result cannot cross a link.
-MethodTypes describe_method(Method& method);
+/// `expected`: the operation that the method stands for, if it is known, whose unions are looked for. Throws
+/// wire::SignatureError, one line, when an argument or the result cannot cross a link.
+MethodTypes describe_method(Method& method, const wire::Operation* expected = nullptr);
 
 /// Which way each argument of a method goes when it is called as an operation.
 using Directions = std::vector<wire::Direction>;

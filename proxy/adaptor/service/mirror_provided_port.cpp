@@ -35,7 +35,7 @@ MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) c
     Binding binding{name, {}, {}, true, ""};
     const auto* known = operations_.find_for_method(name);
     if (known && !known->problem.empty()) throw wire::SignatureError(known->problem);
-    const auto types = describe_method(required);
+    const auto types = describe_method(required, known ? &known->types : nullptr);
     if (known) {
         binding.operation = known->name;
         binding.types = known->types;

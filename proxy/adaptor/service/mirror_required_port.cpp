@@ -80,7 +80,7 @@ void MirrorRequiredPort::bind_method(const std::string& name, Method& method) {
     const std::string& operation = known ? known->name : name;
     if (known && !known->problem.empty()) return;
     try {
-        const auto types = describe_method(method);
+        const auto types = describe_method(method, known ? &known->types : nullptr);
         // Where the peer does not know its IDL, the methods are the only description that there is.
         Binding binding{name, known ? known->types : wire::parse_operation(types.operation_signature()), {}};
         binding.directions = match_method(types, binding.types);

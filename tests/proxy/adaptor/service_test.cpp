@@ -32,7 +32,8 @@ const link::Port arm_port{link::PortKind::service_provided,
                            {"_get_speed", ":d"},
                            {"_set_speed", "d:"},
                            {"grasp", "{how}({deep}?{an Arm::How}):i"},
-                           {"wave", "d:"}}};
+                           {"wave", "d:"},
+                           {"take", "{tool}<i;0,1={grip}d;*={name}s>>{old}<i;0,1={grip}d;*={name}s>:i"}}};
 
 struct Place {
     double x = 0, y = 0;
@@ -52,6 +53,22 @@ inline std::string typeName(Measured*) { return "Measured"; }
 inline void save_this(opros::archive::oarchive& ar, Measured& m) { ar << m.code << m.value << m.unit; }
 inline void load_this(opros::archive::iarchive& ar, Measured& m) { ar >> m.code >> m.value >> m.unit; }
 
+/// A union of IDL: a number for the kinds 0 and 1, a text for all others.
+struct Tool {
+    int kind = 0;
+    double grip = 0;
+    std::string name;
+};
+inline std::string typeName(Tool*) { return "Tool"; }
+inline void save_this(opros::archive::oarchive& ar, Tool& tool) {
+    ar << tool.kind;
+    tool.kind == 0 || tool.kind == 1 ? ar << tool.grip : ar << tool.name;
+}
+inline void load_this(opros::archive::iarchive& ar, Tool& tool) {
+    ar >> tool.kind;
+    tool.kind == 0 || tool.kind == 1 ? ar >> tool.grip : ar >> tool.name;
+}
+
 class ArmRequired : public RequiredServicePort {
   public:
     ArmRequired() {
@@ -62,7 +79,9 @@ class ArmRequired : public RequiredServicePort {
         addMethod("set_speed", makeRequiredMethod(&ArmRequired::set_speed, "set_speed"));
         addMethod("grasp", makeRequiredMethod(&ArmRequired::grasp, "grasp"));
         addMethod("wave", makeRequiredMethod(&ArmRequired::wave, "wave"));
+        addMethod("take", makeRequiredMethod(&ArmRequired::take, "take"));
     }
+    int take(Tool tool, Tool& old) { return as<int>("take")(tool, old); }
     bool move(double to, double& reached, std::vector<int>* touched) {
         return as<bool>("move")(to, reached, touched);
     }
@@ -92,7 +111,12 @@ struct Arm {
     double getSpeed() { return speed; }
     void set_speed(double value) { speed = value; }
     void wave(int) {}
+    int take(Tool tool, Tool& old) {
+        old = std::exchange(held, tool);
+        return tool.kind;
+    }
     double speed = 7;
+    Tool held{0, 1.5, ""};
 };
 
 struct ArmProvided : ProvidedServicePort {
@@ -102,6 +126,7 @@ struct ArmProvided : ProvidedServicePort {
         addMethod("getSpeed", makeProvidedMethod(&Arm::getSpeed, &arm, "getSpeed"));
         addMethod("set_speed", makeProvidedMethod(&Arm::set_speed, &arm, "set_speed"));
         addMethod("wave", makeProvidedMethod(&Arm::wave, &arm, "wave"));
+        addMethod("take", makeProvidedMethod(&Arm::take, &arm, "take"));
     }
 };
 
@@ -187,6 +212,44 @@ TEST_CASE("out and inout arguments come back written and an out argument is not 
     CHECK(touched == std::vector<int>{9, 10});
 }
 
+TEST_CASE("a union is an argument, and each of its cases comes back") {
+    constexpr const char* signature = "<i;0,1=d;*=s>><i;0,1=d;*=s>:i";
+    Scene scene("union");
+    scene.peer->on_call = [&](const link::Request& request) {
+        CHECK(request.signature == signature);
+        wire::CdrReader in(request.arguments);
+        CHECK(in.get<std::int32_t>() == 1);
+        CHECK(in.get<double>() == 0.5);
+        CHECK(in.remaining() == 0);
+        Reply reply;
+        wire::CdrWriter out(reply.bytes);
+        out.put<std::int32_t>(4);
+        out.put<std::int32_t>(9);
+        out.put_string("drill");
+        return reply;
+    };
+    Tool old;
+    CHECK(scene.required.take({1, 0.5, ""}, old) == 4);
+    CHECK((old.kind == 9 && old.name == "drill"));
+
+    adaptor::MirrorRequiredPort mirror(arm_port);
+    Arm arm;
+    ArmProvided provided(arm);
+    REQUIRE(mirror.bindProvided(&provided) == "");
+    std::vector<std::byte> arguments;
+    wire::CdrWriter out(arguments);
+    out.put<std::int32_t>(9);
+    out.put_string("drill");
+    const auto reply = mirror.serve({"arm", "take", signature, arguments});
+    REQUIRE(reply.status == CallStatus::ok);
+    wire::CdrReader in(reply.bytes);
+    CHECK(in.get<std::int32_t>() == 9);
+    CHECK(in.get<std::int32_t>() == 0);
+    CHECK(in.get<double>() == 1.5);
+    CHECK((in.ok() && in.remaining() == 0));
+    CHECK(arm.held.name == "drill");
+}
+
 TEST_CASE("a method without references gets result and out arguments as one structure") {
     Scene scene("structure");
     scene.peer->on_call = [](const link::Request&) {
@@ -269,7 +332,7 @@ TEST_CASE("the peer calls methods with out arguments, attributes and results of 
     REQUIRE(mirror.bindProvided(&provided) == "");
     std::string names;
     for (const auto& operation : mirror.operations()) names += operation.name + " ";
-    CHECK(names == "_get_speed _set_speed measure move ");
+    CHECK(names == "_get_speed _set_speed measure move take ");
 
     std::vector<std::byte> arguments;
     wire::CdrWriter out(arguments);
