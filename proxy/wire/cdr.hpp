@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/wire/spare_bytes.hpp"
+
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 // CDR, the Common Data Representation of CORBA (OMG, CORBA 3.3 part 2, section 9.3): primitives in the byte
@@ -27,19 +31,64 @@ concept CdrPrimitive = std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>;
 template <CdrPrimitive T>
 constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
-/// Writes CDR, into a span or a growing vector. Beyond the end of a span nothing is written but size() goes
+/// memcpy for what is mostly short: whole words, up to 128 bytes, are copied here, since a call takes more code than
+/// the copy, and cold code is what a message costs.
+inline void copy_block(void* to, const void* from, std::size_t bytes) {
+    constexpr std::size_t word = sizeof(std::uint64_t), two_words = 2 * word, max_short = 128;
+    if (bytes > max_short || bytes % word != 0) {
+        std::memcpy(to, from, bytes);
+        return;
+    }
+    auto* out = static_cast<std::byte*>(to);
+    const auto* in = static_cast<const std::byte*>(from);
+    for (; bytes >= two_words; bytes -= two_words, out += two_words, in += two_words) {
+        std::memcpy(out, in, two_words);
+        std::atomic_signal_fence(std::memory_order_seq_cst); // or the compiler calls memcpy for the loop
+    }
+    if (bytes != 0) std::memcpy(out, in, word);
+}
+
+/// Memory for one message while it is needed: it grows with the message, and goes back to the thread's spare memory.
+class MessageBuffer {
+  public:
+    MessageBuffer() : memory_(take_spare_bytes()) {
+        if (memory_.size() < first_bytes) memory_.resize(first_bytes);
+    }
+    ~MessageBuffer() { give_back(std::move(memory_)); }
+    MessageBuffer(const MessageBuffer&) = delete;
+    MessageBuffer& operator=(const MessageBuffer&) = delete;
+
+    std::span<std::byte> memory() { return memory_; }
+    /// Keeps what is there. For the CdrWriter that writes to it.
+    void grow(std::size_t bytes) { memory_.resize(std::max(bytes, 2 * memory_.size())); }
+
+  private:
+    static constexpr std::size_t first_bytes = 256;
+    std::vector<std::byte> memory_; ///< its size is what there is room for
+};
+
+/// Writes CDR, into a span, a buffer or a vector. Beyond the end of a span nothing is written but size() goes
 /// on counting: so a caller learns how much room a message needs, as with snprintf. [one thread]
 class CdrWriter {
   public:
-    explicit CdrWriter(std::span<std::byte> out) : out_(out) {}
-    /// Writes to the start of `out`, which grows with the message and keeps its capacity for the next one.
+    explicit CdrWriter(std::span<std::byte> out) : data_(out.data()), room_(out.size()) {}
+    /// Writes to the start of `out`; written() is the message.
+    explicit CdrWriter(MessageBuffer& out) : CdrWriter(out.memory()) { buffer_ = &out; }
+    /// The same, `out` has the length of the message at any time; for messages that are rare or long.
     explicit CdrWriter(std::vector<std::byte>& out) : vector_(&out) { out.clear(); }
 
     template <CdrPrimitive T>
     void put(T value) {
-        align(cdr_alignment<T>);
-        if (vector_ || size_ + sizeof(T) > out_.size()) return append(&value, sizeof(T));
-        std::memcpy(out_.data() + size_, &value, sizeof(T)); // of known length: one store
+        if (size_ + max_padding + std::max(sizeof(T), sizeof(std::uint64_t)) > room_) [[unlikely]]
+            return put_slowly(&value, sizeof(T), cdr_alignment<T>);
+        skip_padding(cdr_alignment<T>);
+        if constexpr (sizeof(T) < sizeof(std::uint64_t)) {
+            std::uint64_t word = 0; // one store for the value and the zeros that may have to follow it
+            std::memcpy(&word, &value, sizeof(T));
+            std::memcpy(data_ + size_, &word, sizeof word);
+        } else {
+            std::memcpy(data_ + size_, &value, sizeof(T));
+        }
         size_ += sizeof(T);
     }
     void put_bool(bool value) { put<std::uint8_t>(value ? 1 : 0); }
@@ -47,38 +96,65 @@ class CdrWriter {
     /// A CDR string: its length with the final NUL, the characters, the NUL.
     void put_string(std::string_view text) {
         put(static_cast<std::uint32_t>(text.size() + 1));
-        append(text.data(), text.size());
-        append("", 1);
+        put_block(text.data(), text.size(), 1);
+        put_block("", 1, 1);
     }
     /// Consecutive elements whose memory representation is their encoding, aligned to `alignment`.
     void put_block(const void* data, std::size_t bytes, std::size_t alignment) {
-        align(alignment);
-        append(data, bytes);
+        if (bytes > room_ || size_ + 2 * max_padding > room_ - bytes) [[unlikely]]
+            return put_slowly(data, bytes, alignment);
+        skip_padding(alignment);
+        copy_block(data_ + size_, data, bytes);
+        size_ += bytes;
+        const std::uint64_t zeros = 0;
+        std::memcpy(data_ + size_, &zeros, sizeof zeros);
     }
-    /// Pads with zeros to a multiple of `alignment` (a power of two).
-    void align(std::size_t alignment) {
-        static constexpr std::byte zeros[8]{};
-        if (const std::size_t padding = (0 - size_) & (alignment - 1)) append(zeros, padding);
-    }
+    /// Pads with zeros to a multiple of `alignment` (a power of two, 8 at most).
+    void align(std::size_t alignment) { put_slowly(nullptr, 0, alignment); }
 
     /// False if the message is longer than the span; then size() says how long it is.
-    bool fits() const { return vector_ || size_ <= out_.size(); }
+    bool fits() const { return vector_ || size_ <= room_; }
     std::size_t size() const { return size_; }
+    /// The message so far, if it fits().
+    std::span<const std::byte> written() const { return {vector_ ? vector_->data() : data_, size_}; }
 
   private:
+    static constexpr std::size_t max_padding = 8; // a word is stored
+
+    // From size_ to the next multiple of 8 there are zeros already, wherever the fast functions have written last.
+    void skip_padding(std::size_t alignment) { size_ = (size_ + alignment - 1) & ~(alignment - 1); }
+
+    /// Near the end, beyond it, or into a vector: byte by byte what the others do at once.
+    [[gnu::cold, gnu::noinline]] void put_slowly(const void* data, std::size_t bytes, std::size_t alignment) {
+        static constexpr std::byte zeros[8]{};
+        append(zeros, (0 - size_) & (alignment - 1));
+        append(data, bytes);
+    }
     void append(const void* data, std::size_t bytes) {
-        if (vector_) {
-            vector_->resize(size_ + bytes);
-            std::copy_n(static_cast<const std::byte*>(data), bytes, vector_->data() + size_);
-        } else if (bytes != 0 && size_ + bytes <= out_.size()) {
-            std::memcpy(out_.data() + size_, data, bytes);
+        if (buffer_ && size_ + bytes + 3 * max_padding > room_) {
+            buffer_->grow(size_ + bytes + 3 * max_padding);
+            data_ = buffer_->memory().data();
+            room_ = buffer_->memory().size();
         }
+        const auto* in = static_cast<const std::byte*>(data);
+        if (vector_)
+            vector_->insert(vector_->end(), in, in + bytes);
+        else if (bytes != 0 && size_ + bytes <= room_)
+            std::memcpy(data_ + size_, in, bytes);
         size_ += bytes;
+        clear_word();
+    }
+    /// For the fast functions: zeros up to the next multiple of 8.
+    void clear_word() {
+        if (vector_) return;
+        for (std::size_t at = size_; at % sizeof(std::uint64_t) != 0 && at < room_; ++at)
+            data_[at] = std::byte{0};
     }
 
-    std::span<std::byte> out_;
-    std::vector<std::byte>* vector_ = nullptr; ///< grows; if null, out_ is used
-    std::size_t size_ = 0;
+    std::byte* data_ = nullptr;
+    std::size_t room_ = 0, size_ = 0;
+    MessageBuffer* buffer_ = nullptr;          ///< grows; if null, data_ is all
+    std::vector<std::byte>* vector_ = nullptr; ///< the same, instead of data_
 };
 
 /// Reads CDR that another process wrote and that may hold anything. After the first byte that is missing or

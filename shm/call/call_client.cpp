@@ -69,8 +69,9 @@ struct CallClient::State {
 };
 
 /// ok: submitted. Anything else: `results` holds the reason, if there is more to it than the status.
-CallStatus CallClient::State::begin(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
-                                    CallTicket& ticket, std::vector<std::byte>& results) {
+[[gnu::hot]] CallStatus CallClient::State::begin(std::span<const std::byte> arguments,
+                                                 std::chrono::nanoseconds timeout, CallTicket& ticket,
+                                                 std::vector<std::byte>& results) {
     results.clear();
     if (arguments.size() > queue.view.max_bytes)
         return fail_with(CallStatus::bad_arguments,
@@ -113,7 +114,7 @@ CallStatus CallClient::State::finish(CallTicket& ticket, std::vector<std::byte>&
 }
 
 /// ok: there is a reply to take. Anything else: the slot is no longer this call's.
-CallStatus CallClient::State::await_reply(CallTicket& ticket) {
+[[gnu::hot]] CallStatus CallClient::State::await_reply(CallTicket& ticket) {
     auto& spin = spins[ticket.slot];
     const std::uint64_t deadline = ticket.deadline_ns;
     const bool polls = how.mode != WaitMode::futex;
@@ -149,7 +150,8 @@ CallStatus CallClient::State::give_up(const CallTicket& ticket, CallStatus reaso
     return caller.withdraw(ticket) ? reason : CallStatus::ok;
 }
 
-CallStatus CallClient::State::take_reply(const CallTicket& ticket, std::vector<std::byte>& results) {
+[[gnu::hot]] CallStatus CallClient::State::take_reply(const CallTicket& ticket,
+                                                      std::vector<std::byte>& results) {
     const std::uint64_t word = caller.reply(ticket);
     const auto status = static_cast<CallStatus>(tag_of(word));
     const std::uint64_t length = length_of(word);
@@ -165,7 +167,7 @@ CallStatus CallClient::State::take_reply(const CallTicket& ticket, std::vector<s
 }
 
 /// The histogram has one writer at a time: a thread that finds another one writing leaves its time out.
-void CallClient::State::measure_time(const CallTicket& ticket) {
+[[gnu::hot]] void CallClient::State::measure_time(const CallTicket& ticket) {
     if (!is_timed(ticket.word) || measuring.exchange(true, std::memory_order_acquire)) return;
     queue.times->round_trip.add(now_ns() - ticket.begun_ns);
     measuring.store(false, std::memory_order_release);
@@ -182,8 +184,9 @@ Reply CallClient::call(std::span<const std::byte> arguments, std::chrono::nanose
     return reply;
 }
 
-CallStatus CallClient::call_into(std::span<const std::byte> arguments, std::chrono::nanoseconds timeout,
-                                 std::vector<std::byte>& results) {
+[[gnu::hot]] CallStatus CallClient::call_into(std::span<const std::byte> arguments,
+                                              std::chrono::nanoseconds timeout,
+                                              std::vector<std::byte>& results) {
     CallTicket ticket;
     const CallStatus begun = state_->begin(arguments, timeout, ticket, results);
     return begun == CallStatus::ok ? state_->finish(ticket, results) : begun;

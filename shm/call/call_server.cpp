@@ -18,7 +18,7 @@ CallServer::~CallServer() { shut_down(); }
 
 CallCounters CallServer::counters() const { return read_counters(state_->queue.view); }
 
-std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
+[[gnu::hot]] std::optional<IncomingCall> CallServer::take(std::chrono::nanoseconds bound) {
     if (const auto call = state_->take(bound)) return IncomingCall(state_, *call);
     if (state_->queue.mapping->peer_state() == PeerState::dead) state_->worker.drop_submitted();
     return std::nullopt;

@@ -5,7 +5,7 @@
 
 namespace tandem::shm {
 
-std::optional<TakenCall> IncomingCall::State::take_runnable(bool& polling) {
+[[gnu::hot]] std::optional<TakenCall> IncomingCall::State::take_runnable(bool& polling) {
     for (std::uint32_t i = 0; i < queue.view.slot_count; ++i) {
         const auto call = worker.take(polling);
         if (!call) break;
@@ -23,7 +23,7 @@ std::optional<TakenCall> IncomingCall::State::take_runnable(bool& polling) {
     return std::nullopt;
 }
 
-std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds bound) {
+[[gnu::hot]] std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds bound) {
     const std::uint64_t began = now_ns(), deadline = began + bounded_ns(bound);
     const std::uint64_t spin_end = std::min(deadline, began + spin.limit_ns(max_spin_ns));
     std::uint64_t now = began; // not read again for a call that was found by polling: only learn() uses it
@@ -49,7 +49,8 @@ std::optional<TakenCall> IncomingCall::State::take(std::chrono::nanoseconds boun
     }
 }
 
-void IncomingCall::State::answer(const TakenCall& call, CallStatus status, std::span<const std::byte> bytes) {
+[[gnu::hot]] void IncomingCall::State::answer(const TakenCall& call, CallStatus status,
+                                              std::span<const std::byte> bytes) {
     // The histogram has one writer at a time: a thread that finds another one writing leaves its time out.
     if (is_timed(call.word) && !measuring.exchange(true, std::memory_order_acquire)) {
         queue.times->service.add(now_ns() - call.taken_ns);

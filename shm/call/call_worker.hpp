@@ -153,13 +153,12 @@ class CallWorker {
   private:
     static constexpr std::uint32_t no_slot = ~std::uint32_t{0};
 
-    bool is_submitted(std::uint32_t slot) const {
-        return has_state(view_.slots[slot].request.word.load(std::memory_order_seq_cst),
-                         layout::CallState::submitted);
-    }
     bool any_submitted() const {
-        for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot)
-            if (is_submitted(slot)) return true;
+        const auto* slot = view_.slots;
+        const auto* const end = slot + view_.slot_count;
+        for (; slot != end; ++slot)
+            if (has_state(slot->request.word.load(std::memory_order_seq_cst), layout::CallState::submitted))
+                return true;
         return false;
     }
 
@@ -167,13 +166,15 @@ class CallWorker {
     std::uint32_t find_oldest(std::uint64_t& word) const {
         std::uint32_t oldest = no_slot;
         std::uint64_t oldest_ns = 0;
-        for (std::uint32_t slot = 0; slot < view_.slot_count; ++slot) {
-            const auto& request = view_.slots[slot].request;
+        const auto* const slots = view_.slots;
+        const std::uint32_t count = view_.slot_count;
+        for (std::uint32_t slot = 0; slot < count; ++slot) {
+            const auto& request = slots[slot].request;
             // seq_cst: acquire, the call's arguments are there; and after close(), see CallCaller::begin().
             const std::uint64_t seen = request.word.load(std::memory_order_seq_cst);
-            if (!has_state(seen, layout::CallState::submitted) ||
-                busy_[slot].load(std::memory_order_relaxed) != 0)
+            if (!has_state(seen, layout::CallState::submitted)) [[likely]]
                 continue;
+            if (busy_[slot].load(std::memory_order_relaxed) != 0) continue;
             const std::uint64_t submitted_ns = request.submitted_ns.load(std::memory_order_relaxed);
             if (oldest != no_slot && submitted_ns >= oldest_ns) continue;
             oldest = slot;

@@ -9,7 +9,7 @@ IncomingCall::~IncomingCall() {
     if (server_) reply(CallStatus::exception, "the call was not answered");
 }
 
-void IncomingCall::reply(CallStatus status, std::span<const std::byte> bytes) {
+[[gnu::hot]] void IncomingCall::reply(CallStatus status, std::span<const std::byte> bytes) {
     if (!server_) return;
     const std::uint64_t max_bytes = server_->queue.view.max_bytes;
     if (bytes.size() > max_bytes)

@@ -34,19 +34,28 @@ struct RealAtomics {
     /// 16 bytes (loops that the compiler has vectorized): both find their bytes in one such store that is
     /// still in the store buffer. x86-64 keeps the order of loads whatever their size; the thread sanitizer
     /// knows that of atomic words only.
-    static void copy_atomic_from_shared(void* to, const Cell* from, std::size_t bytes) {
+    [[gnu::always_inline]] static void copy_atomic_from_shared(void* to, const Cell* from,
+                                                               std::size_t bytes) {
         auto* out = static_cast<std::byte*>(to);
 #ifndef __SANITIZE_THREAD__
-        for (; bytes >= sizeof(__m128i); bytes -= sizeof(__m128i), out += sizeof(__m128i), from += 2) {
-            const __m128i pair = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
-            std::atomic_signal_fence(std::memory_order_acquire);
-            _mm_storeu_si128(reinterpret_cast<__m128i*>(out), pair);
+        if (__builtin_constant_p(bytes) && bytes <= 64) { // of known length: without a loop
+#pragma GCC unroll 4
+            for (; bytes >= sizeof(__m128i); bytes -= sizeof(__m128i), out += sizeof(__m128i), from += 2)
+                copy_two_words(out, from);
         }
+        for (; bytes >= sizeof(__m128i); bytes -= sizeof(__m128i), out += sizeof(__m128i), from += 2)
+            copy_two_words(out, from);
 #endif
         copy_from_shared(out, from, bytes);
     }
-    static void copy_atomic_to_shared(Cell* to, const void* from, std::size_t bytes) {
-        copy_to_shared(to, from, bytes);
+    [[gnu::always_inline]] static void copy_atomic_to_shared(Cell* to, const void* from, std::size_t bytes) {
+        const auto* in = static_cast<const std::byte*>(from);
+        if (__builtin_constant_p(bytes) && bytes <= 64) {
+#pragma GCC unroll 8
+            for (; bytes >= word_bytes; bytes -= word_bytes, in += word_bytes, ++to)
+                copy_to_shared(to, in, word_bytes);
+        }
+        copy_to_shared(to, in, bytes);
     }
 
     /// Requests a cell's cache line without waiting for it.
@@ -68,6 +77,15 @@ struct RealAtomics {
     static void futex_wait(Atomic<std::uint32_t>& word, std::uint32_t expected, std::uint64_t deadline);
     /// Wakes up to `max_sleepers` threads that sleep on `word`.
     static void futex_wake(Atomic<std::uint32_t>& word, int max_sleepers);
+
+  private:
+#ifndef __SANITIZE_THREAD__
+    static void copy_two_words(std::byte* to, const Cell* from) {
+        const __m128i pair = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+        std::atomic_signal_fence(std::memory_order_acquire);
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(to), pair);
+    }
+#endif
 };
 
 } // namespace tandem::shm

@@ -25,6 +25,7 @@ struct Record {
     std::span<const std::byte> bytes; ///< 8-aligned
     std::uint64_t sequence;           ///< 1, 2, 3 ...; a gap is a drop after acceptance
     std::uint64_t stamp_ns;
+    std::byte* front; ///< payload_front bytes before `bytes` that the user may overwrite; nullptr: in a chunk
 };
 
 /// [one thread] On cache lines of its own, like RingProducer.
@@ -57,11 +58,14 @@ class alignas(layout::line_pair) RingConsumer {
     std::optional<Record> read_slowly(bool newest);
     std::optional<Record> stop_at(std::uint64_t tail);
     bool copy_payload(const ParsedRecord& parsed);
+    std::byte* front() { return reinterpret_cast<std::byte*>(scratch_.get()); }
+    std::uint64_t* payload() { return scratch_.get() + payload_front / word_bytes; }
     std::uint64_t full_sequence(const ParsedRecord& parsed, std::uint64_t tail) const;
     bool move_tail(std::uint64_t& from, std::uint64_t to);
     bool take(const ParsedRecord& parsed, std::uint64_t tail, std::uint64_t& skipped);
     Record deliver(const ParsedRecord& parsed, std::uint64_t sequence, std::uint64_t skipped);
     void count(std::uint64_t sequence, std::uint64_t bytes);
+    void measure_age(std::uint64_t sequence);
 
     // How often the writer may overtake one read. Each time it has published a whole ring's worth of records
     // in the time of one copy.
@@ -77,8 +81,9 @@ class alignas(layout::line_pair) RingConsumer {
     std::uint64_t received_, bytes_;
     mutable ReaderBackoff<A> backoff_;
     ChunkLease<A> lease_;
-    std::unique_ptr<std::uint64_t[]> scratch_; // takes no memory before it is used
-    std::uint64_t skipped_;                    // from here on rarely needed
+    // Front and payload of the last record; takes no memory before it is used.
+    std::unique_ptr<std::uint64_t[]> scratch_;
+    std::uint64_t skipped_; // from here on rarely needed
     std::uint64_t stamp_ = 0;
     ChunkReference reference_{};
 };
@@ -86,7 +91,8 @@ class alignas(layout::line_pair) RingConsumer {
 template <class A>
 RingConsumer<A>::RingConsumer(const RingView<A>& ring)
     : ring_(ring), scratch_(std::make_unique_for_overwrite<std::uint64_t[]>(
-                       std::max(round_up(ring.max_record, word_bytes), first_line_payload) / word_bytes)) {
+                       (payload_front + std::max(round_up(ring.max_record, word_bytes), first_line_payload)) /
+                       word_bytes)) {
     auto& shared = *ring_.shared;
     position_ = shared.tail.load(std::memory_order_acquire);
     received_ = shared.received.load(std::memory_order_relaxed);
@@ -115,7 +121,7 @@ inline bool RingConsumer<A>::nothing_new() const {
 /// `word`: the commit word of the next record. The usual case in a few instructions: the next record in sequence,
 /// in the ring itself. Everything else takes read_slowly().
 template <class A>
-inline std::optional<Record> RingConsumer<A>::read_next(std::uint64_t word, bool newest) {
+[[gnu::hot]] inline std::optional<Record> RingConsumer<A>::read_next(std::uint64_t word, bool newest) {
     const std::uint64_t wanted = CommitWord::pack(layout::RecordKind::data, 0, sequence_ + 1);
     const std::uint64_t length = CommitWord::unpack(word).length;
     if (((word ^ wanted) & CommitWord::kind_and_sequence) != 0 || length > ring_.max_record ||
@@ -125,15 +131,15 @@ inline std::optional<Record> RingConsumer<A>::read_next(std::uint64_t word, bool
     if (newest && A::load(*ring_.cell(end), std::memory_order_acquire) != 0) return read_slowly(newest);
     // Always the whole first line: a copy of fixed length is quicker, and scratch_ has room for it.
     const auto* cells = ring_.cell(position_);
-    A::copy_atomic_from_shared(scratch_.get(), cells + 2, first_line_payload);
+    A::copy_atomic_from_shared(payload(), cells + 2, first_line_payload);
     if (length > first_line_payload)
-        A::copy_atomic_from_shared(scratch_.get() + first_line_payload / word_bytes, cells + 8,
+        A::copy_atomic_from_shared(payload() + first_line_payload / word_bytes, cells + 8,
                                    length - first_line_payload);
     const std::uint64_t stamp = A::load(*(cells + 1), std::memory_order_acquire);
     std::uint64_t from = position_;
     if (!move_tail(from, end)) return read_slowly(newest);
     count(sequence_ + 1, length);
-    return Record{{reinterpret_cast<const std::byte*>(scratch_.get()), length}, sequence_, stamp};
+    return Record{{front() + payload_front, length}, sequence_, stamp, front()};
 }
 
 template <class A>
@@ -177,10 +183,9 @@ std::optional<Record> RingConsumer<A>::stop_at(std::uint64_t tail) {
 /// Copies the payload, or the reference to a chunk, and the stamp. False: the chunk is none of this ring's.
 template <class A>
 bool RingConsumer<A>::copy_payload(const ParsedRecord& parsed) {
-    const auto* payload = ring_.cell(parsed.start + layout::record_header);
     const bool in_chunk = parsed.commit.kind == layout::RecordKind::chunk;
-    void* to = in_chunk ? static_cast<void*>(&reference_) : scratch_.get();
-    A::copy_atomic_from_shared(to, payload, parsed.commit.length);
+    void* to = in_chunk ? static_cast<void*>(&reference_) : payload();
+    A::copy_atomic_from_shared(to, ring_.cell(parsed.start + layout::record_header), parsed.commit.length);
     stamp_ = A::load(*ring_.cell(parsed.start + word_bytes), std::memory_order_acquire);
     return !in_chunk || (reference_.chunk < ring_.chunk_count && reference_.bytes <= ring_.chunk_bytes);
 }
@@ -224,13 +229,13 @@ Record RingConsumer<A>::deliver(const ParsedRecord& parsed, std::uint64_t sequen
     const bool in_chunk = parsed.commit.kind == layout::RecordKind::chunk;
     if (skipped != 0) ChunkLease<A>::give_back_skipped(ring_, sequence);
     if (in_chunk) lease_.take(ring_, reference_.chunk, sequence);
-    const std::byte* bytes = in_chunk ? ring_.chunk(static_cast<std::uint32_t>(reference_.chunk))
-                                      : reinterpret_cast<const std::byte*>(scratch_.get());
+    const std::byte* bytes =
+        in_chunk ? ring_.chunk(static_cast<std::uint32_t>(reference_.chunk)) : front() + payload_front;
     const std::size_t length = in_chunk ? reference_.bytes : parsed.commit.length;
     skipped_ += skipped;
     ring_.shared->skipped.store(skipped_, std::memory_order_relaxed);
     count(sequence, length);
-    return {{bytes, length}, sequence, stamp_};
+    return {{bytes, length}, sequence, stamp_, in_chunk ? nullptr : front()};
 }
 
 /// Counts a record that was taken, and measures the age of every 64th.
@@ -241,7 +246,11 @@ inline void RingConsumer<A>::count(std::uint64_t sequence, std::uint64_t bytes) 
     in_sequence_ = true;
     ring_.shared->received.store(++received_, std::memory_order_relaxed);
     ring_.shared->bytes_received.store(bytes_ += bytes, std::memory_order_relaxed);
-    if (sequence % AgeSample::interval != 0) return;
+    if (sequence % AgeSample::interval == 0) measure_age(sequence);
+}
+
+template <class A>
+[[gnu::cold, gnu::noinline]] void RingConsumer<A>::measure_age(std::uint64_t sequence) {
     const std::uint64_t sample = ring_.shared->sample.load(std::memory_order_relaxed);
     if (AgeSample::belongs_to(sample, sequence)) ring_.shared->age.add(AgeSample::age(sample, A::now()));
 }

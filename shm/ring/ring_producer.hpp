@@ -83,9 +83,12 @@ class alignas(layout::line_pair) RingProducer {
     bool drop_until_fits(std::uint64_t room);
     bool fail();
     bool claim_chunk(std::uint64_t bytes);
+    bool fits_behind_last(std::size_t bytes) const;
     bool write_slowly(const void* bytes, std::size_t count, std::uint64_t stamp);
+    static void copy_payload(typename A::Cell* to, const void* payload, std::size_t used);
+    void sample_age();
     void clear_commit_word(std::uint64_t position);
-    void prepare_next(std::uint64_t record);
+    void prepare_next(std::uint64_t head, std::uint64_t record);
     void publish(layout::RecordKind kind, const void* payload, std::uint64_t padding, std::size_t used,
                  std::uint64_t stamp);
 
@@ -228,47 +231,67 @@ inline void RingProducer<A>::clear_commit_word(std::uint64_t position) {
 /// Clears the commit word behind the next record already now, as if that will be as long as the last one: so
 /// this store, and the transfer of its line, do not delay the next record.
 template <class A>
-inline void RingProducer<A>::prepare_next(std::uint64_t record) {
-    if (record <= ring_.bytes_to_end(head_) && head_ + record + layout::line - tail_ <= ring_.capacity)
-        clear_commit_word(head_ + record);
+inline void RingProducer<A>::prepare_next(std::uint64_t head, std::uint64_t record) {
+    if (record <= ring_.bytes_to_end(head) && head + record + layout::line - tail_ <= ring_.capacity)
+        clear_commit_word(head + record);
+}
+
+/// What lies in the line of the commit word is copied without a loop where it is full: half of the instructions.
+template <class A>
+inline void RingProducer<A>::copy_payload(typename A::Cell* to, const void* payload, std::size_t used) {
+    constexpr std::size_t first_line = layout::line - layout::record_header;
+    if (used < first_line) return A::copy_atomic_to_shared(to, payload, used);
+    A::copy_atomic_to_shared(to, payload, first_line);
+    if (used > first_line)
+        A::copy_atomic_to_shared(to + first_line / word_bytes,
+                                 static_cast<const std::byte*>(payload) + first_line, used - first_line);
+}
+
+template <class A>
+[[gnu::cold, gnu::noinline]] void RingProducer<A>::sample_age() {
+    ring_.shared->sample.store(AgeSample::pack(sequence_, A::now()), std::memory_order_relaxed);
 }
 
 template <class A>
 inline void RingProducer<A>::publish(layout::RecordKind kind, const void* payload, std::uint64_t padding,
                                      std::size_t used, std::uint64_t stamp) {
-    const std::uint64_t start = head_ + padding;
-    const std::uint64_t end = start + record_size(used);
+    const std::uint64_t start = head_ + padding, record = record_size(used), end = start + record;
+    auto* const cells = ring_.cell(start); // the record is contiguous
     clear_commit_word(end);
-    A::copy_atomic_to_shared(ring_.cell(start + layout::record_header), payload, used);
-    ++sequence_;
-    if (sequence_ % AgeSample::interval == 0)
-        ring_.shared->sample.store(AgeSample::pack(sequence_, A::now()), std::memory_order_relaxed);
-    A::store(*ring_.cell(start + word_bytes), stamp, std::memory_order_release);
-    A::store(*ring_.cell(start), CommitWord::pack(kind, used, sequence_), std::memory_order_release);
+    copy_payload(cells + layout::record_header / word_bytes, payload, used);
+    const std::uint64_t sequence = ++sequence_;
+    if (sequence % AgeSample::interval == 0) sample_age();
+    A::store(cells[1], stamp, std::memory_order_release);
+    A::store(cells[0], CommitWord::pack(kind, used, sequence), std::memory_order_release);
     if (padding != 0)
-        A::store(*ring_.cell(head_), CommitWord::pack(layout::RecordKind::padding, 0, sequence_),
+        A::store(*ring_.cell(head_), CommitWord::pack(layout::RecordKind::padding, 0, sequence),
                  std::memory_order_release);
     head_ = end;
     auto& shared = *ring_.shared;
     shared.head.store(end, std::memory_order_release);
     shared.newest.store(start, std::memory_order_release);
-    shared.published.store(sequence_, std::memory_order_relaxed);
+    shared.published.store(sequence, std::memory_order_relaxed);
     shared.sent.store(++sent_, std::memory_order_relaxed);
     shared.bytes_sent.store(bytes_ += used, std::memory_order_relaxed);
-    prepare_next(record_size(used));
+    prepare_next(end, record);
+}
+
+/// Whether a record with that payload needs no padding, and no look at the tail.
+template <class A>
+inline bool RingProducer<A>::fits_behind_last(std::size_t bytes) const {
+    const std::uint64_t record = record_size(bytes);
+    return bytes <= ring_.max_record && record <= ring_.bytes_to_end(head_) &&
+           head_ + record + layout::line - tail_ <= ring_.capacity && !corrupt_;
 }
 
 /// The usual case without the detours of reserve() and commit(): the record fits behind the last one.
 template <class A>
 inline bool RingProducer<A>::write(const void* bytes, std::size_t count, std::uint64_t stamp) {
-    const std::uint64_t record = record_size(count);
-    if (count <= ring_.max_record && record <= ring_.bytes_to_end(head_) &&
-        head_ + record + layout::line - tail_ <= ring_.capacity && !corrupt_) {
-        reservation_ = Reservation::refused;
-        publish(layout::RecordKind::data, bytes, 0, count, stamp);
-        return true;
-    }
-    return write_slowly(bytes, count, stamp);
+    if (!fits_behind_last(count)) [[unlikely]]
+        return write_slowly(bytes, count, stamp);
+    reservation_ = Reservation::refused;
+    publish(layout::RecordKind::data, bytes, 0, count, stamp);
+    return true;
 }
 
 template <class A>

@@ -41,6 +41,9 @@ constexpr std::uint64_t record_size(std::uint64_t payload_bytes) {
     return (layout::record_header + payload_bytes + layout::line - 1) & ~std::uint64_t{layout::line - 1};
 }
 
+/// Bytes of private memory in front of a payload that lies in no chunk: for what its user puts before it.
+constexpr std::size_t payload_front = word_bytes;
+
 constexpr std::uint64_t max_payload_in_ring = std::uint64_t{1} << 29; ///< the length field has 30 bits
 
 /// The first word of a record, taken apart. layout.hpp has the format.

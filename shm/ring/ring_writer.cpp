@@ -14,8 +14,8 @@ namespace {
 
 /// Not filled, so that it takes no memory before it is used.
 std::unique_ptr<std::uint64_t[]> scratch_for(const RingView<RealAtomics>& ring) {
-    const std::size_t words = round_up(ring.max_record, word_bytes) / word_bytes;
-    return std::make_unique_for_overwrite<std::uint64_t[]>(std::max<std::size_t>(words, 1));
+    const std::size_t bytes = payload_front + round_up(ring.max_record, word_bytes);
+    return std::make_unique_for_overwrite<std::uint64_t[]>(bytes / word_bytes);
 }
 
 } // namespace
@@ -47,7 +47,7 @@ std::span<std::byte> RingWriter::reserve(std::size_t bytes) {
     case Reservation::chunk:
         return {producer_.chunk(), bytes};
     case Reservation::scratch:
-        return {reinterpret_cast<std::byte*>(scratch_.get()), bytes};
+        return scratch().first(bytes);
     case Reservation::refused:
         break;
     }
@@ -57,7 +57,7 @@ std::span<std::byte> RingWriter::reserve(std::size_t bytes) {
 bool RingWriter::commit(std::size_t used, std::uint64_t stamp_ns) {
     if (!producer_.is_open() || used > producer_.reserved_bytes())
         throw std::logic_error("RingWriter::commit: more than was reserved");
-    return producer_.commit(scratch_.get(), used, stamp_ns);
+    return producer_.commit(scratch().data(), used, stamp_ns);
 }
 
 } // namespace tandem::shm

@@ -31,6 +31,11 @@ class RingWriter {
     bool drop_oldest() { return producer_.drop_one(); }
     void refuse() { producer_.refuse(); } ///< Counts a message that could not be made, as sent and dropped.
 
+    /// Where a message of up to max_record() bytes may be made for write(), 8-aligned. The payload_front bytes in front
+    /// of it may be overwritten, too.
+    std::span<std::byte> scratch() {
+        return {reinterpret_cast<std::byte*>(scratch_.get()) + payload_front, ring_.view.max_record};
+    }
     /// reserve(), copy, commit(). False: dropped.
     bool write(std::span<const std::byte> bytes, std::uint64_t stamp_ns) {
         if (!has_memory_ && !take_memory()) return producer_.refuse();

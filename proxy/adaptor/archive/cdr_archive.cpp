@@ -84,11 +84,11 @@ bool CdrIarchive::load_time_word(T& value) {
 }
 
 #define TANDEM_SAVE(type)                                                                                    \
-    oarchive& CdrOarchive::save(type value) {                                                                \
+    [[gnu::hot]] oarchive& CdrOarchive::save(type value) {                                                   \
         if (!store_time_word(value)) put(out_, value);                                                       \
         return *this;                                                                                        \
     }                                                                                                        \
-    oarchive& CdrOarchive::save_array(const type* p, long size) {                                            \
+    [[gnu::hot]] oarchive& CdrOarchive::save_array(const type* p, long size) {                               \
         put_all(out_, p, size);                                                                              \
         return *this;                                                                                        \
     }
@@ -114,23 +114,23 @@ oarchive& CdrOarchive::save_binary(const char* p, long size) {
     return *this;
 }
 
-oarchive& CdrOarchive::write_sequence_head(std::size_t count) {
+[[gnu::hot]] oarchive& CdrOarchive::write_sequence_head(std::size_t count) {
     out_.put(static_cast<std::uint32_t>(count));
     return *this;
 }
 
-void CdrIarchive::check() const {
+[[gnu::hot]] void CdrIarchive::check() const {
     if (!in_.ok()) throw archive_type_exception();
 }
 
 #define TANDEM_LOAD(type)                                                                                    \
-    iarchive& CdrIarchive::load(type& value) {                                                               \
+    [[gnu::hot]] iarchive& CdrIarchive::load(type& value) {                                                  \
         if (load_time_word(value)) return *this;                                                             \
         get(in_, value);                                                                                     \
         check();                                                                                             \
         return *this;                                                                                        \
     }                                                                                                        \
-    iarchive& CdrIarchive::load_array(type* p, long size) {                                                  \
+    [[gnu::hot]] iarchive& CdrIarchive::load_array(type* p, long size) {                                     \
         get_all(in_, p, size);                                                                               \
         check();                                                                                             \
         return *this;                                                                                        \
@@ -164,7 +164,7 @@ iarchive& CdrIarchive::load_binary(char** p, long& size) {
     return *this;
 }
 
-std::size_t CdrIarchive::read_sequence_head() {
+[[gnu::hot]] std::size_t CdrIarchive::read_sequence_head() {
     const auto count = in_.get_count(1); // an element takes a byte at least
     check();
     return count;

@@ -25,7 +25,7 @@ bool MirrorInPort::checkType(opros_any& sample) {
 }
 
 /// Asked by name only where ports of several types push here: a name costs an allocation.
-MirrorInPort::Encoding* MirrorInPort::find_encoding(const opros_any& value) {
+[[gnu::hot]] MirrorInPort::Encoding* MirrorInPort::find_encoding(const opros_any& value) {
     if (encodings_.size() == 1) return &encodings_.front();
     const std::string type = value.type();
     const auto at = std::find_if(encodings_.begin(), encodings_.end(),
@@ -33,7 +33,7 @@ MirrorInPort::Encoding* MirrorInPort::find_encoding(const opros_any& value) {
     return at == encodings_.end() ? nullptr : &*at;
 }
 
-ReturnType MirrorInPort::push(opros_any& value) {
+[[gnu::hot]] ReturnType MirrorInPort::push(opros_any& value) {
     Encoding* const encoding = find_encoding(value);
     if (!encoding) return OPROS_BAD_INPUT_PARAMETER;
     TypeCheck& check = encoding->check;

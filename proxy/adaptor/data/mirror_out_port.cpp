@@ -66,7 +66,6 @@ void MirrorOutPort::remove(std::size_t index) {
 
 void MirrorOutPort::keep_for_others(const OutTap& reader, std::span<const std::byte> bytes,
                                     std::uint64_t stamp) {
-    if (taps_.size() == 1) return;
     for (auto& tap : taps_)
         if (tap.get() != &reader) tap->keep(bytes, stamp);
 }

@@ -49,6 +49,7 @@ class MirrorOutPort final : public OutputDataPortInterface, private DataPortList
     // For the taps.
     const link::Port& peer() const { return peer_; }
     link::ChannelReader& channel() { return channel_; }
+    bool has_other_targets() const { return taps_.size() > 1; } ///< with the channel's lock held
     /// Copies a message for all targets but one. With the channel's lock held.
     void keep_for_others(const OutTap& reader, std::span<const std::byte> bytes, std::uint64_t stamp);
     void set_listener(OutTap& tap, DataPortListener* listener);

@@ -31,11 +31,11 @@ void OutTap::keep(std::span<const std::byte> bytes, std::uint64_t stamp) {
     slot.stamp = stamp;
 }
 
-opros::archive::iarchive* OutTap::next() {
+[[gnu::hot]] opros::archive::iarchive* OutTap::next() {
     // Held until done(): a rebind or another read would free the memory of the message.
     channel_lock_ = port_.channel().lock();
     for (;;) {
-        if (kept_count_ > 0) {
+        if (kept_count_ > 0) [[unlikely]] {
             const KeptMessage& oldest = kept_[first_kept_];
             first_kept_ = (first_kept_ + 1) % max_kept;
             --kept_count_;
@@ -47,15 +47,15 @@ opros::archive::iarchive* OutTap::next() {
             channel_lock_.unlock();
             return nullptr;
         }
-        port_.keep_for_others(*this, record->bytes, record->stamp_ns);
+        if (port_.has_other_targets()) port_.keep_for_others(*this, record->bytes, record->stamp_ns);
         if (auto* archive = open(record->bytes, record->stamp_ns)) return archive;
     }
 }
 
 /// nullptr for a message that cannot be converted; it is dropped.
-opros::archive::iarchive* OutTap::open(std::span<const std::byte> bytes, std::uint64_t stamp) {
+[[gnu::hot]] opros::archive::iarchive* OutTap::open(std::span<const std::byte> bytes, std::uint64_t stamp) {
     message_bytes_ = bytes.size();
-    if (check_.conversion) {
+    if (check_.conversion) [[unlikely]] {
         wire::CdrWriter out(converted_);
         if (!check_.conversion->run(wire::CdrReader(bytes), out)) {
             undecodable(check_.conversion->error());
@@ -69,7 +69,7 @@ opros::archive::iarchive* OutTap::open(std::span<const std::byte> bytes, std::ui
     return check_.value_has_time ? &archive_.emplace(reader, stamp) : &archive_.emplace(reader);
 }
 
-void OutTap::done() {
+[[gnu::hot]] void OutTap::done() {
     archive_.reset();
     channel_lock_.unlock();
 }

@@ -14,7 +14,19 @@ namespace tandem::link {
 
 // ---- ChannelWriter; the private functions are called with mutex_ held
 
-bool ChannelWriter::publish(std::span<const std::byte> message, std::uint64_t stamp) {
+bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint64_t stamp) {
+    if (asks_policy() && !follow_policy(message, stamp)) {
+        bound_->ring.cancel_reservation();
+        return false;
+    }
+    if (!bound_->ring.commit(message.size(), stamp)) return report_damage();
+    if (room_ != 0) --room_;
+    notify_peer();
+    return true;
+}
+
+/// Keeps the message and waits for room, as the policy asks. False: there was none, and the message is dropped.
+bool ChannelWriter::follow_policy(std::span<const std::byte> message, std::uint64_t stamp) {
     if (policy_.keep_last) {
         last_.assign(message.begin(), message.end());
         last_stamp_ = stamp;
@@ -22,10 +34,6 @@ bool ChannelWriter::publish(std::span<const std::byte> message, std::uint64_t st
     }
     if ((policy_.wait.count() != 0 || policy_.length != 0) && !make_room(message.size()))
         return report_damage();
-    if (!bound_->ring.commit(message.size(), stamp)) return report_damage();
-    if (room_ != 0) --room_;
-    // After the commit, so that whoever the doorbell wakes finds the message.
-    if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
     return true;
 }
 
@@ -52,7 +60,6 @@ bool ChannelWriter::is_below_length() {
 
 /// Always returns false.
 bool ChannelWriter::drop_for_room(const std::string& why) {
-    bound_->ring.cancel_reservation();
     bound_->ring.refuse();
     if (no_room_.should_log())
         spdlog::warn("port '{}': the reader is too slow: a message {} and is dropped, {} so far", port_, why,
@@ -75,6 +82,7 @@ bool ChannelWriter::wait_for_room(std::size_t bytes) {
 void ChannelWriter::set_policy(const PortPolicy& policy) {
     const std::lock_guard lock(mutex_);
     policy_ = policy;
+    has_policy_ = policy.keep_last || policy.wait.count() != 0;
 }
 
 /// To a peer that has come after the message was sent.
@@ -175,7 +183,7 @@ bool ChannelReader::corrupt() const {
     return bound_ && bound_->ring.corrupt();
 }
 
-bool ChannelReader::empty() const {
+[[gnu::hot]] bool ChannelReader::empty() const {
     const std::lock_guard lock(mutex_);
     return !bound_ || bound_->ring.empty();
 }

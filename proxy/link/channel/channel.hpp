@@ -46,17 +46,17 @@ class ChannelWriter {
     bool write(const std::uint64_t& stamp, Encode&& encode) {
         const std::lock_guard lock(mutex_);
         if (!bound_) return false;
-        std::size_t bytes = bound_->ring.max_record();
-        for (int attempt = 0; attempt < 2; ++attempt) {
-            const auto room = bound_->ring.reserve(bytes);
-            if (room.data() == nullptr) return report_refusal(bytes);
+        std::size_t bytes = 0;
+        const auto encode_into = [&](std::span<std::byte> room) -> std::optional<std::size_t> {
             wire::CdrWriter writer(room);
             encode(writer);
-            if (writer.fits()) return publish(room.first(writer.size()), stamp);
-            bound_->ring.cancel_reservation();
             bytes = writer.size();
-        }
-        return false; // encode wrote more the second time: the value was changed meanwhile
+            // The second time: the value was changed meanwhile and takes more than the first time.
+            return writer.fits() ? std::optional(bytes) : std::nullopt;
+        };
+        const std::size_t longest = bound_->ring.max_record();
+        return write_in_record(longest, stamp, encode_into) ||
+               (bytes > longest && write_in_chunk(bytes, stamp, encode_into));
     }
 
     /// The same for a message of known length; `fill(std::span<std::byte>)` returns false to send nothing after all.
@@ -64,25 +64,19 @@ class ChannelWriter {
     bool write_sized(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
         if (!bound_) return false;
-        const auto room = bound_->ring.reserve(bytes);
-        if (room.data() == nullptr) return report_refusal(bytes);
-        if (fill(room)) return publish(room.first(bytes), stamp);
-        bound_->ring.cancel_reservation();
-        return false;
+        const auto fill_all = [&](std::span<std::byte> room) {
+            return fill(room) ? std::optional(bytes) : std::nullopt;
+        };
+        return bytes <= bound_->ring.max_record() ? write_in_record(bytes, stamp, fill_all)
+                                                  : write_in_chunk(bytes, stamp, fill_all);
     }
 
     /// The same for a message whose length shows when it is encoded: `fill(room)` returns it, or nothing if a record
-    /// of the ring is too short for it.
+    /// of the ring is too short for it. The shm::payload_front bytes in front of `room` may be overwritten.
     template <class Fill>
     bool write_record(const std::uint64_t& stamp, Fill&& fill) {
         const std::lock_guard lock(mutex_);
-        if (!bound_) return false;
-        const std::size_t longest = bound_->ring.max_record();
-        const auto room = bound_->ring.reserve(longest);
-        if (room.data() == nullptr) return report_refusal(longest);
-        if (const std::optional<std::size_t> bytes = fill(room)) return publish(room.first(*bytes), stamp);
-        bound_->ring.cancel_reservation();
-        return false;
+        return bound_ && write_in_record(bound_->ring.max_record(), stamp, fill);
     }
 
     /// Counts a message that was written after a conversion.
@@ -108,7 +102,36 @@ class ChannelWriter {
     std::uint64_t unbind();
 
   private:
-    bool publish(std::span<const std::byte> message, std::uint64_t stamp);
+    // With mutex_ held, and bound. `fill(room)` returns how much of `bytes` bytes it has used, or nothing: then nothing
+    // is sent.
+    template <class Fill>
+    [[gnu::always_inline]] bool write_in_record(std::size_t bytes, const std::uint64_t& stamp, Fill&& fill) {
+        shm::RingWriter& ring = bound_->ring;
+        const auto room = ring.scratch().first(bytes);
+        const std::optional<std::size_t> used = fill(room);
+        if (!used) return false;
+        if (asks_policy() && !follow_policy(room.first(*used), stamp)) [[unlikely]]
+            return false;
+        if (!ring.write(room.first(*used), stamp)) [[unlikely]]
+            return report_refusal(*used);
+        if (room_ != 0) --room_;
+        notify_peer();
+        return true;
+    }
+    template <class Fill>
+    [[gnu::cold, gnu::noinline]] bool write_in_chunk(std::size_t bytes, const std::uint64_t& stamp,
+                                                     Fill&& fill) {
+        shm::RingWriter& ring = bound_->ring;
+        const auto room = ring.reserve(bytes);
+        if (room.data() == nullptr) return report_refusal(bytes);
+        const std::optional<std::size_t> used = fill(room);
+        if (!used) ring.cancel_reservation();
+        return used && publish_chunk(room.first(*used), stamp);
+    }
+    bool publish_chunk(std::span<const std::byte> message, std::uint64_t stamp);
+    /// Whether follow_policy() has something to do for this message.
+    bool asks_policy() const { return has_policy_ || (room_ == 0 && policy_.length != 0); }
+    bool follow_policy(std::span<const std::byte> message, std::uint64_t stamp);
     bool make_room(std::size_t bytes);
     bool wait_for_room(std::size_t bytes);
     bool is_below_length();
@@ -116,6 +139,10 @@ class ChannelWriter {
     void send_last_again();
     bool report_refusal(std::size_t bytes);
     bool report_damage();
+    /// After the message was published, so that whoever the doorbell wakes finds it.
+    void notify_peer() {
+        if (peer_listens_.load(std::memory_order_relaxed)) bound_->segment->ring_peer(message_bit);
+    }
 
     mutable rt::ShortMutex mutex_;
     std::optional<BoundRing<shm::RingWriter>> bound_;
@@ -126,6 +153,7 @@ class ChannelWriter {
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
     std::uint32_t room_ = 0;      ///< with a length: messages that are known to fit
+    bool has_policy_ = false;     ///< policy_ asks a writer for something with each message
     std::vector<std::byte> last_; ///< with keep_last: the last message
     std::uint64_t last_stamp_ = 0;
     bool has_last_ = false;

@@ -54,6 +54,45 @@ TEST_CASE("a writer without room counts what the message needs and leaves the re
     CHECK(buffer[4] == std::byte{0xee});
 }
 
+TEST_CASE("a span that just fits, a growing buffer and a vector get the same bytes") {
+    const auto put_message = [](CdrWriter& out, std::size_t doubles) {
+        const std::vector<double> values(doubles, 1.5);
+        out.put<std::uint8_t>(7);
+        out.put_string("axis");
+        out.put(static_cast<std::uint32_t>(doubles));
+        out.put_block(values.data(), 8 * values.size(), 8);
+        out.put<std::int16_t>(-1);
+    };
+    const std::size_t doubles = GENERATE(0U, 1U, 6U, 16U, 17U, 1000U);
+    CdrWriter measure(std::span<std::byte>{});
+    put_message(measure, doubles);
+    std::vector<std::byte> exact(measure.size(), std::byte{0xee}), vector;
+    CdrWriter to_span{std::span<std::byte>(exact)}, to_vector(vector);
+    put_message(to_span, doubles);
+    put_message(to_vector, doubles);
+    MessageBuffer memory; // its memory held another message before
+    std::fill(memory.memory().begin(), memory.memory().end(), std::byte{0xee});
+    CdrWriter to_buffer(memory);
+    put_message(to_buffer, doubles);
+    REQUIRE((to_span.fits() && to_vector.fits() && to_buffer.fits()));
+    CHECK(vector == exact);
+    CHECK(std::equal(exact.begin(), exact.end(), to_buffer.written().begin(), to_buffer.written().end()));
+}
+
+TEST_CASE("spare memory is lent to one user at a time") {
+    std::vector<std::byte> first(100);
+    const auto* const memory = first.data();
+    give_back(std::move(first));
+    auto taken = take_spare_bytes();
+    CHECK(taken.data() == memory);
+    const MessageBuffer one, other;
+    CHECK(const_cast<MessageBuffer&>(one).memory().data() !=
+          const_cast<MessageBuffer&>(other).memory().data());
+    CHECK(const_cast<MessageBuffer&>(one).memory().data() != memory);
+    give_back(std::vector<std::byte>(1 << 20)); // too large to be kept
+    CHECK(take_spare_bytes().capacity() < (1 << 20));
+}
+
 TEST_CASE("a message that ends early reads as zero and not ok") {
     CdrWriter writer(buffer);
     writer.put<std::uint32_t>(7);

@@ -39,6 +39,24 @@ TEST_CASE("a record arrives with its bytes sequence and stamp") {
     CHECK(ring.reader.counters().bytes_received == 5);
 }
 
+TEST_CASE("a message made in the writer's memory arrives, and what its user puts in front stays private") {
+    RingPair ring({.max_record = 200, .capacity = 512});
+    for (std::size_t length = 0; length <= 200; ++length) {
+        const std::string text(length, static_cast<char>('a' + length % 26));
+        const auto room = ring.writer.scratch();
+        REQUIRE(room.size() == 200);
+        std::memset(room.data() - payload_front, 0xee, payload_front);
+        std::memcpy(room.data(), text.data(), length);
+        REQUIRE(ring.writer.write(room.first(length), length));
+        const auto record = ring.reader.read();
+        REQUIRE(record);
+        REQUIRE(record->front == record->bytes.data() - payload_front);
+        std::memset(record->front, 0xee, payload_front);
+        REQUIRE(text_of(record->bytes) == text);
+    }
+    check_books(ring.writer.counters(), 0);
+}
+
 TEST_CASE("records of all lengths including none go through a small ring again and again") {
     RingPair ring({.max_record = 200, .capacity = 512});
     for (std::size_t round = 0; round < 2000; ++round) {
