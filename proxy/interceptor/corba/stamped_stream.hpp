@@ -6,17 +6,25 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
+#include <utility>
 
 namespace tandem::interceptor {
 
-/// A CORBA stream over one message in shared memory, in the machine's byte order. A timed message begins with
-/// the 8 bytes of RTM's time, which do not lie in front of the payload but in the record's header: the stream
-/// consists of two parts, `time_` and `body_`. Accesses beyond the end throw CORBA::MARSHAL. The overrides are
-/// those that omniORB 4.2 calls (omniORB4/cdrStream.h); the two subclasses implement one direction each.
+/// A CORBA stream over one message after the other, in the machine's byte order. A timed message begins with
+/// the 8 bytes of RTM's time, which travel in the record's header. Where the memory in front of the payload is free the
+/// time lies there, and the stream's inline functions do all; otherwise the stream consists of two parts, `time_` and
+/// `body_`. Accesses beyond the end throw CORBA::MARSHAL. The overrides are those that omniORB 4.2 calls
+/// (omniORB4/cdrStream.h); the two subclasses implement one direction each.
 class StampedStream : public cdrStream {
+  public:
+    static constexpr std::size_t time_bytes = 8;
+
   protected:
-    explicit StampedStream(std::span<std::byte> body);
+    StampedStream();
     [[noreturn]] static void throw_marshal();
+    /// Begins a message. Returns its begin and end, or those of its first part.
+    std::pair<void*, void*> open(std::span<std::byte> body, bool timed, std::byte* front);
 
     void put_octet_array(const _CORBA_Octet*, int, omni::alignment_t) override { throw_marshal(); }
     void get_octet_array(_CORBA_Octet*, int, omni::alignment_t) override { throw_marshal(); }
@@ -35,17 +43,40 @@ class StampedStream : public cdrStream {
 
     /// Returns where the next `bytes` bytes at that alignment begin, and moves `cursor` behind them. When the
     /// time is used up, `cursor` and `end` move to the body.
-    std::byte* align_and_advance(void*& cursor, void*& end, std::size_t bytes, omni::alignment_t alignment);
+    std::byte* align_and_advance(void*& cursor, void*& end, std::size_t bytes, omni::alignment_t alignment) {
+        if (in_time_ && cursor == end) [[unlikely]]
+            leave_time(cursor, end);
+        const auto place = reinterpret_cast<omni::ptr_arith_t>(cursor);
+        const auto padding = static_cast<std::size_t>(omni::align_to(place, alignment) - place);
+        const auto left =
+            static_cast<std::size_t>(static_cast<std::byte*>(end) - static_cast<std::byte*>(cursor));
+        // Subtracted, not added: the sum could overflow with a hostile length.
+        if (padding > left || bytes > left - padding) [[unlikely]]
+            throw_marshal();
+        std::byte* const begin = static_cast<std::byte*>(cursor) + padding;
+        cursor = begin + bytes;
+        return begin;
+    }
 
-    alignas(8) std::byte time_[8];
+    alignas(8) std::byte own_time_[time_bytes];
+    std::byte* time_ = own_time_; ///< where the time of this message is
     std::span<std::byte> body_;
-    bool in_time_ = false; ///< the current position is in time_, not yet in body_
+    bool in_time_ = false; ///< the current position is in own_time_, not yet in body_
+
+  private:
+    void leave_time(void*& cursor, void*& end);
 };
 
-/// Marshals a message into `body`, whose size is at least the message's length (without a time).
+/// Marshals messages.
 class StampedOutStream final : public StampedStream {
   public:
-    StampedOutStream(std::span<std::byte> body, bool timed);
+    StampedOutStream() = default;
+    StampedOutStream(std::span<std::byte> body, bool timed) { open(body, timed); }
+    /// Begins a message. `body` is at least as long as the message (without a time). `front`: time_bytes bytes in front
+    /// of `body` that may be overwritten; nullptr if there are none.
+    void open(std::span<std::byte> body, bool timed, std::byte* front = nullptr) {
+        std::tie(pd_outb_mkr, pd_outb_end) = StampedStream::open(body, timed, front);
+    }
     /// True if exactly as many bytes were written as there is room for.
     bool is_complete() const;
     /// How much of the body was written.
@@ -61,11 +92,16 @@ class StampedOutStream final : public StampedStream {
     _CORBA_Boolean maybeReserveOutputSpace(omni::alignment_t alignment, std::size_t bytes) override;
 };
 
-/// Unmarshals a message from `body`.
+/// Unmarshals messages.
 class StampedInStream final : public StampedStream {
   public:
-    /// `body` is only read. If the message is timed, `stamp` is what it begins with.
-    StampedInStream(std::span<const std::byte> body, bool timed, std::uint64_t stamp);
+    StampedInStream() = default;
+    StampedInStream(std::span<const std::byte> body, bool timed, std::uint64_t stamp) {
+        open(body, timed, stamp);
+    }
+    /// Begins a message. `body` is only read, `front` as for StampedOutStream. If the message is timed, `stamp` is what
+    /// it begins with.
+    void open(std::span<const std::byte> body, bool timed, std::uint64_t stamp, std::byte* front = nullptr);
 
     void get_octet_array(_CORBA_Octet* to, int size, omni::alignment_t alignment) override;
     void skipInput(_CORBA_ULong size) override;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/data/link_buffer.hpp"
 
-#include "proxy/interceptor/corba/stamped_stream.hpp"
 #include "proxy/interceptor/corba/transcoder.hpp"
 #include "proxy/wire/signature_match.hpp"
 #include "proxy/wire/time.hpp"
@@ -19,7 +18,8 @@ namespace {
 
 using RTC::BufferStatus;
 
-constexpr std::size_t time_bytes = 8;
+constexpr std::size_t time_bytes = StampedStream::time_bytes;
+static_assert(time_bytes == shm::payload_front);
 constexpr double max_read_wait_s = 10; // a cycle that waits longer looks like one that hangs
 
 // The buffer factory creates buffers without arguments. A new buffer finds its channel here, by a property of
@@ -110,11 +110,11 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
 
 /// Without a peer the message is dropped, and the RTC gets the same status as with an unconnected
 /// port, so that its write() does not fail while the other host is restarted.
-BufferStatus LinkBuffer::write_status(bool written) const {
+[[gnu::hot]] BufferStatus LinkBuffer::write_status(bool written) const {
     return written || !channel_.writer->is_bound() ? BufferStatus::OK : BufferStatus::FULL;
 }
 
-BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
+[[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
     if (!last_was_long_)
         if (const auto status = write_short(marshal)) return *status;
@@ -122,16 +122,16 @@ BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
 }
 
 // Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
-std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
+[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_short(const RTC::Marshal& marshal) {
     std::uint64_t stamp = 0;
     bool fits = true;
     const bool written =
         channel_.writer->write_record(stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
-            StampedOutStream out(room, channel_.timed);
-            fits = marshal(out);
+            out_.open(room, channel_.timed, room.data() - shm::payload_front);
+            fits = marshal(out_);
             if (!fits) return std::nullopt;
-            stamp = channel_.timed ? out.packed_time() : wire::wall_clock_stamp();
-            return out.body_bytes();
+            stamp = channel_.timed ? out_.packed_time() : wire::wall_clock_stamp();
+            return out_.body_bytes();
         });
     if (!fits) return std::nullopt;
     return write_status(written);
@@ -147,9 +147,9 @@ BufferStatus LinkBuffer::write_long(const RTC::Marshal& marshal) {
     std::uint64_t stamp = wire::wall_clock_stamp(); // of a timed message: replaced by its own time below
     bool complete = true;
     const bool written = channel_.writer->write_sized(body_bytes, stamp, [&](std::span<std::byte> room) {
-        StampedOutStream out(room, channel_.timed);
-        complete = marshal(out) && out.is_complete();
-        if (channel_.timed) stamp = out.packed_time();
+        out_.open(room, channel_.timed);
+        complete = marshal(out_) && out_.is_complete();
+        if (channel_.timed) stamp = out_.packed_time();
         return complete;
     });
     return complete ? write_status(written) : BufferStatus::BUFFER_ERROR;
@@ -188,14 +188,15 @@ BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) 
     return found == BufferStatus::OK ? status : found;
 }
 
-BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader, bool& read_in_place) {
+[[gnu::hot]] BufferStatus LinkBuffer::readInPlace(RTC::ByteData& message, RTC::Unmarshal& reader,
+                                                  bool& read_in_place) {
     read_in_place = !needs_copy();
     if (!read_in_place) return read(message, {});
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     return read_or_wait([&] {
         return channel_.reader->read(false, [&](const shm::Record& record) {
-            StampedInStream in(record.bytes, channel_.timed, record.stamp_ns);
-            reader(in);
+            in_.open(record.bytes, channel_.timed, record.stamp_ns, record.front);
+            reader(in_);
         });
     });
 }
@@ -231,7 +232,9 @@ BufferStatus LinkBuffer::copy_message(const shm::Record& record, RTC::ByteData& 
     return BufferStatus::OK;
 }
 
-std::size_t LinkBuffer::readable() const { return channel_.reader && !channel_.reader->empty() ? 1 : 0; }
+[[gnu::hot]] std::size_t LinkBuffer::readable() const {
+    return channel_.reader && !channel_.reader->empty() ? 1 : 0;
+}
 
 RTC::ByteData& LinkBuffer::get() {
     read(last_, {}); // if there is none, last_ stays as it was

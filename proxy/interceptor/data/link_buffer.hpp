@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
+#include "proxy/interceptor/corba/stamped_stream.hpp"
 #include "proxy/link/channel/channel.hpp"
 #include "proxy/wire/type.hpp"
 
@@ -82,6 +83,9 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     RTC::BufferStatus write_status(bool written) const;
 
     LinkChannel channel_;
+    // Kept, since a stream takes longer to make than to use. With the channel's lock held.
+    StampedOutStream out_;
+    StampedInStream in_;
     bool readback_ = false;                ///< an empty ring gives the last message again
     std::chrono::nanoseconds read_wait_{}; ///< how long a reader waits for a message
     bool has_last_ = false;                ///< last_ was read

@@ -95,6 +95,29 @@ TEST_CASE("what was written is read again, with the time apart or not") {
     CHECK((bytes_by_orb(message) == bytes));
 }
 
+TEST_CASE("with the time in front of the message the bytes are those of the ORB in one piece") {
+    const interceptor::Orb orb;
+    const auto wanted = bytes_by_orb(example());
+    std::vector<std::byte> whole(wanted.size() + 100);
+    const auto body = std::span(whole).subspan(head);
+    StampedOutStream out;
+    StampedInStream in;
+    for (int round = 0; round < 2; ++round) { // a stream is used for one message after the other
+        out.open(body, true, whole.data());
+        example() >>= out;
+        CHECK(out.body_bytes() == wanted.size() - head);
+        CHECK(out.packed_time() == wire::pack_time(1700000000, 5));
+        CHECK(std::equal(wanted.begin(), wanted.end(), whole.begin()));
+        std::fill_n(whole.begin(), head, std::byte{0xee});
+        in.open(body.first(out.body_bytes()), true, wire::pack_time(1700000000, 5), whole.data());
+        Message message;
+        message <<= in;
+        CHECK((bytes_by_orb(message) == wanted));
+        in.open(body.first(out.body_bytes() - 1), true, 0, whole.data());
+        CHECK_THROWS_AS(message <<= in, CORBA::MARSHAL);
+    }
+}
+
 TEST_CASE("a message that ends early throws, wherever it ends, and nothing behind it is touched") {
     const interceptor::Orb orb;
     const auto whole = bytes_by_orb(example());
