@@ -13,6 +13,8 @@
 #define METHOD_BLOCKING 1
 #define METHOD_NONBLOCKING 2
 
+class ProvidedMethodInterface;
+
 /// Learns the types of a method from Method::describe() (ours). Each function returns the archive from which one
 /// default-constructed value of the type is loaded: an archive that records what it is asked for learns the signature.
 class MethodDescription {
@@ -47,6 +49,8 @@ class Method {
     virtual std::vector<const std::type_info*> types() const;
     /// "double (std::string, int)", for messages (ours).
     std::string signature();
+    /// The same object if it is a method that can be called, otherwise NULL: without a cast at each call (ours).
+    virtual ProvidedMethodInterface* provided() { return 0; }
 
   protected:
     std::string m_name;

@@ -108,18 +108,18 @@ template <typename T>
 class typed_holder : public opros_any::holder_base {
   public:
     static const bool can_cross = archive::is_serializable<T>::value;
-    virtual const std::type_info& rtti() const { return typeid(T); }
+    [[gnu::hot]] virtual const std::type_info& rtti() const { return typeid(T); }
     virtual const std::string type() const { return getTypeName<T>(); }
-    virtual bool assign(const opros_any::holder_base& other) {
+    [[gnu::hot]] virtual bool assign(const opros_any::holder_base& other) {
         if (other.rtti() != typeid(T)) return false;
         value() = *static_cast<const T*>(other.address());
         return true;
     }
     virtual bool serializable() const { return can_cross; }
-    virtual void encode(archive::oarchive& ar) const {
+    [[gnu::hot]] virtual void encode(archive::oarchive& ar) const {
         codec<T, can_cross>::encode(ar, *static_cast<const T*>(address()));
     }
-    virtual void decode(archive::iarchive& ar) { codec<T, can_cross>::decode(ar, value()); }
+    [[gnu::hot]] virtual void decode(archive::iarchive& ar) { codec<T, can_cross>::decode(ar, value()); }
 
   private:
     T& value() { return *static_cast<T*>(const_cast<void*>(address())); }
@@ -132,7 +132,7 @@ template <typename dataType>
 class opros_any::holder : public opros::detail::typed_holder<dataType> {
   public:
     explicit holder(const dataType& value) : m_value(value) {}
-    virtual const void* address() const { return &m_value; }
+    [[gnu::hot]] virtual const void* address() const { return &m_value; }
     virtual opros_any::holder_base* clone() const { return new holder(m_value); }
 
   private:
@@ -155,7 +155,7 @@ class opros_any_view {
         class reference : public opros::detail::typed_holder<dataType> {
           public:
             explicit reference(const dataType& value) : m_value(&value) {}
-            virtual const void* address() const { return m_value; }
+            [[gnu::hot]] virtual const void* address() const { return m_value; }
             virtual opros_any::holder_base* clone() const {
                 return new opros_any::holder<dataType>(*m_value);
             }

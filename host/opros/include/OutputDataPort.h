@@ -13,9 +13,9 @@ class OutputDataPort : public OutputDataPortInterface {
     OutputDataPort() {}
     OutputDataPort(const std::string& name) : OutputDataPortInterface(name) {}
 
-    virtual ReturnType push(opros_any& data) { return push_data(data); }
+    [[gnu::hot]] virtual ReturnType push(opros_any& data) { return push_data(data); }
     /// The value stays the caller's; no copy is made on the way to the receivers' queues.
-    virtual ReturnType push(const dataType& data) {
+    [[gnu::hot]] virtual ReturnType push(const dataType& data) {
         opros_any_view::of<dataType> view(data);
         return push(static_cast<opros_any&>(view));
     }
@@ -25,7 +25,7 @@ class OutputDataPort : public OutputDataPortInterface {
     virtual ReturnType pushData(unsigned char* data, int size) {
         return opros::detail::push_encoded(*this, m_arc, data, size);
     }
-    virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
+    [[gnu::hot]] virtual bool checkType(opros_any& data) { return data.holds<dataType>(); }
     virtual bool checkType(DataPort* dst) {
         opros_any value = sample();
         return dst->checkType(value);

@@ -25,6 +25,7 @@ class ProvidedMethodInterface : public Method {
   public:
     ProvidedMethodInterface() {}
     explicit ProvidedMethodInterface(const std::string& name) : Method(name) {}
+    virtual ProvidedMethodInterface* provided() { return this; }
     /// With arguments read from `in`, one after the other, and the result written to `out`.
     /// OPROS_UNSUPPORTED_METHOD: one of the types cannot be archived.
     virtual ReturnType call(opros::archive::iarchive& in, opros::archive::oarchive& out) = 0;

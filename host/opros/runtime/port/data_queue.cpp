@@ -16,7 +16,7 @@ void DataQueue::grow() {
     first_ = 0;
 }
 
-opros_any& DataQueue::push() {
+[[gnu::hot]] opros_any& DataQueue::push() {
     if (count_ == slots_.size()) {
         // With these two the oldest value gives way; with the others the consumer is owed every value.
         if (policy_ == OPROS_FIFO || policy_ == OPROS_LAST)
@@ -27,7 +27,7 @@ opros_any& DataQueue::push() {
     return slots_[index(count_++)];
 }
 
-void DataQueue::pop() {
+[[gnu::hot]] void DataQueue::pop() {
     // A stack loses its newest value, which is the last slot in use: counting it off is enough.
     if (policy_ != OPROS_LIFO) first_ = index(1);
     --count_;

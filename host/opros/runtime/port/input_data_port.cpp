@@ -15,7 +15,7 @@ InputDataPortInterface::~InputDataPortInterface() { delete m_impl; }
 
 DataPortRole InputDataPortInterface::getRole() { return OPROS_DATA_PORT_INPUT; }
 opros_any* InputDataPortInterface::peek() { return m_impl->peek(); }
-opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
+[[gnu::hot]] opros_any* InputDataPortInterface::pop() { return m_impl->pop(); }
 int InputDataPortInterface::getSize() { return static_cast<int>(m_impl->size()); }
 void InputDataPortInterface::setArchiveFactory(ArchiveFactory* darc) { m_arc = darc; }
 void InputDataPortInterface::reset() { m_impl->clear(); }
@@ -40,7 +40,7 @@ ReturnType InputDataPortInterface::setQueue(DataPortPolicy policy, unsigned int 
     return m_impl->replace_default_queue(policy, limit) ? OPROS_SUCCESS : OPROS_PRECONDITION_NOT_MET;
 }
 
-ReturnType InputDataPortInterface::push_data(opros_any& data) {
+[[gnu::hot]] ReturnType InputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     m_impl->push(data);
     return OPROS_SUCCESS;

@@ -14,7 +14,7 @@ constexpr int max_values_per_poll = 4096;
 InputDataPortImpl::InputDataPortImpl(InputDataPortInterface& port, DataPortPolicy policy, unsigned int limit)
     : port_(port), queue_(policy, limit) {}
 
-void InputDataPortImpl::push(const opros_any& value) {
+[[gnu::hot]] void InputDataPortImpl::push(const opros_any& value) {
     {
         const std::lock_guard lock(mutex_);
         // A new slot gets an object that this port's code has created, then the copy is assigned to it: the
@@ -27,10 +27,11 @@ void InputDataPortImpl::push(const opros_any& value) {
     if (DataPortListener* listener = listener_.load(std::memory_order_acquire)) listener->arrived();
 }
 
-opros_any* InputDataPortImpl::pop() {
+[[gnu::hot]] opros_any* InputDataPortImpl::pop() {
     if (!may_have_values_.load(std::memory_order_acquire)) return nullptr;
     const std::lock_guard lock(mutex_);
-    if (queue_.size() == 0 && consumer_waits_ && queue_.keeps_order()) return pop_from_source();
+    if (queue_.size() == 0 && queue_.keeps_order() && (consumer_waits_ || sources_.size() == 1))
+        return pop_from_source();
     poll_sources();
     consumer_waits_ = queue_.size() == 0;
     if (consumer_waits_) return nullptr;
@@ -107,13 +108,13 @@ bool InputDataPortImpl::replace_default_queue(DataPortPolicy policy, unsigned in
 
 // A consumer that polls must not take the lock from those who push when there is nothing for it. Whether a
 // source has a value is not known here: with sources, there may always be one.
-void InputDataPortImpl::update_hints() {
+[[gnu::hot]] void InputDataPortImpl::update_hints() {
     may_have_values_.store(queue_.size() != 0 || !sources_.empty(), std::memory_order_release);
 }
 
 /// Moves what waits in the sources into the queue. A full FIFO leaves the rest there: it is the source that then
 /// decides what is dropped.
-void InputDataPortImpl::poll_sources() {
+[[gnu::hot]] void InputDataPortImpl::poll_sources() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll && !queue_.full(); ++i) {
             const ReadResult result = read_one(*source);
@@ -123,10 +124,10 @@ void InputDataPortImpl::poll_sources() {
         }
 }
 
-/// For a consumer that found nothing the last time, and so waits for the next value: it gets the first one,
-/// without a second look at a source that is most likely empty then (in shared memory, such a look costs as much
-/// as the value's own way). The others are moved into the queue by the next pop().
-opros_any* InputDataPortImpl::pop_from_source() {
+/// For a consumer of one source, or one that found nothing the last time, and so waits for the next value: it gets the
+/// first one, without a second look at a source that is most likely empty then (in shared memory, such a look costs as
+/// much as the value's own way). The others stay in the source, or are moved into the queue by the next pop().
+[[gnu::hot]] opros_any* InputDataPortImpl::pop_from_source() {
     for (DataPortSource* source : sources_)
         for (int i = 0; i < max_values_per_poll; ++i) {
             const ReadResult result = read_one(*source);
@@ -138,7 +139,7 @@ opros_any* InputDataPortImpl::pop_from_source() {
     return nullptr;
 }
 
-InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource& source) {
+[[gnu::hot]] InputDataPortImpl::ReadResult InputDataPortImpl::read_one(DataPortSource& source) {
     opros::archive::iarchive* archive = source.next();
     if (!archive) return ReadResult::no_value;
     ReadResult result = ReadResult::undecodable;

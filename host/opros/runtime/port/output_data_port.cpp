@@ -22,7 +22,7 @@ void OutputDataPortInterface::clearConnection() { m_impl->clear(); }
 
 // To all connections, one after the other, in the caller's thread. What they return is dropped: a sender
 // does not depend on how its receivers fare.
-ReturnType OutputDataPortInterface::push_data(opros_any& data) {
+[[gnu::hot]] ReturnType OutputDataPortInterface::push_data(opros_any& data) {
     if (!checkType(data)) return OPROS_BAD_INPUT_PARAMETER;
     m_impl->for_each([&](IDataPortLink& link) { link.push(data); });
     return OPROS_SUCCESS;

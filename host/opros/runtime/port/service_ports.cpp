@@ -49,21 +49,27 @@ ProvidedServicePort::~ProvidedServicePort() = default;
 ServicePortRole ProvidedServicePort::getRole() { return OPROS_SERVICE_PORT_PROVIDED; }
 std::string ProvidedServicePort::bindMethod(Method*) { return ""; }
 
-// The cast is dynamic because users may add any Method to a provided port.
+namespace {
+
+// Users may add any Method to a provided port: NULL for one that cannot be called.
+ProvidedMethodInterface* as_provided(Method* method) { return method ? method->provided() : nullptr; }
+
+} // namespace
+
 ReturnType ProvidedServicePort::callService(std::string& name, opros::archive::iarchive& in,
                                             opros::archive::oarchive& out) {
-    auto* method = dynamic_cast<ProvidedMethodInterface*>(getMethod(name));
+    auto* method = as_provided(getMethod(name));
     return method ? method->call(in, out) : OPROS_UNSUPPORTED_METHOD;
 }
 
 ReturnType ProvidedServicePort::callService(const std::string& name, EncodedCall& call) {
-    auto* method = dynamic_cast<ProvidedMethodInterface*>(getMethod(name));
+    auto* method = as_provided(getMethod(name));
     return method ? method->call(call) : OPROS_UNSUPPORTED_METHOD;
 }
 
 ReturnType ProvidedServicePort::callService(std::string& name, std::vector<opros_params>& params,
                                             opros_params& result) {
-    auto* method = dynamic_cast<ProvidedMethodInterface*>(getMethod(name));
+    auto* method = as_provided(getMethod(name));
     return method ? method->call(params, result) : OPROS_UNSUPPORTED_METHOD;
 }
 

@@ -46,9 +46,9 @@ struct ValuePool::Slots {
 
 namespace {
 
-LentValue::~LentValue() { swap(slot_.kept); }
+[[gnu::hot]] LentValue::~LentValue() { swap(slot_.kept); }
 
-void LentValue::operator delete(LentValue* value, std::destroying_delete_t) {
+[[gnu::hot]] void LentValue::operator delete(LentValue* value, std::destroying_delete_t) {
     Slot& slot = value->slot_;
     value->~LentValue();
     if (slot.state.exchange(State::free, std::memory_order_acq_rel) == State::abandoned)
@@ -68,7 +68,7 @@ ValuePool::~ValuePool() {
     slots_.release(released);
 }
 
-opros_any* ValuePool::lend(opros_any& value) {
+[[gnu::hot]] opros_any* ValuePool::lend(opros_any& value) {
     for (Slot& slot : slots_.all) {
         if (slot.state.load(std::memory_order_acquire) != State::free) continue;
         slot.state.store(State::lent, std::memory_order_relaxed);

@@ -79,7 +79,8 @@ class ConnectorSerializer {
 
     /// NULL: there is none of that marshaling type for values of that type, which is logged once.
     template <class DataType>
-    ByteDataStream<DataType>* get(const std::string& marshaling_type, const char* connector, Logger& rtclog) {
+    ByteDataStream<DataType>* get(const std::string& marshaling_type, const std::string& connector,
+                                  Logger& rtclog) {
         // Compared by address first, which is the same within a library and costs no string comparison.
         if (m_type != &typeid(DataType) && (m_type == nullptr || *m_type != typeid(DataType)))
             make<DataType>(marshaling_type, connector, rtclog);
@@ -90,15 +91,15 @@ class ConnectorSerializer {
 
   private:
     template <class DataType>
-    void make(const std::string& marshaling_type, const char* connector, Logger& rtclog) {
+    void make(const std::string& marshaling_type, const std::string& connector, Logger& rtclog) {
         SerializerFactory::instance().deleteObject(m_made);
         m_made = createSerializer<DataType>(marshaling_type);
         m_typed = dynamic_cast<ByteDataStream<DataType>*>(m_made);
         m_type = &typeid(DataType);
         m_isStandardCdr = m_made != nullptr && typeid(*m_made) == typeid(CORBA_CdrSerializer<DataType>);
         if (m_typed == nullptr)
-            RTC_ERROR(
-                ("connector %s: no serializer for marshaling type %s", connector, marshaling_type.c_str()));
+            RTC_ERROR(("connector %s: no serializer for marshaling type %s", connector.c_str(),
+                       marshaling_type.c_str()));
     }
 
     ByteDataStreamBase* m_made = nullptr;
@@ -112,7 +113,7 @@ template <class DataType>
 class CdrMarshal final : public Marshal {
   public:
     explicit CdrMarshal(const DataType& data) : m_data(data) {}
-    bool operator()(cdrStream& out) const override {
+    [[gnu::hot]] bool operator()(cdrStream& out) const override {
         try {
             m_data >>= out;
             return true;
@@ -130,7 +131,7 @@ template <class DataType>
 class CdrUnmarshal final : public Unmarshal {
   public:
     explicit CdrUnmarshal(DataType& data) : m_data(data) {}
-    void operator()(cdrStream& in) override {
+    [[gnu::hot]] void operator()(cdrStream& in) override {
         try {
             m_data <<= in;
         } catch (const CORBA::SystemException&) { // the bytes are not such a message

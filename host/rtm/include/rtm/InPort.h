@@ -30,9 +30,9 @@ class InPort : public InPortBase {
 
     /// Does a connector have a value that was not read yet? With `name`: that connector; with `names`:
     /// receives the names of all such connectors.
-    bool isNew() override { return InPortBase::isNew(); }
+    [[gnu::hot]] bool isNew() override { return InPortBase::isNew(); }
     virtual bool isNew(std::string name) {
-        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        const std::unique_lock<DataMutex> lock(m_dataMutex);
         auto* connector = findReadableLocked(name, false);
         return connector != nullptr;
     }
@@ -45,11 +45,12 @@ class InPort : public InPortBase {
     /// Reads the oldest value into the variable. With an empty buffer its policy decides (readback, the
     /// default: the last value again, true). False, with getStatus(): not connected, nothing has ever come,
     /// or a message that is not of this type; the variable may then be partly overwritten.
-    bool read(std::string name = "") override {
+    [[gnu::hot]] bool read(std::string name = "") override {
         if (m_OnRead != nullptr) (*m_OnRead)();
         {
-            std::lock_guard<std::mutex> lock(m_connectorsMutex);
-            auto* connector = findReadableLocked(name, true);
+            const std::unique_lock<DataMutex> lock(m_dataMutex);
+            const bool is_sole = m_connectors.size() == 1 && name.empty(); // then there is nothing to find
+            auto* connector = is_sole ? m_connectors.front() : findReadableLocked(name, true);
             if (connector == nullptr) return false;
             m_status[0] = connector->read(m_value);
         }
@@ -92,7 +93,7 @@ class InPort : public InPortBase {
   private:
     bool selectConnectorNames(coil::vstring& names, bool has_data) {
         names.clear();
-        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        const std::unique_lock<DataMutex> lock(m_dataMutex);
         for (auto* connector : m_connectors)
             if ((connector->readableCount() > 0) == has_data) names.push_back(connector->name());
         return !names.empty();

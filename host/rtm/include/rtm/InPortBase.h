@@ -64,9 +64,9 @@ class InPortBase : public PortBase {
     ReturnCode_t publishInterfaces(ConnectorProfile& connector_profile) override;
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
-    /// The connector to read next: the first with data, NULL when none has any. Locks m_connectorsMutex.
+    /// The connector to read next: the first with data, NULL when none has any. Locks m_dataMutex.
     InPortConnector* findReadable();
-    /// The same for a caller that holds m_connectorsMutex. `name`: only connectors of that name; empty: all.
+    /// The same for a caller that holds m_dataMutex. `name`: only connectors of that name; empty: all.
     /// `fallback_to_first`: the first of them, for its status, when none has data.
     InPortConnector* findReadableLocked(const std::string& name, bool fallback_to_first);
 

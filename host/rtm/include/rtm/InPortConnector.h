@@ -32,8 +32,8 @@ class InPortConnector : public ConnectorBase {
     /// Reads the oldest message as a value. PORT_ERROR: no serializer for its type; BUFFER_ERROR: it is not
     /// one.
     template <class DataType>
-    DataPortStatus read(DataType& data) {
-        auto* stream = m_serializer.get<DataType>(m_marshaling_type, name(), rtclog);
+    [[gnu::hot]] DataPortStatus read(DataType& data) {
+        auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         DataPortStatus status = DataPortStatus::PORT_OK;
         if (m_directBuffer != nullptr && m_directBuffer->type() == typeid(DataType)) {

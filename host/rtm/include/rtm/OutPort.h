@@ -30,13 +30,13 @@ class OutPort : public OutPortBase {
     /// Sends the value to every connector, serialized once for all that send the same bytes. True when all
     /// have accepted it; false, with getStatus(), when one has not or when there is none. Ends connections
     /// whose receiver is gone. How long it may block: per connector its buffer's policy and `put_timeout`.
-    virtual bool write(DataType& value) {
+    [[gnu::hot]] virtual bool write(DataType& value) {
         if (m_onWrite != nullptr) (*m_onWrite)(value);
         if (m_onWriteConvert == nullptr) return send(value);
         DataType converted = (*m_onWriteConvert)(value);
         return send(converted);
     }
-    bool write() override { return write(m_value); }
+    [[gnu::hot]] bool write() override { return write(m_value); }
     bool operator<<(DataType& value) { return write(value); }
 
     /// Of the last write(), by the connector's position. Throws std::out_of_range.
@@ -47,11 +47,26 @@ class OutPort : public OutPortBase {
     void setOnWriteConvert(OnWriteConvert<DataType>* on_wconvert) { m_onWriteConvert = on_wconvert; }
 
   private:
-    bool send(DataType& value) {
+    // Most ports have one connector.
+    [[gnu::hot]] bool send(DataType& value) {
+        std::unique_lock<DataMutex> lock(m_dataMutex);
+        if (m_connectors.size() != 1 || m_status.size() != 1) {
+            lock.unlock();
+            return sendToAll(value);
+        }
+        m_status[0] = m_connectors.front()->write(value);
+        if (m_status[0] != DataPortStatus::CONNECTION_LOST) return m_status[0] == DataPortStatus::PORT_OK;
+        const std::vector<std::string> lost{m_connectors.front()->id()};
+        lock.unlock();
+        dropLostConnections(lost);
+        return false;
+    }
+
+    bool sendToAll(DataType& value) {
         std::vector<std::string> lost;
         bool all_accepted = true;
         {
-            std::lock_guard<std::mutex> lock(m_connectorsMutex);
+            const std::unique_lock<DataMutex> lock(m_dataMutex);
             if (m_connectors.empty()) return false;
             m_status.resize(m_connectors.size());
             OutPortConnector* first = m_connectors.front();

@@ -55,7 +55,7 @@ class OutPortBase : public PortBase {
     ReturnCode_t subscribeInterfaces(const ConnectorProfile& connector_profile) override;
     void unsubscribeInterfaces(const ConnectorProfile& connector_profile) override;
     /// Ends the connections of these ids, whose receiver a write has found to be gone. The caller does not
-    /// hold m_connectorsMutex.
+    /// hold m_dataMutex.
     void dropLostConnections(const std::vector<std::string>& connector_ids);
 
     std::vector<OutPortConnector*> m_connectors;

@@ -31,8 +31,8 @@ class OutPortConnector : public ConnectorBase {
     /// Sends a value. PORT_ERROR: it cannot be serialized; else what the receiver or the buffer has made of
     /// it.
     template <class DataType>
-    DataPortStatus write(DataType& data) {
-        auto* stream = m_serializer.get<DataType>(m_marshaling_type, name(), rtclog);
+    [[gnu::hot]] DataPortStatus write(DataType& data) {
+        auto* stream = m_serializer.get<DataType>(m_marshaling_type, m_profile.name, rtclog);
         if (stream == nullptr) return DataPortStatus::PORT_ERROR;
         const bool stamps =
             m_timestamp == TimestampPolicy::on_write || m_timestamp == TimestampPolicy::on_send;

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <mutex>
 #include <rtm/CORBA_SeqUtil.h>
+#include <rtm/DataMutex.h>
 #include <rtm/NVUtil.h>
 #include <rtm/PortCallback.h>
 #include <rtm/PortConnectListener.h>
@@ -134,8 +135,11 @@ class PortBase : public virtual POA_RTC::PortService, public virtual PortableSer
     PortProfile m_profile;
     RTC::PortService_var m_objref;
     mutable std::mutex m_profile_mutex;
-    /// Guards the list of connectors; held by data ports while they write or read.
+    /// Guards the list of connectors.
     mutable std::mutex m_connectorsMutex;
+    /// Ours: held by data ports while they write or read. The list of connectors changes with both mutexes held, this
+    /// one locked last, so that it may be used with either.
+    mutable DataMutex m_dataMutex;
     std::string m_ownerInstanceName = "unknown";
     int m_connectionLimit = -1;
     ConnectionCallback* m_onPublishInterfaces = nullptr;

@@ -83,6 +83,7 @@ RTC::ReturnCode_t PeriodicExecutionContext::onStarted() {
 
 // [context's thread]
 void PeriodicExecutionContext::run(Worker& worker) {
+    const omni_thread::ensure_self known_to_orb; // or each call would make it known anew, which takes as long
     int priority = 0;
     std::vector<int> cpus;
     coil::stringTo(priority, m_properties.getProperty("priority").c_str());

@@ -53,6 +53,7 @@ ReturnCode_t ExtTrigExecutionContext::onStarted() {
 
 // [context's thread]
 void ExtTrigExecutionContext::run(Worker& worker) {
+    const omni_thread::ensure_self known_to_orb; // or each call would make it known anew, which takes as long
     std::unique_lock<std::mutex> lock(worker.mutex);
     while (!worker.stop_requested) {
         worker.wake.wait(lock, [&] { return worker.stop_requested || worker.pending_ticks > 0; });

@@ -138,7 +138,8 @@ ReturnCode_t InPortBase::addPullConnector(const ConnectorProfile& profile, const
 void InPortBase::addConnector(InPortConnector* connector) {
     ConnectorInfo info = connector->profile();
     {
-        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        const std::lock_guard lock(m_connectorsMutex);
+        const std::lock_guard data_lock(m_dataMutex);
         m_connectors.push_back(connector);
     }
     m_listeners.notify(ConnectorListenerType::ON_CONNECT, info);
@@ -147,7 +148,8 @@ void InPortBase::addConnector(InPortConnector* connector) {
 void InPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
     std::unique_ptr<InPortConnector> removed;
     {
-        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        const std::lock_guard lock(m_connectorsMutex);
+        const std::lock_guard data_lock(m_dataMutex);
         for (auto it = m_connectors.begin(); it != m_connectors.end(); ++it) {
             if (std::string((*it)->id()) != static_cast<const char*>(profile.connector_id)) continue;
             removed.reset(*it);
@@ -167,14 +169,15 @@ std::shared_ptr<PushReceiver> InPortBase::pushReceiver(const char* connector_id)
     return connector ? connector->receiver() : nullptr;
 }
 
-InPortConnector* InPortBase::findReadable() {
-    std::lock_guard<std::mutex> lock(m_connectorsMutex);
+[[gnu::hot]] InPortConnector* InPortBase::findReadable() {
+    const std::lock_guard lock(m_dataMutex);
     for (auto* connector : m_connectors)
         if (connector->readableCount() > 0) return connector;
     return nullptr;
 }
 
-InPortConnector* InPortBase::findReadableLocked(const std::string& name, bool fallback_to_first) {
+[[gnu::hot]] InPortConnector* InPortBase::findReadableLocked(const std::string& name,
+                                                             bool fallback_to_first) {
     InPortConnector* first = nullptr;
     for (auto* connector : m_connectors) {
         if (!name.empty() && name != connector->name()) continue;

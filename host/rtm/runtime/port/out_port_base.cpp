@@ -10,7 +10,7 @@
 namespace RTC {
 namespace {
 
-// Tells each push connector whether it is the port's only one. The caller holds m_connectorsMutex.
+// Tells each push connector whether it is the port's only one. The caller holds both mutexes.
 void update_sole_connector(const std::vector<OutPortConnector*>& connectors) {
     for (auto* connector : connectors)
         if (auto* push = dynamic_cast<OutPortPushConnector*>(connector))
@@ -117,7 +117,8 @@ ReturnCode_t OutPortBase::addPushConnectors(const ConnectorProfile& profile, con
 void OutPortBase::addConnector(OutPortConnector* connector) {
     ConnectorInfo info = connector->profile();
     {
-        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        const std::lock_guard lock(m_connectorsMutex);
+        const std::lock_guard data_lock(m_dataMutex);
         m_connectors.push_back(connector);
         update_sole_connector(m_connectors);
     }
@@ -127,7 +128,8 @@ void OutPortBase::addConnector(OutPortConnector* connector) {
 void OutPortBase::unsubscribeInterfaces(const ConnectorProfile& profile) {
     std::vector<std::unique_ptr<OutPortConnector>> removed;
     {
-        std::lock_guard<std::mutex> lock(m_connectorsMutex);
+        const std::lock_guard lock(m_connectorsMutex);
+        const std::lock_guard data_lock(m_dataMutex);
         // A connection with several InPorts of this process has several connectors of one id.
         for (std::size_t i = m_connectors.size(); i-- > 0;) {
             if (std::string(m_connectors[i]->id()) != static_cast<const char*>(profile.connector_id))

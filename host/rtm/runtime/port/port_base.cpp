@@ -68,7 +68,7 @@ ConnectorProfile* PortBase::get_connector_profile(const char* connector_id) {
     auto* in_port = dynamic_cast<InPortBase*>(this);
     if (in_port == nullptr || !NVUtil::isStringValue(profile->properties, "dataport.report_unread", "YES"))
         return profile._retn();
-    std::lock_guard<std::mutex> lock(m_connectorsMutex); // the component reads with this mutex, too
+    const std::lock_guard lock(m_dataMutex); // the component reads with this mutex, too
     for (auto* connector : in_port->connectors())
         if (in_port->connectors().size() == 1 && connector->getBuffer() != nullptr)
             CORBA_SeqUtil::push_back(

@@ -28,19 +28,21 @@ DataPortStatus InPortConnector::read(ByteData& bytes) {
     return notifyReadResult(m_buffer->read(bytes), bytes);
 }
 
-DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader, bool& read_in_place) {
+[[gnu::hot]] DataPortStatus InPortConnector::read(ByteDataStreamBase* stream, Unmarshal& reader,
+                                                  bool& read_in_place) {
     // A listener needs the bytes, and may change them: then the message is copied out.
     if (m_listeners->has(ConnectorDataListenerType::ON_BUFFER_READ)) return read(stream);
-    const DataPortStatus status =
-        notifyReadResult(m_inPlace->readInPlace(m_bytes, reader, read_in_place), m_bytes);
-    if (status != DataPortStatus::PORT_OK || read_in_place) return status;
+    const BufferStatus found = m_inPlace->readInPlace(m_bytes, reader, read_in_place);
+    if (found == BufferStatus::OK && read_in_place) return DataPortStatus::PORT_OK; // nobody listens
+    const DataPortStatus status = notifyReadResult(found, m_bytes);
+    if (status != DataPortStatus::PORT_OK) return status;
     stream->isLittleEndian(m_bytes.getEndian());
     stream->writeData(m_bytes.getBuffer(), m_bytes.getDataLength());
     return status;
 }
 
 // Calls the listeners of what a read has come to, and says the same as a port's status.
-DataPortStatus InPortConnector::notifyReadResult(BufferStatus status, ByteData& bytes) {
+[[gnu::hot]] DataPortStatus InPortConnector::notifyReadResult(BufferStatus status, ByteData& bytes) {
     switch (status) {
     case BufferStatus::OK:
         m_listeners->notify(ConnectorDataListenerType::ON_BUFFER_READ, m_profile, bytes, m_marshaling_type);

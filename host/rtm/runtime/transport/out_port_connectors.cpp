@@ -114,7 +114,7 @@ DataPortStatus OutPortPushConnector::deliver(ByteData& bytes) {
     return status;
 }
 
-bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& status) {
+[[gnu::hot]] bool OutPortPushConnector::writeInPlace(const Marshal& marshal, DataPortStatus& status) {
     return !m_listeners->hasDataListener() && local_receiver_->receiveInPlace(marshal, status);
 }
 

@@ -28,7 +28,7 @@ class OutPortPushConnector : public OutPortConnector {
     /// The publisher's buffer; NULL without a publisher.
     CdrBufferBase* getBuffer() override { return publisher_ ? &publisher_->buffer() : nullptr; }
     /// Is it the only connector of its port? The port's other connectors must not wait for a receiver that
-    /// hangs. [with the port's m_connectorsMutex held, as write()]
+    /// hangs. [with the port's m_dataMutex held, as write()]
     void setSoleConnector(bool is_sole) { is_sole_connector_ = is_sole; }
 
   private:

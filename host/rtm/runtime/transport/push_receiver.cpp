@@ -20,11 +20,11 @@ DataPortStatus PushReceiver::receive(ByteData& bytes) {
 }
 
 // A listener reads and may change the serialized message, and the time is stamped into it.
-bool PushReceiver::needsBytes() const {
+[[gnu::hot]] bool PushReceiver::needsBytes() const {
     return timestamp_ == TimestampPolicy::on_received || listeners_.hasDataListener();
 }
 
-bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
+[[gnu::hot]] bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status) {
     const std::lock_guard lock(open_mutex_);
     if (!open_ || in_place_ == nullptr || needsBytes()) return false;
     const BufferStatus written = in_place_->writeInPlace(marshal);
@@ -34,7 +34,7 @@ bool PushReceiver::receiveInPlace(const Marshal& marshal, DataPortStatus& status
     return written != BufferStatus::NOT_SUPPORTED;
 }
 
-bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& status) {
+[[gnu::hot]] bool PushReceiver::receiveDirect(const DirectWriter& writer, DataPortStatus& status) {
     const std::lock_guard lock(open_mutex_);
     if (!open_ || direct_buffer_ == nullptr || needsBytes()) return false;
     const BufferStatus written = writer(*direct_buffer_);

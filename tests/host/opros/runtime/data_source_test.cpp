@@ -132,7 +132,7 @@ TEST_CASE(
     CHECK(pop(port) == 3);
 }
 
-TEST_CASE("a waiting consumer gets the next value with one call of next() and the rest in order") {
+TEST_CASE("a consumer of one source gets each value with one call of next() and all in order") {
     InputDataPort<double> port(OPROS_FIFO, 4);
     TestSource source;
     port.addSource(&source);
@@ -141,9 +141,28 @@ TEST_CASE("a waiting consumer gets the next value with one call of next() and th
     source.next_calls = 0;
     CHECK(pop(port) == 1);
     CHECK(source.next_calls == 1);
-    CHECK(pop(port) == 2); // it lags behind, so what waits outside is fetched in
+    CHECK(pop(port) == 2);
+    CHECK(source.next_calls == 2);
+    CHECK(port.getSize() == 1); // which moves what waits outside into the queue
     CHECK(source.waiting.empty());
+    source.send(4);
     CHECK(pop(port) == 3);
+    CHECK(pop(port) == 4);
+    CHECK(port.pop() == nullptr);
+}
+
+TEST_CASE("a consumer of several sources that lags behind gets all values of each in order") {
+    InputDataPort<double> port(OPROS_FIFO, 16);
+    TestSource one, other;
+    port.addSource(&one);
+    port.addSource(&other);
+    CHECK(port.pop() == nullptr);
+    for (double value : {1., 2., 3.}) one.send(value);
+    for (double value : {11., 12.}) other.send(value);
+    CHECK(pop(port) == 1);
+    CHECK(pop(port) == 2); // it lags behind, so what waits outside is fetched in
+    CHECK((one.waiting.empty() && other.waiting.empty()));
+    for (double value : {3., 11., 12.}) CHECK(pop(port) == value);
     CHECK(port.pop() == nullptr);
 }
 

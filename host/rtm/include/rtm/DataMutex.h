@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ours.
+#ifndef RTC_DATAMUTEX_H
+#define RTC_DATAMUTEX_H
+
+namespace RTC {
+
+/// The mutex that data ports hold while they write or read: shorter than std::mutex, and its code lies beside that of
+/// the ports. Not recursive. For std::unique_lock. [any-thread]
+class DataMutex {
+  public:
+    DataMutex();
+    DataMutex(const DataMutex&) = delete;
+    void lock();
+    void unlock();
+
+  private:
+    alignas(int) unsigned char m_mutex[sizeof(int)];
+};
+
+} // namespace RTC
+#endif
