@@ -314,7 +314,7 @@ Reply AdaptorComp::execute_command(const link::Request& request) {
     return {};
 }
 
-Reply AdaptorComp::serve(const link::Request& request) {
+[[gnu::hot]] Reply AdaptorComp::serve(const link::Request& request) {
     if (request.port.empty()) return execute_command(request);
     if (auto* port = find_required_port(request.port)) return port->serve(request);
     if (auto* port = shared_->find_service(request.port)) return port->serve(request);
@@ -322,8 +322,10 @@ Reply AdaptorComp::serve(const link::Request& request) {
 }
 
 /// nullptr also while the mirrors are not created yet: the peer may call as soon as the link is up.
-MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
-    const std::lock_guard lock(mutex_);
+[[gnu::hot]] MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
+    std::unique_lock lock(mutex_, std::defer_lock);
+    if (!mirrors_created_.load(std::memory_order_acquire))
+        lock.lock(); // afterwards required_ does not change
     for (auto* port : required_)
         if (port->port() == name) return port;
     return nullptr;

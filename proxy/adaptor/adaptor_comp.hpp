@@ -17,6 +17,7 @@
 #include <OutputDataPort.h>
 #include <OutputEventPort.h>
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -88,7 +89,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     link::PortTable own_ports_;
     std::mutex mutex_; ///< peer_ports_, mirrors_created_, and required_ until the mirrors are created
     link::PortTable peer_ports_;
-    bool mirrors_created_ = false;
+    std::atomic<bool> mirrors_created_{false}; ///< set with mutex_ held
     std::atomic<bool> started_{false}, rtc_failed_{false};
 
     std::mutex listened_ports_mutex_;

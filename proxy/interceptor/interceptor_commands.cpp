@@ -69,7 +69,9 @@ void InterceptorComp::deactivate_if_activated_by_link() {
     if (!error.empty()) spdlog::error("{}: {}", getInstanceName(), error);
 }
 
-Reply InterceptorComp::serve(const link::Request& request) {
+[[gnu::hot]] Reply InterceptorComp::serve(const link::Request& request) {
+    // The ORB would make the worker known to itself for each call anew, which takes as long as the call.
+    thread_local const omni_thread::ensure_self known_to_orb;
     if (request.port.empty()) return execute_command(request);
     for (auto& port : provided_)
         if (port->port().name == request.port) return port->serve(request);

@@ -2,6 +2,7 @@
 #include "proxy/link/call_workers.hpp"
 
 #include <chrono>
+#include <mutex>
 #include <pthread.h>
 
 namespace tandem::link {
@@ -36,7 +37,7 @@ void CallWorkers::start_worker() {
     threads_.emplace_back([this] { run(); });
 }
 
-void CallWorkers::run() {
+[[gnu::hot]] void CallWorkers::run() {
     pthread_setname_np(pthread_self(), "tandem-worker");
     while (!state_.is_closing())
         if (auto call = wait_for_call()) serve(std::move(*call));
@@ -44,7 +45,7 @@ void CallWorkers::run() {
 
 /// The session is released before the call is served: a call may take long, and meanwhile the session must be
 /// able to end and the next one to be joined.
-std::optional<shm::IncomingCall> CallWorkers::wait_for_call() {
+[[gnu::hot]] std::optional<shm::IncomingCall> CallWorkers::wait_for_call() {
     {
         const std::lock_guard lock(mutex_);
         ++idle_;
@@ -59,20 +60,23 @@ std::optional<shm::IncomingCall> CallWorkers::wait_for_call() {
     return call;
 }
 
-void CallWorkers::serve(shm::IncomingCall call) {
+[[gnu::hot]] void CallWorkers::serve(shm::IncomingCall call) {
     // The peer may connect a moment before this side does, and what it calls may call the peer in turn, which
     // fails while this side is not up. A call that comes later than that costs no wake.
     if (!state_.is_up()) {
         wake_supervisor_();
         state_.wait_until_session_is_up(1s);
     }
-    Reply reply = Reply::failure(CallStatus::bad_arguments, "the request is malformed");
+    Reply reply;
     try {
-        if (const auto request = decode_request(call.arguments())) reply = handler_.serve(*request);
+        const auto request = decode_request(call.arguments());
+        reply = request ? handler_.serve(*request)
+                        : Reply::failure(CallStatus::bad_arguments, "the request is malformed");
     } catch (const std::exception& error) { // out of memory, for instance: the worker must survive it
         reply = Reply::failure(CallStatus::exception, error.what());
     }
     call.reply(reply.status, reply.bytes);
+    wire::give_back(std::move(reply.bytes));
 }
 
 } // namespace tandem::link

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/short_mutex.hpp"
 #include "proxy/link/link_handler.hpp"
 #include "proxy/link/session/link_state.hpp"
 
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -37,7 +37,7 @@ class CallWorkers {
     const LinkState& state_;
     LinkHandler& handler_;
     const std::function<void()> wake_supervisor_;
-    std::mutex mutex_; ///< the members below
+    rt::ShortMutex mutex_; ///< the members below
     std::vector<std::thread> threads_;
     unsigned idle_ = 0; ///< workers that execute no call
     bool stopping_ = false;

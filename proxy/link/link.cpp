@@ -62,13 +62,18 @@ void Link::wait_until_up(std::chrono::milliseconds timeout, const std::string& p
 }
 
 Reply Link::call(const Request& request, std::chrono::milliseconds timeout) {
+    wire::MessageBuffer buffer;
+    wire::CdrWriter encoded(buffer);
+    encode(request, encoded);
+    return call(encoded.written(), timeout);
+}
+
+[[gnu::hot]] Reply Link::call(std::span<const std::byte> encoded_request, std::chrono::milliseconds timeout) {
     const auto session = state_.connected_session(); // keeps the segment mapped during the call
     if (!session) return Reply::failure(CallStatus::not_ready, "not ready: the peer is not there");
-    // One buffer per thread: its capacity is kept, so that calls do not allocate once it is large enough.
-    thread_local std::vector<std::byte> encoded;
-    encode(request, encoded);
-    auto reply = session->outgoing_calls()->call(encoded, timeout);
-    return {reply.status, std::move(reply.bytes)};
+    Reply reply{CallStatus::ok, wire::take_spare_bytes()};
+    reply.status = session->outgoing_calls()->call_into(encoded_request, timeout, reply.bytes);
+    return reply;
 }
 
 Reply Link::request_rings(const std::vector<std::string>& ports, std::chrono::milliseconds timeout) {

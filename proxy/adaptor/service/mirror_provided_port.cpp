@@ -32,7 +32,7 @@ std::string MirrorProvidedPort::bindMethod(Method* required) {
 /// Throws SignatureError, one line.
 MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) const {
     const std::string& name = required.getName();
-    Binding binding{name, {}, {}, true, ""};
+    Binding binding{name, {}, {}, {}, true, ""};
     const auto* known = operations_.find_for_method(name);
     if (known && !known->problem.empty()) throw wire::SignatureError(known->problem);
     const auto types = describe_method(required, known ? &known->types : nullptr);
@@ -49,11 +49,13 @@ MirrorProvidedPort::Binding MirrorProvidedPort::make_binding(Method& required) c
     const bool returns_nothing = binding.types.reply.children.empty();
     binding.waits =
         !binding.types.oneway && !(returns_nothing && required.getCallType() == METHOD_NONBLOCKING);
+    binding.request_head = {peer_.name, binding.operation, binding.types.signature};
     return binding;
 }
 
-ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_params>& arguments,
-                                           opros_params& result) {
+[[gnu::hot]] ReturnType MirrorProvidedPort::callService(std::string& name,
+                                                        std::vector<opros_params>& arguments,
+                                                        opros_params& result) {
     const auto bound = bindings_.find(name);
     if (bound == bindings_.end()) return OPROS_UNSUPPORTED_METHOD; // it was never connected
     if (!bound->second.problem.empty())
@@ -63,16 +65,22 @@ ReturnType MirrorProvidedPort::callService(std::string& name, std::vector<opros_
     return call(name, bound->second, arguments, result);
 }
 
-ReturnType MirrorProvidedPort::call(const std::string& name, const Binding& binding,
-                                    std::vector<opros_params>& arguments, opros_params& result) {
-    std::vector<std::byte> bytes;
-    wire::CdrWriter writer(bytes);
-    CdrOarchive archive(writer);
+/// The arguments are encoded behind the head of the request, in memory that this thread keeps.
+[[gnu::hot]] link::Reply MirrorProvidedPort::make_call(const Binding& binding,
+                                                       const std::vector<opros_params>& arguments) {
+    wire::MessageBuffer buffer;
+    wire::CdrWriter request(buffer);
+    binding.request_head.put(request);
+    CdrOarchive archive(request);
     for (std::size_t i = 0; i < arguments.size(); ++i)
         if (binding.directions[i] != Direction::out) arguments[i].encode(archive);
-    const link::Request request{peer_.name, binding.operation, binding.types.signature, bytes};
-    const auto reply =
-        binding.waits ? link_.call(request, call_timeout_) : link_.send(request, call_timeout_);
+    if (binding.waits) return link_.call(request.written(), call_timeout_);
+    return link_.send(*link::decode_request(request.written()), call_timeout_);
+}
+
+[[gnu::hot]] ReturnType MirrorProvidedPort::call(const std::string& name, const Binding& binding,
+                                                 std::vector<opros_params>& arguments, opros_params& result) {
+    auto reply = make_call(binding, arguments);
     // OPRoS stubs return the result itself, so a failure can only be an exception. The host leaves the
     // component ACTIVE after it: the next call may succeed.
     if (reply.status != CallStatus::ok)
@@ -82,6 +90,7 @@ ReturnType MirrorProvidedPort::call(const std::string& name, const Binding& bind
     result.decode(results);
     for (std::size_t i = 0; i < arguments.size(); ++i)
         if (binding.directions[i] != Direction::in) arguments[i].decode(results);
+    wire::give_back(std::move(reply.bytes));
     return OPROS_SUCCESS;
 }
 

@@ -34,11 +34,13 @@ class MirrorProvidedPort final : public ProvidedServicePort {
     struct Binding {
         std::string operation; ///< the peer's name of it
         wire::Operation types;
+        link::RequestHead request_head;
         Directions directions;
         bool waits = true;   ///< for the reply
         std::string problem; ///< why it cannot be called; empty if it can
     };
     Binding make_binding(Method& required) const;
+    link::Reply make_call(const Binding& binding, const std::vector<opros_params>& arguments);
     ReturnType call(const std::string& name, const Binding& binding, std::vector<opros_params>& arguments,
                     opros_params& result);
 

@@ -104,7 +104,7 @@ std::vector<link::ServiceOperation> MirrorRequiredPort::operations() const {
     return operations;
 }
 
-Reply MirrorRequiredPort::serve(const link::Request& request) {
+[[gnu::hot]] Reply MirrorRequiredPort::serve(const link::Request& request) {
     const std::shared_lock lock(mutex_);
     if (!provided_)
         return Reply::failure(
@@ -125,8 +125,8 @@ Reply MirrorRequiredPort::serve(const link::Request& request) {
     return invoke(request, bound->second);
 }
 
-Reply MirrorRequiredPort::invoke(const link::Request& request, const Binding& binding) {
-    Reply reply;
+[[gnu::hot]] Reply MirrorRequiredPort::invoke(const link::Request& request, const Binding& binding) {
+    Reply reply{CallStatus::ok, wire::take_spare_bytes()};
     RequestCall call(binding.directions, request.arguments, reply.bytes);
     try {
         const ReturnType code = provided_->callService(binding.method, call);

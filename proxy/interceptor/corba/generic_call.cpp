@@ -39,7 +39,7 @@ class Call final : public omniCallDescriptor {
         if (client) client->RequestCompleted(1);
     }
 
-    std::vector<std::byte> results;
+    std::vector<std::byte> results = wire::take_spare_bytes();
     std::string exception;
 
   private:
@@ -56,9 +56,10 @@ GenericCallResult failure(Status status, const std::string& operation, std::stri
 
 } // namespace
 
-GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& name,
-                               const wire::Operation& operation, std::span<const std::byte> arguments,
-                               std::chrono::milliseconds timeout) {
+[[gnu::hot]] GenericCallResult generic_call(CORBA::Object_ptr object, const std::string& name,
+                                            const wire::Operation& operation,
+                                            std::span<const std::byte> arguments,
+                                            std::chrono::milliseconds timeout) {
     if (CORBA::is_nil(object)) return failure(Status::unreachable, name, "the provider is not connected");
     omniObjRef* reference = object->_PR_getobj();
     Call call(name, operation, arguments);

@@ -24,11 +24,13 @@ class Upcall final : public omniCallDescriptor {
         : omniCallDescriptor(&Upcall::run, name, std::char_traits<char>::length(name) + 1, operation.oneway,
                              exceptions.data(), static_cast<int>(exceptions.size()), 1),
           operation_(operation), target_(target) {}
+    ~Upcall() override { wire::give_back(std::move(results_)); }
 
     // Arguments are converted before the target is called, so a malformed request never reaches it.
     void unmarshalArguments(cdrStream& stream) override {
-        wire::CdrWriter writer(arguments_);
+        wire::CdrWriter writer(buffer_);
         to_cdr(operation_.request, stream, writer);
+        arguments_ = writer.written();
     }
     void marshalReturnedValues(cdrStream& stream) override {
         wire::CdrReader reader(results_);
@@ -43,7 +45,9 @@ class Upcall final : public omniCallDescriptor {
 
     const wire::Operation& operation_;
     CallTarget& target_;
-    std::vector<std::byte> arguments_, results_;
+    wire::MessageBuffer buffer_;
+    std::span<const std::byte> arguments_; ///< in buffer_
+    std::vector<std::byte> results_;
 };
 
 } // namespace
@@ -51,7 +55,7 @@ class Upcall final : public omniCallDescriptor {
 GenericServant::GenericServant(std::string repository_id, CallTarget& target)
     : repository_id_(std::move(repository_id)), target_(target) {}
 
-_CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
+[[gnu::hot]] _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
     const char* name = handle.operation_name();
     const auto* operation = target_.find_operation(name);
     if (!operation) return 0; // the ORB handles _is_a and its like, and answers BAD_OPERATION to the rest
@@ -63,7 +67,7 @@ _CORBA_Boolean GenericServant::_dispatch(omniCallHandle& handle) {
 
 _CORBA_Boolean GenericServant::_is_a(const char*) { return 1; }
 
-void* GenericServant::_ptrToInterface(const char* repository_id) {
+[[gnu::hot]] void* GenericServant::_ptrToInterface(const char* repository_id) {
     // Only CORBA::Object: there is no compiled skeleton that a co-located caller could call directly, so all
     // callers go through _dispatch(). Any pointer other than nullptr means "yes" to the ORB.
     return omni::strMatch(repository_id, CORBA::Object::_PD_repoId) ? reinterpret_cast<void*>(1) : nullptr;

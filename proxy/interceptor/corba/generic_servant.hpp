@@ -19,7 +19,7 @@ class CallTarget {
     virtual ~CallTarget() = default;
     /// Returns nullptr when there is no such operation. The result must stay valid as long as the target.
     virtual const wire::Operation* find_operation(const char* name) = 0;
-    /// Executes an operation. Arguments and results are in CDR. Failures are thrown: CORBA system exceptions, or a
+    /// Executes an operation. Arguments and results are in CDR; the results are given back (spare_bytes.hpp). Failures are thrown: CORBA system exceptions, or a
     /// GenericUserException that the operation declares.
     virtual std::vector<std::byte> call(const char* name, const wire::Operation&,
                                         std::span<const std::byte> arguments) = 0;

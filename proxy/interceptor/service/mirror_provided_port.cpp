@@ -40,7 +40,8 @@ MirrorProvidedPort::MirrorProvidedPort(link::Port port, std::chrono::millisecond
     : port_(std::move(port)), operations_(port_.operations), call_timeout_(call_timeout) {}
 
 /// AdaptorComp has checked the same at connection, but it is another process and not trusted.
-const wire::Operation* MirrorProvidedPort::find_operation(const link::Request& request, Reply& refusal) {
+[[gnu::hot]] const wire::Operation* MirrorProvidedPort::find_operation(const link::Request& request,
+                                                                       Reply& refusal) {
     // Without the IDL there is nothing to compare with: the CORBA object refuses what it does not know.
     if (operations_.empty()) return parse_request_types(request.signature, refusal);
     const auto* known = operations_.find(request.operation);
@@ -73,13 +74,14 @@ const wire::Operation* MirrorProvidedPort::parse_request_types(std::string_view 
     }
 }
 
-Reply MirrorProvidedPort::serve(const link::Request& request) {
+[[gnu::hot]] Reply MirrorProvidedPort::serve(const link::Request& request) {
     Reply refusal;
     const auto* operation = find_operation(request, refusal);
     return operation ? invoke(request, *operation) : refusal;
 }
 
-Reply MirrorProvidedPort::invoke(const link::Request& request, const wire::Operation& operation) {
+[[gnu::hot]] Reply MirrorProvidedPort::invoke(const link::Request& request,
+                                              const wire::Operation& operation) {
     return make_reply(generic_call(consumer_.getObject(), std::string(request.operation), operation,
                                    request.arguments, call_timeout_));
 }

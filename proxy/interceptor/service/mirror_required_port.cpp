@@ -49,7 +49,14 @@ MirrorRequiredPort::MirrorRequiredPort(link::Port port, link::Link& link,
                                        std::chrono::milliseconds call_timeout)
     : port_(std::move(port)), link_(link), call_timeout_(call_timeout),
       servant_(interface_id(port_.type), *this) {
-    tables_.push_back(std::make_unique<const link::OperationTable>(port_.operations));
+    add_table(std::make_unique<const link::OperationTable>(port_.operations));
+}
+
+void MirrorRequiredPort::add_table(std::unique_ptr<const link::OperationTable> table) {
+    for (const auto& [name, operation] : *table)
+        request_heads_.emplace(&operation.types,
+                               link::RequestHead(port_.name, name, operation.types.signature));
+    tables_.push_back(std::move(table));
 }
 
 void MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
@@ -57,12 +64,12 @@ void MirrorRequiredPort::bind(const link::control::ServiceBinding& binding) {
     if (port_.operations.empty()) {
         auto table = std::make_unique<const link::OperationTable>(binding.operations);
         const std::lock_guard lock(mutex_);
-        if (!binding.operations.empty() && *table != *tables_.back()) tables_.push_back(std::move(table));
+        if (!binding.operations.empty() && *table != *tables_.back()) add_table(std::move(table));
     }
     ready_ = !binding.operations.empty();
 }
 
-const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
+[[gnu::hot]] const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
     const std::lock_guard lock(mutex_);
     const auto* found = tables_.back()->find(name);
     if (!found) return nullptr;
@@ -73,10 +80,21 @@ const wire::Operation* MirrorRequiredPort::find_operation(const char* name) {
     throw CORBA::NO_IMPLEMENT(0, CORBA::COMPLETED_NO);
 }
 
-std::vector<std::byte> MirrorRequiredPort::call(const char* name, const wire::Operation& operation,
-                                                std::span<const std::byte> arguments) {
-    const link::Request request{port_.name, name, operation.signature, arguments};
-    auto reply = operation.oneway ? link_.send(request, call_timeout_) : link_.call(request, call_timeout_);
+/// Entries are never removed, so that the reference stays valid.
+[[gnu::hot]] const link::RequestHead& MirrorRequiredPort::find_head(const wire::Operation& operation) {
+    const std::lock_guard lock(mutex_);
+    return request_heads_.at(&operation);
+}
+
+[[gnu::hot]] std::vector<std::byte> MirrorRequiredPort::call(const char* name,
+                                                             const wire::Operation& operation,
+                                                             std::span<const std::byte> arguments) {
+    wire::MessageBuffer buffer;
+    wire::CdrWriter request(buffer);
+    find_head(operation).put(request);
+    request.put_block(arguments.data(), arguments.size(), 1);
+    auto reply = operation.oneway ? link_.send(*link::decode_request(request.written()), call_timeout_)
+                                  : link_.call(request.written(), call_timeout_);
     if (reply.status != link::CallStatus::ok) throw_failure(name, operation, reply);
     return std::move(reply.bytes);
 }

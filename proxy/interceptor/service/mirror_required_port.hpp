@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/process/log_throttle.hpp"
+#include "host/rt/short_mutex.hpp"
 #include "proxy/interceptor/corba/generic_servant.hpp"
 #include "proxy/link/link.hpp"
 #include "proxy/link/protocol/control.hpp"
@@ -12,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace tandem::interceptor {
@@ -38,16 +40,19 @@ class MirrorRequiredPort final : private CallTarget {
                                 std::span<const std::byte>) override;
     bool is_ready() const override { return ready_ && link_.is_up(); }
 
+    void add_table(std::unique_ptr<const link::OperationTable> table); ///< with mutex_ held
+    const link::RequestHead& find_head(const wire::Operation& operation);
     [[noreturn]] void throw_failure(const char* name, const wire::Operation&, const link::Reply&);
 
     const link::Port port_;
     link::Link& link_;
     const std::chrono::milliseconds call_timeout_;
     std::atomic<bool> ready_{false};
-    std::mutex mutex_; ///< tables_
+    rt::ShortMutex mutex_; ///< the two below
     /// The last one is in use. Those that it replaced are kept, because calls that are being executed may still use
     /// them.
     std::vector<std::unique_ptr<const link::OperationTable>> tables_;
+    std::unordered_map<const wire::Operation*, const link::RequestHead> request_heads_; ///< of all tables
     process::LogThrottle failed_calls_;
     GenericServant servant_;
 };

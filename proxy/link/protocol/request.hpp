@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/wire/cdr.hpp"
+
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -19,8 +21,19 @@ struct Request {
     std::span<const std::byte> arguments;
 };
 
-/// Replaces the content of `out`, whose capacity is kept: repeated calls do not allocate.
-void encode(const Request&, std::vector<std::byte>& out);
+void encode(const Request&, wire::CdrWriter& out);
+
+/// What the requests of one operation begin with, encoded once: this and the arguments are a request.
+class RequestHead {
+  public:
+    RequestHead() = default;
+    RequestHead(std::string_view port, std::string_view operation, std::string_view signature);
+    void put(wire::CdrWriter& out) const { out.put_block(bytes_.data(), bytes_.size(), 1); }
+
+  private:
+    std::vector<std::byte> bytes_;
+};
+
 /// Returns views into `bytes`, which another process wrote; nothing when they are no request.
 std::optional<Request> decode_request(std::span<const std::byte> bytes);
 

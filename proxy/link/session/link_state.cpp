@@ -10,12 +10,17 @@ std::shared_ptr<LinkSession> LinkState::session() const {
     return session_;
 }
 
-std::shared_ptr<LinkSession> LinkState::connected_session() const {
-    const std::lock_guard lock(mutex_);
-    return up_ ? session_ : nullptr;
+[[gnu::hot]] std::shared_ptr<LinkSession> LinkState::connected_session() const {
+    const std::lock_guard lock(connected_mutex_);
+    return up_.load(std::memory_order_relaxed) ? session_ : nullptr;
 }
 
 std::shared_ptr<LinkSession> LinkState::wait_for_session() const {
+    {
+        // Mostly there is one: then a short lock does.
+        const std::lock_guard lock(connected_mutex_);
+        if (session_) return session_;
+    }
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return session_ || closing_; });
     return session_;
@@ -39,12 +44,14 @@ void LinkState::wait_until_closing(std::chrono::milliseconds timeout) const {
 
 void LinkState::start_session(std::shared_ptr<LinkSession> session) {
     const std::lock_guard lock(mutex_);
+    const std::lock_guard connected_lock(connected_mutex_);
     session_ = std::move(session);
     changed_.notify_all();
 }
 
 void LinkState::set_up() {
     const std::lock_guard lock(mutex_);
+    const std::lock_guard connected_lock(connected_mutex_);
     up_.store(true, std::memory_order_release);
     refusal_.clear();
     changed_.notify_all();
@@ -59,6 +66,7 @@ void LinkState::set_refused(std::string reason) {
 bool LinkState::end_session() {
     std::shared_ptr<LinkSession> ended; // destroyed after the lock: leaving the segment takes system calls
     const std::lock_guard lock(mutex_);
+    const std::lock_guard connected_lock(connected_mutex_);
     const bool was_up = up_.exchange(false);
     refusal_.clear();
     ended = std::move(session_);

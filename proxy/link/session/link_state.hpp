@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "host/rt/short_mutex.hpp"
 #include "proxy/link/session/link_session.hpp"
 
 #include <atomic>
@@ -51,6 +52,8 @@ class LinkState {
 
   private:
     mutable std::mutex mutex_;
+    /// Of session_ and up_ alone, which each call asks for: whoever changes them holds both mutexes.
+    mutable rt::ShortMutex connected_mutex_;
     mutable std::condition_variable changed_; ///< notified with mutex_ held, after each change of the members
     std::shared_ptr<LinkSession> session_;
     std::string refusal_;

@@ -69,7 +69,8 @@ TEST_CASE("state reports and settings come out as they went in, and are refused 
 TEST_CASE("a request comes out as it went in, its arguments aligned to 8") {
     const std::vector<std::byte> arguments{std::byte{1}, std::byte{2}, std::byte{3}};
     std::vector<std::byte> bytes;
-    encode(Request{"chair", "limits", "i:ad", arguments}, bytes);
+    wire::CdrWriter out(bytes);
+    encode(Request{"chair", "limits", "i:ad", arguments}, out);
     const auto back = decode_request(bytes);
     REQUIRE(back);
     CHECK(back->port == "chair");
@@ -81,7 +82,8 @@ TEST_CASE("a request comes out as it went in, its arguments aligned to 8") {
 
 TEST_CASE("bytes that are no request are recognized") {
     std::vector<std::byte> bytes;
-    encode(Request{"chair", "limits", ":ad", {}}, bytes);
+    wire::CdrWriter out(bytes);
+    encode(Request{"chair", "limits", ":ad", {}}, out);
     CHECK(decode_request(bytes));
     bytes.resize(10);
     CHECK_FALSE(decode_request(bytes));
