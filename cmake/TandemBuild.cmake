@@ -54,6 +54,15 @@ endif()
 # Functions are found when a program starts: a robot does not wait for the dynamic linker at the first call of each.
 add_link_options(-Wl,-z,now)
 
+# tandem_message_path(TARGET...)
+# For what each message passes through, where instructions, cache lines and pages of code count: calls of other libraries
+# have no stub, calls within a library go straight to the function.
+function(tandem_message_path)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE -fno-plt -fno-semantic-interposition)
+  endforeach()
+endfunction()
+
 # tandem_sources(OUT FOLDER...)
 # The .cpp files of the named folders, below the current one. A new file needs no line in a CMakeLists.txt.
 function(tandem_sources out)
@@ -95,6 +104,8 @@ function(tandem_add_plugin name model)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
   add_library(plugin_${model}_${name} MODULE ${arg_SOURCES})
   target_link_libraries(plugin_${model}_${name} PRIVATE tandem_${model} ${arg_LIBRARIES})
+  target_link_options(plugin_${model}_${name} PRIVATE -Wl,-Bsymbolic-functions)
+  tandem_message_path(plugin_${model}_${name})
   set_target_properties(plugin_${model}_${name} PROPERTIES
     PREFIX "" OUTPUT_NAME ${name}
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/plugins/${model}

@@ -120,19 +120,19 @@ struct Bound {
 
 // To be lowered as the roads get shorter: 5 to 10 % above what they take.
 constexpr Bound bounds[] = {
-    {"tandem/path/opros-to-rtm/48/sender", 720, 76, 19, 0, 4},
-    {"tandem/path/opros-to-rtm/48/receiver", 970, 112, 29, 0, 9},
-    {"tandem/path/opros-to-rtm/8/caller", 4560, 224, 45, 5, 11},
-    {"tandem/path/opros-to-rtm/8/worker", 4700, 395, 66, 6, 23},
-    {"tandem/path/rtm-to-opros/48/sender", 960, 120, 26, 0, 6},
-    {"tandem/path/rtm-to-opros/48/receiver", 870, 88, 24, 0, 8},
-    {"tandem/path/rtm-to-opros/8/caller", 6400, 390, 66, 5, 23},
-    {"tandem/path/rtm-to-opros/8/worker", 2410, 218, 44, 2, 15},
-    {"tandem/path/inside-opros/48/sender", 290, 36, 10, 0, 4},
-    {"tandem/path/inside-opros/48/receiver", 205, 34, 11, 0, 3},
+    {"tandem/path/opros-to-rtm/48/sender", 530, 54, 11, 0, 4},
+    {"tandem/path/opros-to-rtm/48/receiver", 620, 65, 14, 0, 9},
+    {"tandem/path/opros-to-rtm/8/caller", 2350, 186, 40, 3, 11},
+    {"tandem/path/opros-to-rtm/8/worker", 3600, 310, 66, 0, 21},
+    {"tandem/path/rtm-to-opros/48/sender", 600, 61, 11, 0, 6},
+    {"tandem/path/rtm-to-opros/48/receiver", 585, 62, 13, 0, 7},
+    {"tandem/path/rtm-to-opros/8/caller", 3580, 305, 66, 0, 25},
+    {"tandem/path/rtm-to-opros/8/worker", 1770, 150, 36, 0, 13},
+    {"tandem/path/inside-opros/48/sender", 285, 34, 8, 0, 4},
+    {"tandem/path/inside-opros/48/receiver", 180, 25, 7, 0, 3},
     {"tandem/path/inside-opros/8/caller", 60, 10, 4, 0, 0},
-    {"tandem/path/inside-rtm/48/sender", 440, 44, 11, 0, 6},
-    {"tandem/path/inside-rtm/48/receiver", 590, 54, 14, 0, 8},
+    {"tandem/path/inside-rtm/48/sender", 340, 37, 10, 0, 6},
+    {"tandem/path/inside-rtm/48/receiver", 455, 45, 11, 0, 8},
     {"tandem/path/inside-rtm/8/caller", 40, 10, 5, 0, 0},
 };
 
