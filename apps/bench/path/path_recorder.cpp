@@ -152,7 +152,7 @@ PathTrace PathRecorder::step_worker(pid_t caller) {
     const PathMark reached = tracer_.mark_of(caller);
     tracer_.thaw();
     for (const pid_t worker : workers_) {
-        tracer_.wait_for(worker);
+        if (!tracer_.stands_still(worker)) tracer_.interrupt(worker); // it sleeps until there is a call for it
         tracer_.resume(worker);
     }
     tracer_.resume(caller);
