@@ -121,7 +121,7 @@ struct Bound {
 // To be lowered as the roads get shorter: 5 to 10 % above what they take.
 constexpr Bound bounds[] = {
     {"tandem/path/opros-to-rtm/48/sender", 530, 54, 11, 0, 4},
-    {"tandem/path/opros-to-rtm/48/receiver", 620, 65, 14, 0, 9},
+    {"tandem/path/opros-to-rtm/48/receiver", 690, 69, 17, 0, 9},
     {"tandem/path/opros-to-rtm/8/caller", 2350, 186, 40, 3, 11},
     {"tandem/path/opros-to-rtm/8/worker", 3600, 310, 66, 0, 21},
     {"tandem/path/rtm-to-opros/48/sender", 600, 61, 11, 0, 6},
