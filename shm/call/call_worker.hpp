@@ -127,9 +127,9 @@ class CallWorker {
     /// Ends all waits of this object's workers, now and from now on.
     void end_all_waits() {
         waits_ended_.store(1, std::memory_order_seq_cst);
-        // Half the range, not 1: in a file that was truncated the count is 0 now, and must not become what a worker that
-        // is about to sleep has read before.
-        view_.header->wake_count.fetch_add(1U << 31, std::memory_order_seq_cst);
+        // A large odd number: the count must not come back to what a worker that is about to sleep has read, however
+        // often this is called, nor reach it from 0, which the count is in a file that was truncated.
+        view_.header->wake_count.fetch_add(0x9E3779B1U, std::memory_order_seq_cst);
         A::futex_wake(view_.header->wake_count, INT_MAX);
     }
     bool waits_ended() const { return waits_ended_.load(std::memory_order_seq_cst) != 0; }
