@@ -120,8 +120,12 @@ PathTrace PathRecorder::record_caller() {
 }
 
 PathTrace PathRecorder::record_worker() {
-    warm_up_calls();
-    return best_of([this] { return step_worker(tracer_.wait_at(PathMark::call_begin)); });
+    return best_of([this] {
+        // Each time: a worker that takes long, as one that is stepped, makes the link start another one, which takes
+        // its turn from then on.
+        warm_up_calls();
+        return step_worker(tracer_.wait_at(PathMark::call_begin));
+    });
 }
 
 PathTrace PathRecorder::step_worker(pid_t caller) {
@@ -129,8 +133,9 @@ PathTrace PathRecorder::step_worker(pid_t caller) {
     // Whichever of them is woken: each sleeps in the system call that it steps.
     std::map<pid_t, PathTrace> traces;
     for (const pid_t worker : workers_) {
-        tracer_.interrupt(worker);
         traces.try_emplace(worker, worker);
+        if (tracer_.is_stepped(worker)) continue; // of an earlier attempt, in which it was not woken
+        tracer_.interrupt(worker);
         tracer_.begin_step(worker);
     }
     tracer_.freeze_others(*workers_.begin(), workers_);
@@ -152,8 +157,8 @@ PathTrace PathRecorder::step_worker(pid_t caller) {
     const PathMark reached = tracer_.mark_of(caller);
     tracer_.thaw();
     for (const pid_t worker : workers_) {
-        if (!tracer_.stands_still(worker)) tracer_.interrupt(worker); // it sleeps until there is a call for it
-        tracer_.resume(worker);
+        // One that has not been woken sleeps on, perhaps for ever: its step ends with the call that wakes it.
+        if (tracer_.stands_still(worker)) tracer_.resume(worker);
     }
     tracer_.resume(caller);
     require_end(reached, PathMark::call_begin);

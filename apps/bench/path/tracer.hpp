@@ -40,6 +40,8 @@ class Tracer {
     user_regs_struct registers(pid_t thread) const;
     PathMark mark_of(pid_t thread) const { return threads_.at(thread).mark; }
     bool stands_still(pid_t thread) const { return threads_.at(thread).state == State::still; }
+    /// Its step, of begin_step(), is not done yet.
+    bool is_stepped(pid_t thread) const { return threads_.at(thread).state == State::stepping; }
 
     /// Stops a thread that runs or sleeps in the kernel; a system call that it interrupts is restarted.
     void interrupt(pid_t thread);
