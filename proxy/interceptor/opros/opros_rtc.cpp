@@ -111,7 +111,11 @@ RTC::ReturnCode_t OprosRtc::onFinalize() {
     if (must_tell_component()) command(control::exit, control::deactivation_timeout);
     for (const auto& output : outputs_) source_.link->set_arrival_listener(output.channel, {});
     for (const auto& key : channel_keys_) LinkBuffer::unregister_channel(key);
-    finalized_ = true;
+    {
+        // The task thread may be in the execution context, which is taken from this RTC after this callback.
+        const std::unique_lock following(follow_mutex_, control::deactivation_timeout);
+        finalized_ = true;
+    }
     source_.finalized();
     return RTC::RTC_OK;
 }
@@ -288,6 +292,8 @@ RTC::LifeCycleState OprosRtc::state() const { return context_->getComponentState
 // The context carries out each transition in this thread, whose callbacks then tell the component nothing. One that
 // it refuses because another is under way, whoever asks for that one is told by the component's next report.
 bool OprosRtc::follow() {
+    const std::lock_guard following(follow_mutex_);
+    if (finalized_) return true;
     ComponentState wanted{};
     {
         const std::lock_guard lock(state_mutex_);

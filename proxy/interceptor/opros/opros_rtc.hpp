@@ -118,6 +118,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
     std::map<std::string, std::string> values_; ///< bound to the configuration parameters
     std::map<std::string, std::string> sent_;   ///< what the OPRoS component has
 
+    std::timed_mutex follow_mutex_; ///< held by follow() while it uses the execution context
     mutable std::mutex state_mutex_;
     link::control::ComponentState component_state_{};
     std::uint64_t sequence_ = 0;

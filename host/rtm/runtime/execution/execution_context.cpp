@@ -120,7 +120,9 @@ ReturnCode_t ExecutionContextBase::setRate(double rate) {
 }
 
 void ExecutionContextBase::forEach(ReturnCode_t (RTC_impl::RTObjectStateMachine::*call)()) {
-    for (auto& participant : *participants()) (participant.get()->*call)();
+    const auto all =
+        participants(); // kept for the time of the loop, since another thread may change the list
+    for (auto& participant : *all) (participant.get()->*call)();
 }
 
 ExecutionContextBase::Participants ExecutionContextBase::participants() const {
@@ -130,7 +132,8 @@ ExecutionContextBase::Participants ExecutionContextBase::participants() const {
 
 ExecutionContextBase::Participant ExecutionContextBase::find(LightweightRTObject_ptr comp) {
     if (CORBA::is_nil(comp)) return nullptr;
-    for (auto& participant : *participants())
+    const auto all = participants();
+    for (auto& participant : *all)
         if (participant->refersTo(comp)) return participant;
     return nullptr;
 }
@@ -196,7 +199,8 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
     profile->kind = m_kind;
     profile->rate = getRate();
     profile->owner = RTObject::_duplicate(m_owner.in());
-    for (auto& participant : *participants()) {
+    const auto all = participants();
+    for (auto& participant : *all) {
         // The profile lists the owner apart from the participants.
         RTObject_var component = RTObject::_narrow(participant->reference());
         if (!CORBA::is_nil(component.in()) && !component->_is_equivalent(m_owner.in()))
@@ -204,7 +208,7 @@ ExecutionContextProfile* ExecutionContextBase::getProfile() {
     }
     coil::Properties properties(m_properties);
     addStatistics(properties);
-    for (auto& participant : *participants()) add_running_callback(properties, participant->local());
+    for (auto& participant : *all) add_running_callback(properties, participant->local());
     NVUtil::copyFromProperties(profile->properties, properties);
     return profile._retn();
 }

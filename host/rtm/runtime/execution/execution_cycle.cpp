@@ -33,7 +33,8 @@ void ExecutionContextBase::cycle(bool warm_up) {
 }
 
 bool ExecutionContextBase::hasWork() {
-    for (auto& participant : *participants())
+    const auto all = participants();
+    for (auto& participant : *all)
         if (participant->hasPendingTransition() || participant->state() != INACTIVE_STATE) return true;
     return false;
 }
