@@ -29,18 +29,10 @@ int fails_naming(const Link& link, std::size_t arena_bytes, const std::string& a
     return 1;
 }
 
-} // namespace
-
-TEST_CASE("a /dev/shm of 1 MiB is an error that names both numbers and a segment that fits is made") {
-    Link link;
-    Child child([&] {
-        if (!enter_small_shm()) return not_permitted;
-        // A page or so of the 1 MiB may be the file system's own.
-        const int failed = fails_naming(link, std::size_t{4} << 20, "10");
-        if (failed != 0) return failed;
-        auto fits = join(link, Side::first, small(256 * 1024));
-        return fails_naming(Link(), 256 * 1024, " available in /dev/shm (No space left on device)");
-    });
+/// Checks that `body` returns 0 in a child whose /dev/shm has 1 MiB; a warning where no such one may be made.
+template <class Body>
+void check_in_small_shm(const Body& body) {
+    Child child([&] { return enter_small_shm() ? body() : not_permitted; });
     const int result = child.wait();
     if (result == not_permitted)
         WARN("skipped: this process may not mount a file system of its own");
@@ -48,10 +40,22 @@ TEST_CASE("a /dev/shm of 1 MiB is an error that names both numbers and a segment
         CHECK(result == 0);
 }
 
+} // namespace
+
+TEST_CASE("a /dev/shm of 1 MiB is an error that names both numbers and a segment that fits is made") {
+    Link link;
+    check_in_small_shm([&] {
+        // A page or so of the 1 MiB may be the file system's own.
+        const int failed = fails_naming(link, std::size_t{4} << 20, "10");
+        if (failed != 0) return failed;
+        auto fits = join(link, Side::first, small(256 * 1024));
+        return fails_naming(Link(), 256 * 1024, " available in /dev/shm (No space left on device)");
+    });
+}
+
 TEST_CASE(
     "a chunk of a sparse segment that finds no memory is refused and counted and what is smaller passes") {
-    Child child([&] {
-        if (!enter_small_shm()) return not_permitted;
+    check_in_small_shm([&] {
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
         Link link;
@@ -71,17 +75,11 @@ TEST_CASE(
         if (counters.sent != 3 || counters.refused != 2 || counters.received != 1) return 3;
         return sent(fits) && text_of(reader.read()->bytes) == fits && !sent(not_at_all) ? 0 : 4;
     });
-    const int result = child.wait();
-    if (result == not_permitted)
-        WARN("skipped: this process may not mount a file system of its own");
-    else
-        CHECK(result == 0);
 }
 
 TEST_CASE(
     "a ring of a sparse segment takes memory with its first message, which is refused if there is none") {
-    Child child([&] {
-        if (!enter_small_shm()) return not_permitted;
+    check_in_small_shm([&] {
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
         Link link;
@@ -100,17 +98,11 @@ TEST_CASE(
         if (counters.sent != 2 || counters.refused != 2) return 2;
         return sent(fits) && text_of(fits_reader.read()->bytes) == "message" ? 0 : 3;
     });
-    const int result = child.wait();
-    if (result == not_permitted)
-        WARN("skipped: this process may not mount a file system of its own");
-    else
-        CHECK(result == 0);
 }
 
 TEST_CASE(
     "a call queue of a sparse segment takes memory with its first long call, which fails if there is none") {
-    Child child([&] {
-        if (!enter_small_shm()) return not_permitted;
+    check_in_small_shm([&] {
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
         Link link;
@@ -136,16 +128,10 @@ TEST_CASE(
                    ? 0
                    : 2;
     });
-    const int result = child.wait();
-    if (result == not_permitted)
-        WARN("skipped: this process may not mount a file system of its own");
-    else
-        CHECK(result == 0);
 }
 
 TEST_CASE("a ring whose chunks do not all find memory goes on with those that do") {
-    Child child([&] {
-        if (!enter_small_shm()) return not_permitted;
+    check_in_small_shm([&] {
         JoinOptions options = small(64 * 1024);
         options.sparse = true;
         Link link;
@@ -173,11 +159,6 @@ TEST_CASE("a ring whose chunks do not all find memory goes on with those that do
         const auto c = writer.counters();
         return c.sent == 40 && c.received == 22 && c.overwritten == 18 && c.refused == 0 ? 0 : 5;
     });
-    const int result = child.wait();
-    if (result == not_permitted)
-        WARN("skipped: this process may not mount a file system of its own");
-    else
-        CHECK(result == 0);
 }
 
 TEST_CASE("a limit on the size of files is an error that names the bytes needed and why") {
@@ -192,8 +173,7 @@ TEST_CASE("a limit on the size of files is an error that names the bytes needed 
 }
 
 TEST_CASE("an object of a sparse segment that finds no memory is an error that names both numbers") {
-    Child child([&] {
-        if (!enter_small_shm()) return not_permitted;
+    check_in_small_shm([&] {
         JoinOptions options = small(256 * 1024);
         options.sparse = true;
         // Each finds room for its arena, which is not taken yet; for all of them there is none.
@@ -211,11 +191,6 @@ TEST_CASE("an object of a sparse segment that finds no memory is an error that n
                        : (fprintf(stderr, "%s\n", text.c_str()), 2);
         }
     });
-    const int result = child.wait();
-    if (result == not_permitted)
-        WARN("skipped: this process may not mount a file system of its own");
-    else
-        CHECK(result == 0);
 }
 
 TEST_CASE("another user is refused whichever side is free and cannot remove the segment") {

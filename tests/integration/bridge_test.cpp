@@ -42,10 +42,7 @@ TEST_CASE("a killed host that is started again is bound again, and nothing is le
     hosts.start_opros();
     REQUIRE(hosts.says("opros", "reply: hello 5 "));
     for (int round = 1; round <= 2; ++round) {
-        hosts.kill("rtm");
-        CHECK(hosts.says("opros", "is down: the peer process has gone"));
-        const auto before = hosts.output("opros").size();
-        hosts.start_rtm();
+        const auto before = hosts.restart_rtm("opros");
         CHECK(hosts.says("opros", "reply:", before));
     }
     CHECK(hosts.stop("opros") == 0);

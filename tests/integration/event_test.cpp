@@ -40,10 +40,7 @@ TEST_CASE("events come again after the RTM host was killed and started again") {
     hosts.start_rtm();
     hosts.start_opros();
     REQUIRE(hosts.says("opros", "event: answer to hot 3"));
-    hosts.kill("rtm");
-    REQUIRE(hosts.says("opros", "is down"));
-    const std::size_t killed = hosts.output("opros").size();
-    hosts.start_rtm();
+    const std::size_t killed = hosts.restart_rtm("opros");
     CHECK(hosts.says("opros", "event: answer to hot ", killed));
     CHECK(hosts.stop_both());
 }
@@ -110,10 +107,7 @@ TEST_CASE(
     hosts.start_opros();
     REQUIRE(hosts.says("rtm", "oven: label bread\n"));
     REQUIRE(hosts.says("rtm", "oven: heating\n"));
-    hosts.kill("rtm");
-    REQUIRE(hosts.says("opros", "is down"));
-    const std::size_t killed = hosts.output("rtm").size();
-    hosts.start_rtm();
+    const std::size_t killed = hosts.restart_rtm("rtm");
     CHECK(hosts.says("rtm", "oven: label bread\n", killed));
     CHECK(hosts.says("rtm", "oven: heating\n", killed));
     CHECK(hosts.stop_both());

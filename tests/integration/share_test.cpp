@@ -43,6 +43,14 @@ struct Shared : TwoHosts {
         start_rtm();
         start_opros();
     }
+    /// Kills opros_host, waits until the component's RTC shows it, and starts it again. Where its new output begins.
+    std::size_t restart_opros(const std::string& component) {
+        kill("opros");
+        CHECK(shows(component, "ERROR"));
+        const auto before = output("opros").size();
+        start_opros();
+        return before;
+    }
     std::string port;
 };
 
@@ -266,10 +274,7 @@ TEST_CASE("events of a shared OPRoS component are data ports of a structure of i
     CHECK(hosts.good({"activate", "AlarmRtc0"}));
     CHECK(hosts.says("opros", "event: answer to hot "));
     CHECK(hosts.says("opros", " at a time, "));
-    hosts.kill("opros");
-    CHECK(hosts.shows("Siren", "ERROR"));
-    const auto before = hosts.output("opros").size();
-    hosts.start_opros();
+    const auto before = hosts.restart_opros("Siren");
     CHECK(hosts.says("opros", "event: answer to hot ", before));
     CHECK(hosts.stop_both());
     CHECK_FALSE(hosts.left_in_shared_memory());
@@ -291,10 +296,7 @@ TEST_CASE("a service that a shared OPRoS component requires is that of an RTC") 
     CHECK(hosts.good({"connect", "Reader:dictionary", "EchoRtc0:dictionary"}));
     CHECK(hosts.says("opros", "pages: 2 last 5"));
     CHECK(hosts.says("opros", "NotFound")); // the RTC's exception
-    hosts.kill("opros");
-    CHECK(hosts.shows("Reader", "ERROR"));
-    const auto before = hosts.output("opros").size();
-    hosts.start_opros();
+    const auto before = hosts.restart_opros("Reader");
     CHECK(hosts.says("opros", "pages: 2 last 5", before));
     CHECK(hosts.stop_both());
 }

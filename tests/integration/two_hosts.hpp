@@ -214,6 +214,15 @@ class TwoHosts {
         hosts_.at(host).wait(std::chrono::seconds(30));
         hosts_.erase(host);
     }
+    /// Kills rtm_host, waits until opros_host has noticed, and starts it again. Where the new output of `host` begins.
+    std::size_t restart_rtm(const std::string& host) {
+        kill("rtm");
+        if (!says("opros", "is down: the peer process has gone"))
+            throw std::runtime_error("opros_host has not noticed a death");
+        const std::size_t before = output(host).size();
+        start_rtm();
+        return before;
+    }
     pid_t pid(const std::string& host) const { return hosts_.at(host).pid(); }
     std::vector<std::filesystem::path> segments() const {
         std::vector<std::filesystem::path> found;

@@ -16,7 +16,7 @@
 namespace tandem::adaptor {
 
 MirrorFsmPort::MirrorFsmPort(link::Port peer, link::ChannelWriter& channel)
-    : peer_(std::move(peer)), channel_(channel) {
+    : MirrorEventPortBase(std::move(peer), channel) {
     for (const auto& [name, signature] : peer_.operations) {
         auto& event = events_[name];
         try {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/link/channel/channel.hpp"
-#include "proxy/link/protocol/port_table.hpp"
+#include "proxy/adaptor/event/mirror_event_port_base.hpp"
 #include "proxy/wire/type.hpp"
-
-#include <InputEventPortInterface.h>
 
 #include <map>
 #include <mutex>
@@ -18,7 +15,7 @@ namespace tandem::adaptor {
 /// Mirrors an EventInPort of the peer, whose messages are events of a state machine. An event goes to the handler of its
 /// id; its content is the argument, without RTM's time, or is left out where the handler has none. Several ports may
 /// send here, with contents of types of their own.
-class MirrorFsmPort final : public InputEventPortInterface {
+class MirrorFsmPort final : public MirrorEventPortBase {
   public:
     /// `peer` is the port's entry in the peer's table. The channel must outlive this port.
     MirrorFsmPort(link::Port peer, link::ChannelWriter& channel);
@@ -26,15 +23,10 @@ class MirrorFsmPort final : public InputEventPortInterface {
     /// OPROS_OUT_OF_RESOURCES: no peer, or no room; OPROS_BAD_INPUT_PARAMETER: the peer has no such event, or with
     /// another argument, which is counted as a dropped message. An event without content has its type's default value.
     ReturnType push(Event* event) override;
-    ReturnType push(opros::archive::iarchive&) override { return OPROS_UNSUPPORTED_METHOD; }
-    ReturnType pushEvent(unsigned char*, int) override { return OPROS_UNSUPPORTED_METHOD; }
-
-    /// The type shows in the source only, which the host asks about as well.
-    bool checkType(Event*) override { return true; }
+    using MirrorEventPortBase::push, MirrorEventPortBase::checkType;
     /// Called when the host connects this port: true if the source's content fits at least one event. Logs a line about
     /// those that it does not fit.
     bool checkType(EventPort* source) override;
-    std::string typeError() const override { return type_error_; }
 
   private:
     struct PeerEvent {
@@ -52,11 +44,8 @@ class MirrorFsmPort final : public InputEventPortInterface {
     std::string describe_events() const;
     ReturnType refuse(const Event& event);
 
-    const link::Port peer_;
-    link::ChannelWriter& channel_;
     std::map<std::string, PeerEvent> events_;
     std::map<std::string, Content> contents_; ///< by their types; complete before anybody pushes
-    std::string type_error_;
     std::mutex argument_mutex_;
     std::vector<std::byte> argument_; ///< kept for its memory
 };

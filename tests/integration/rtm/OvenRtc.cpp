@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // An oven whose state machine takes events through the port `panel`, and prints what it does.
+#include "register_rtc.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/EventPort.h>
-#include <rtm/Manager.h>
 #include <rtm/StaticFSM.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
@@ -92,30 +92,4 @@ class OvenRtc : public RTC::DataFlowComponentBase {
     RTC::EventInPort<Machine> panel_, knob_;
 };
 
-extern "C" void OvenRtcInit(RTC::Manager* manager) {
-    static const char* const spec[] = {"implementation_id",
-                                       "OvenRtc",
-                                       "type_name",
-                                       "OvenRtc",
-                                       "description",
-                                       "test",
-                                       "version",
-                                       "1.0",
-                                       "vendor",
-                                       "Tandem",
-                                       "category",
-                                       "test",
-                                       "activity_type",
-                                       "PERIODIC",
-                                       "kind",
-                                       "DataFlowComponent",
-                                       "max_instance",
-                                       "0",
-                                       "language",
-                                       "C++",
-                                       "lang_type",
-                                       "compile",
-                                       ""};
-    coil::Properties profile(spec);
-    manager->registerFactory(profile, RTC::Create<OvenRtc>, RTC::Delete<OvenRtc>);
-}
+extern "C" void OvenRtcInit(RTC::Manager* manager) { register_rtc<OvenRtc>(manager, "OvenRtc"); }

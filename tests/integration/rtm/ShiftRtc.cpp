@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sends the number of its cycle; removes its port, adds another one, and later the first one again.
+#include "register_rtc.hpp"
 #include <rtm/DataFlowComponentBase.h>
 #include <rtm/DataInPort.h>
 #include <rtm/DataOutPort.h>
-#include <rtm/Manager.h>
 #include <rtm/idl/BasicDataTypeSkel.h>
 
 class ShiftRtc : public RTC::DataFlowComponentBase {
@@ -32,30 +32,4 @@ class ShiftRtc : public RTC::DataFlowComponentBase {
     RTC::InPort<RTC::TimedDouble> extraIn_;
 };
 
-extern "C" void ShiftRtcInit(RTC::Manager* manager) {
-    static const char* const spec[] = {"implementation_id",
-                                       "ShiftRtc",
-                                       "type_name",
-                                       "ShiftRtc",
-                                       "description",
-                                       "test",
-                                       "version",
-                                       "1.0",
-                                       "vendor",
-                                       "Tandem",
-                                       "category",
-                                       "test",
-                                       "activity_type",
-                                       "PERIODIC",
-                                       "kind",
-                                       "DataFlowComponent",
-                                       "max_instance",
-                                       "0",
-                                       "language",
-                                       "C++",
-                                       "lang_type",
-                                       "compile",
-                                       ""};
-    coil::Properties profile(spec);
-    manager->registerFactory(profile, RTC::Create<ShiftRtc>, RTC::Delete<ShiftRtc>);
-}
+extern "C" void ShiftRtcInit(RTC::Manager* manager) { register_rtc<ShiftRtc>(manager, "ShiftRtc"); }

@@ -28,8 +28,7 @@ struct IdleLink {
         };
         a->link.open();
         b->link.open();
-        a->link.wait_until_up(soon, "peer");
-        b->link.wait_until_up(soon, "peer");
+        wait_until_up(*a, *b);
     }
     void listen() {
         a->link.set_arrival_listener("reference", [this] { ++arrivals; });

@@ -73,8 +73,7 @@ struct Linked {
         b = std::make_unique<LinkSide>(shm::Side::second, second, joystick_table());
         a->link.open();
         b->link.open();
-        a->link.wait_until_up(soon, "peer");
-        b->link.wait_until_up(soon, "peer");
+        wait_until_up(*a, *b);
         REQUIRE(eventually([&] { return a->link.is_up() && b->link.is_up(); }));
     }
     std::string name;

@@ -75,6 +75,10 @@ inline std::unique_ptr<LinkSide> interceptor(const std::string& name) {
     return std::make_unique<LinkSide>(shm::Side::second, LinkOptions{name}, joystick_table());
 }
 
+inline void wait_until_up(LinkSide& a, LinkSide& b) {
+    for (LinkSide* side : {&a, &b}) side->link.wait_until_up(soon, "peer");
+}
+
 inline bool send(ChannelWriter& writer, double value) {
     return writer.write(7, [&](wire::CdrWriter& out) { out.put(value); });
 }

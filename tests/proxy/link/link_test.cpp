@@ -15,8 +15,7 @@ TEST_CASE("data flow both ways whichever side opens first, and nothing is left b
         auto a = adaptor(name), b = interceptor(name);
         (adaptor_first ? a : b)->link.open();
         (adaptor_first ? b : a)->link.open();
-        a->link.wait_until_up(soon, "peer");
-        b->link.wait_until_up(soon, "peer");
+        wait_until_up(*a, *b);
         CHECK(a->table == joystick_table());
         for (int i = 0; i < 100; ++i) {
             REQUIRE(send(b->link.writer("reference"), i));
@@ -43,8 +42,7 @@ TEST_CASE("the segment is as large as the ports need, whichever side opens first
     auto b = std::make_unique<LinkSide>(shm::Side::second, LinkOptions{name}, table);
     (adaptor_first ? a : b)->link.open();
     (adaptor_first ? b : a)->link.open();
-    a->link.wait_until_up(soon, "peer");
-    b->link.wait_until_up(soon, "peer");
+    wait_until_up(*a, *b);
     REQUIRE(a->table == table);
     for (const char* port : {"port0", "port99"}) {
         REQUIRE(send(b->link.writer(port), 5));
@@ -57,8 +55,7 @@ TEST_CASE("a listener is called once for messages that have arrived and not afte
     auto a = adaptor(name), b = interceptor(name);
     a->link.open();
     b->link.open();
-    a->link.wait_until_up(soon, "peer");
-    b->link.wait_until_up(soon, "peer");
+    wait_until_up(*a, *b);
     std::atomic<int> calls{0};
     a->link.set_arrival_listener("reference", [&] { ++calls; });
     b->link.writer("reference").set_peer_listens(true);
@@ -82,8 +79,7 @@ TEST_CASE("the doorbell wakes the notifier for each message, also of a peer that
     for (int round = 0; round < 2; ++round) {
         auto b = interceptor(name);
         b->link.open();
-        a->link.wait_until_up(soon, "peer");
-        b->link.wait_until_up(soon, "peer");
+        wait_until_up(*a, *b);
         b->link.writer("reference").set_peer_listens(true);
         const auto start = std::chrono::steady_clock::now();
         for (int i = 0; i < 20; ++i) {
@@ -107,8 +103,7 @@ TEST_CASE("calls go both ways, also from within a call") {
     a->on_call = [](const Request& request) { return Reply{CallStatus::ok, bytes_of(request.operation)}; };
     a->link.open();
     b->link.open();
-    a->link.wait_until_up(soon, "peer");
-    b->link.wait_until_up(soon, "peer");
+    wait_until_up(*a, *b);
     const auto reply = a->link.call({"p", "back", ":", {}}, soon);
     CHECK(reply.status == CallStatus::ok);
     CHECK(reply.text() == "front");
@@ -128,8 +123,7 @@ TEST_CASE("calls nested deeper than there were workers do not block each other")
     b->on_call = bounce(*b);
     a->link.open();
     b->link.open();
-    a->link.wait_until_up(soon, "peer");
-    b->link.wait_until_up(soon, "peer");
+    wait_until_up(*a, *b);
     CHECK(a->link.call({"p", "9", "", {}}, soon).text() == "bottom");
 }
 
@@ -190,8 +184,7 @@ TEST_CASE("a peer that leaves and comes back is bound again") {
     for (int round = 1; round <= 3; ++round) {
         auto b = interceptor(name);
         b->link.open();
-        a->link.wait_until_up(soon, "peer");
-        b->link.wait_until_up(soon, "peer");
+        wait_until_up(*a, *b);
         REQUIRE(send(b->link.writer("reference"), round));
         CHECK(receive(a->link.reader("reference")) == round);
         CHECK(eventually([&] { return a->came == round; }));
@@ -211,8 +204,7 @@ TEST_CASE("a segment that is truncated while in use takes the link down and a ne
         auto a = adaptor(name), b = interceptor(name);
         a->link.open();
         b->link.open();
-        a->link.wait_until_up(soon, "peer");
-        b->link.wait_until_up(soon, "peer");
+        wait_until_up(*a, *b);
         REQUIRE(send(b->link.writer("reference"), 1));
         const auto generations = shm::list_generations(name);
         REQUIRE(truncate(shm::segment_path(name, generations.at(0)).c_str(), bytes) == 0);

@@ -44,8 +44,7 @@ TEST_CASE("a peer that comes again gets the last value of the ports that keep it
     a->link.writer("reference").set_policy(keep_last());
     for (int round = 0; round < 2; ++round) {
         auto b = side(shm::Side::first, name);
-        a->link.wait_until_up(soon, "peer");
-        b->link.wait_until_up(soon, "peer");
+        wait_until_up(*a, *b);
         if (round == 0) {
             CHECK(b->link.reader("reference").empty());
             for (const double value : {1.0, 2.0, 3.0})
@@ -66,8 +65,7 @@ TEST_CASE("a port that waits for room loses nothing while its reader reads, and 
     const auto name = unique_name("wait");
     auto a = side(shm::Side::second, name, joystick_table(), std::size_t{16} * 1024);
     auto b = side(shm::Side::first, name);
-    a->link.wait_until_up(soon, "peer");
-    b->link.wait_until_up(soon, "peer");
+    wait_until_up(*a, *b);
     auto& writer = a->link.writer("reference");
     auto& reader = b->link.reader("reference");
     PortPolicy policy;
@@ -104,8 +102,7 @@ TEST_CASE("a silence beyond a port's deadline is counted once, and again after t
     const auto name = unique_name("deadline");
     auto a = side(shm::Side::second, name, joystick_table());
     auto b = side(shm::Side::first, name);
-    a->link.wait_until_up(soon, "peer");
-    b->link.wait_until_up(soon, "peer");
+    wait_until_up(*a, *b);
     auto& reader = b->link.reader("reference");
     CHECK(reader.missed_deadlines() == 0);
     PortPolicy policy;
@@ -125,8 +122,7 @@ TEST_CASE("a queue of a length holds as many messages, and drops the oldest or t
     const auto name = unique_name("length");
     auto a = side(shm::Side::second, name, joystick_table());
     auto b = side(shm::Side::first, name);
-    a->link.wait_until_up(soon, "peer");
-    b->link.wait_until_up(soon, "peer");
+    wait_until_up(*a, *b);
     auto& writer = a->link.writer("reference");
     auto& reader = b->link.reader("reference");
     PortPolicy policy;
