@@ -135,7 +135,7 @@ std::string InterceptorComp::bind(std::span<const std::byte> arguments) {
 void InterceptorComp::publish_listened_channels() {
     if (!link_->is_up()) return; // peer_connected() comes here again
     auto channels = opros_rtcs_->listened_channels();
-    channels.insert(channels.end(), event_ports_.begin(), event_ports_.end());
+    channels.insert(channels.end(), forwarding_ports_.begin(), forwarding_ports_.end());
     const auto reply = link_->request_rings(channels, settings_.call_timeout);
     if (reply.status != CallStatus::ok && link_->is_up())
         spdlog::warn("{}: data and events of OPRoS components are handed over up to 1 s late: {}",

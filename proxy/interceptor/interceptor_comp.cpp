@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/interceptor_comp.hpp"
 
+#include "proxy/interceptor/data/forwarding_out_port.hpp"
 #include "proxy/interceptor/data/link_buffer.hpp"
 #include "proxy/interceptor/data/mirror_event_port.hpp"
 #include "proxy/interceptor/data/mirror_in_port.hpp"
@@ -145,6 +146,7 @@ void InterceptorComp::connect_port(const RtcPort& port) {
                                 {"dataport.dataflow_type", "push"},
                                 {"dataport.subscription_type", "flush"},
                                 {"dataport.serializer.cdr.endian", "little"}};
+    if (dynamic_cast<ForwardingOutPort*>(mirror)) return connect(*mirror, port, name, properties);
     if (!port.entry.is_event_in_port()) {
         Properties of_data = properties;
         of_data.emplace_back("dataport.buffer_type", LinkBuffer::factory_name);
@@ -180,28 +182,42 @@ void InterceptorComp::create_data_mirror(const RtcPort& port) {
         link_->writer(entry.name).set_policy(policy);
     else
         link_->reader(entry.name).set_policy(policy);
-    if (entry.kind == PortKind::data_out) {
+    if (entry.kind == PortKind::data_out)
         channel.writer = &link_->writer(entry.name);
+    else
+        channel.reader = &link_->reader(entry.name);
+    LinkBuffer::register_channel(key, channel);
+    channel_keys_.push_back(key);
+    if (entry.kind == PortKind::data_out) {
         auto mirror = std::make_unique<MirrorOutPort>(entry.name.c_str(), entry.type.c_str());
         addInPort(entry.name.c_str(), *mirror);
         data_ports_[entry.name] = std::move(mirror);
+    } else if (has_arrival_listener(port.reference)) {
+        auto mirror = std::make_unique<ForwardingOutPort>(entry.name.c_str(), entry.type.c_str(), key);
+        auto& forwarding = *mirror;
+        addOutPort(entry.name.c_str(), forwarding);
+        data_ports_[entry.name] = std::move(mirror);
+        forward_on_arrival(entry.name, [&forwarding] { forwarding.forward(); });
     } else {
-        channel.reader = &link_->reader(entry.name);
         auto mirror = std::make_unique<MirrorInPort>(entry.name.c_str(), entry.type.c_str());
         addOutPort(entry.name.c_str(), *mirror);
         data_ports_[entry.name] = std::move(mirror);
     }
-    LinkBuffer::register_channel(key, channel);
-    channel_keys_.push_back(key);
 }
+
+/// For a port whose RTC is called when a message comes. [notifier-thread]
+void InterceptorComp::forward_on_arrival(const std::string& port, std::function<void()> forward) {
+    forwarding_ports_.push_back(port);
+    link_->set_arrival_listener(port, std::move(forward));
+}
+
 void InterceptorComp::create_event_mirror(const RtcPort& port) {
     const auto& entry = port.entry;
     auto mirror = std::make_unique<MirrorEventPort>(entry, link_->reader(entry.name));
     auto& events = *mirror;
     addOutPort(entry.name.c_str(), events);
     data_ports_[entry.name] = std::move(mirror);
-    event_ports_.push_back(entry.name);
-    link_->set_arrival_listener(entry.name, [&events] { events.deliver(); });
+    forward_on_arrival(entry.name, [&events] { events.deliver(); });
 }
 
 void InterceptorComp::create_service_mirror(const RtcPort& port) {

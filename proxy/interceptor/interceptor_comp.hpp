@@ -17,6 +17,7 @@
 #include <rtm/idl/BasicDataTypeSkel.h>
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -48,6 +49,7 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     void create_mirror_ports(const std::vector<RtcPort>& ports);
     void create_data_mirror(const RtcPort&);
     void create_event_mirror(const RtcPort&);
+    void forward_on_arrival(const std::string& port, std::function<void()> forward);
     void create_service_mirror(const RtcPort&);
     /// Properties of a connection by name.
     using Properties = std::vector<std::pair<const char*, std::string>>;
@@ -98,8 +100,8 @@ class InterceptorComp final : public RTC::DataFlowComponentBase, private link::L
     std::vector<std::unique_ptr<MirrorRequiredPort>> required_;
     std::vector<std::unique_ptr<MirrorProvidedPort>> provided_;
     std::vector<BuiltInService> built_in_services_;
-    std::vector<std::string> channel_keys_; ///< registered with LinkBuffer
-    std::vector<std::string> event_ports_;  ///< whose messages are handed over when they come
+    std::vector<std::string> channel_keys_;     ///< registered with LinkBuffer
+    std::vector<std::string> forwarding_ports_; ///< whose messages are handed over when they come
 
     RTC::TimedDoubleSeq link_state_;
     RTC::OutPort<RTC::TimedDoubleSeq> link_state_out_;

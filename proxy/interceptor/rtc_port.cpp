@@ -4,6 +4,7 @@
 #include "proxy/interceptor/service/interface_operations.hpp"
 #include "proxy/wire/type.hpp"
 
+#include <rtm/InPortBase.h>
 #include <rtm/InterfaceSignatures.h>
 #include <rtm/NVUtil.h>
 
@@ -117,6 +118,25 @@ std::string short_name(const RTC::PortProfile& profile) {
     const std::string full(profile.name);
     const auto dot = full.rfind('.');
     return dot == std::string::npos ? full : full.substr(dot + 1);
+}
+
+bool has_arrival_listener(RTC::PortService_ptr port) {
+    PortableServer::ServantBase_var servant;
+    try {
+        servant = RTC::Manager::instance().thePOA()->reference_to_servant(port);
+    } catch (const PortableServer::POA::WrongAdapter&) { // of another process
+        return false;
+    } catch (const PortableServer::POA::ObjectNotActive&) {
+        return false;
+    }
+    auto* in_port = dynamic_cast<RTC::InPortBase*>(servant.in());
+    if (!in_port) return false;
+    using Type = RTC::ConnectorDataListenerType;
+    const auto types = {Type::ON_BUFFER_WRITE,     Type::ON_BUFFER_FULL,   Type::ON_BUFFER_WRITE_TIMEOUT,
+                        Type::ON_BUFFER_OVERWRITE, Type::ON_RECEIVED,      Type::ON_RECEIVER_FULL,
+                        Type::ON_RECEIVER_TIMEOUT, Type::ON_RECEIVER_ERROR};
+    return std::any_of(types.begin(), types.end(),
+                       [&](Type type) { return in_port->getListeners()->has(type); });
 }
 
 std::vector<RtcPort> enumerate_ports(RTC::RTObject_impl& rtc) {

@@ -22,6 +22,10 @@ struct RtcPort {
 /// The port's name without the leading instance name, which RTCs put into their profile: `Rtc0.out` -> `out`.
 std::string short_name(const RTC::PortProfile& profile);
 
+/// Whether the port is an InPort of this process with listeners that are called when a message comes, whether the RTC
+/// reads it or not: those that it has now.
+bool has_arrival_listener(RTC::PortService_ptr port);
+
 /// Lists the ports of an RTC. A service port with several interfaces gives one entry for each, named
 /// `port.instance`. Ports named `linkState` or `missedDeadline` are left out, because both proxies have such.
 /// A data port whose type cannot cross has link::no_signature in its entry. Throws CORBA::Exception if the RTC does

@@ -24,6 +24,25 @@ TEST_CASE("strings and calls cross between components that know nothing of each 
     CHECK_FALSE(hosts.left_in_shared_memory());
 }
 
+TEST_CASE(
+    "an RTC whose listeners take what comes gets it, though it never reads and its context never ticks") {
+    TwoHosts hosts;
+    hosts.set_rtc("ListenRtc");
+    hosts.set_rtc_properties("execution_contexts=SynchExtTriggerEC&port.inport.word.buffer.length=3");
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "word"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    // The first listener is called before the message is stored, the other one after it.
+    CHECK(hosts.says("rtm", "heard: hello 5 at a time, stored before: 4\n"));
+    CHECK(hosts.stop("opros") == 0);
+    CHECK(hosts.says("rtm", "kept: 3\n")); // of the InPort's own buffer
+    const auto before = hosts.output("rtm").size();
+    hosts.start_opros();
+    CHECK(hosts.says("rtm", "heard: hello 5 at a time", before));
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
+
 TEST_CASE("calls cross in every wait mode") {
     TwoHosts hosts;
     const std::string mode = GENERATE("spin", "spin-then-futex", "futex", "same-core");

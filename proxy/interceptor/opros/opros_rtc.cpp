@@ -212,7 +212,7 @@ void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
         addInPort(name.c_str(), *inputs_.back());
         return;
     }
-    auto out = std::make_unique<OprosOutPort>(name.c_str(), type.c_str(), key);
+    auto out = std::make_unique<ForwardingOutPort>(name.c_str(), type.c_str(), key);
     for (const auto event :
          {RTC::ConnectorListenerType::ON_CONNECT, RTC::ConnectorListenerType::ON_DISCONNECT})
         out->addConnectorListener(event, new ChangeListener(source_.connections_changed));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "proxy/interceptor/data/forwarding_out_port.hpp"
 #include "proxy/interceptor/opros/opros_in_port.hpp"
-#include "proxy/interceptor/opros/opros_out_port.hpp"
 #include "proxy/interceptor/service/mirror_provided_port.hpp"
 #include "proxy/interceptor/service/mirror_required_port.hpp"
 #include "proxy/link/link.hpp"
@@ -92,7 +92,7 @@ class OprosRtc final : public RTC::DataFlowComponentBase {
         std::unique_ptr<RTC::CorbaPort> port;
     };
     struct Output {
-        std::unique_ptr<OprosOutPort> port;
+        std::unique_ptr<ForwardingOutPort> port;
         std::string channel;
         bool listens = false;
     };

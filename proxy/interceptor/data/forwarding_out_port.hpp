@@ -9,14 +9,15 @@
 
 namespace tandem::interceptor {
 
-/// The OutPort that shows an output port of an OPRoS component: forwards what has come through the link to all that
-/// are connected, encoded as it is.
-class OprosOutPort final : public RTC::OutPortBase {
+/// An OutPort of a data type known only at run time, which forwards what has come through the link to all that are
+/// connected, encoded as it is.
+class ForwardingOutPort final : public RTC::OutPortBase {
   public:
     /// `channel_key` is the port's channel in LinkBuffer's registry.
-    OprosOutPort(const char* name, const char* data_type, const std::string& channel_key);
+    ForwardingOutPort(const char* name, const char* data_type, const std::string& channel_key);
 
-    /// Sends all messages that have come. How long it may block: as OutPort::write() for each. [context's thread]
+    /// Sends all messages that have come, but those that cannot be decoded, which are counted. How long it may block: as
+    /// OutPort::write() for each. [one thread at a time]
     void forward();
     /// Drops what has come: nobody was connected. [any-thread]
     void discard() { buffer_.reset(); }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "proxy/interceptor/opros/opros_out_port.hpp"
+#include "proxy/interceptor/data/forwarding_out_port.hpp"
 
 #include <rtm/NVUtil.h>
 
 namespace tandem::interceptor {
 
-OprosOutPort::OprosOutPort(const char* name, const char* data_type, const std::string& channel_key)
+ForwardingOutPort::ForwardingOutPort(const char* name, const char* data_type, const std::string& channel_key)
     : RTC::OutPortBase(name, data_type) {
     addProperty("dataport.marshaling_types", "cdr");
     coil::Properties properties;
@@ -13,25 +13,30 @@ OprosOutPort::OprosOutPort(const char* name, const char* data_type, const std::s
     buffer_.init(properties);
 }
 
-RTC::ReturnCode_t OprosOutPort::publishInterfaces(RTC::ConnectorProfile& profile) {
+RTC::ReturnCode_t ForwardingOutPort::publishInterfaces(RTC::ConnectorProfile& profile) {
     if (coil::normalize(NVUtil::toString(profile.properties, "dataport.serializer.cdr.endian"))
             .starts_with("big"))
         return refuse(RTC::BAD_PARAMETER,
-                      std::string(getName()) +
-                          ": this port of an OPRoS component sends little-endian data only");
+                      std::string(getName()) + ": this port sends little-endian data only");
     return RTC::OutPortBase::publishInterfaces(profile);
 }
 
-bool OprosOutPort::is_connected() {
+bool ForwardingOutPort::is_connected() {
     const std::lock_guard lock(m_connectorsMutex);
     return !m_connectors.empty();
 }
 
-void OprosOutPort::forward() {
-    while (buffer_.read(message_, {}) == RTC::BufferStatus::OK) send();
+void ForwardingOutPort::forward() {
+    for (;;) {
+        const auto status = buffer_.read(message_, {});
+        if (status == RTC::BufferStatus::OK)
+            send();
+        else if (status != RTC::BufferStatus::BUFFER_ERROR) // a message that could not be decoded is gone
+            return;
+    }
 }
 
-void OprosOutPort::send() {
+void ForwardingOutPort::send() {
     std::vector<std::string> lost;
     {
         const std::lock_guard lock(m_connectorsMutex);
