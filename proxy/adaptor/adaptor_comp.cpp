@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/adaptor/adaptor_comp.hpp"
 
-#include "proxy/adaptor/service/call_failure.hpp"
 #include "proxy/link/protocol/control.hpp"
 #include "proxy/link/wait_mode.hpp"
 
@@ -9,13 +8,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <ctime>
 #include <thread>
 
 namespace tandem::adaptor {
 namespace control = link::control;
 using link::CallStatus;
-using link::PortKind;
+using link::peer_has_gone;
 using link::Reply;
 using namespace std::chrono_literals;
 
@@ -24,12 +22,6 @@ namespace {
 // After a reconnection: the RTC's host may still be starting when the link is up already.
 constexpr int activation_attempts = 3;
 constexpr const char* peer_name = "InterceptorComp of the RTM host";
-
-/// Whether a call has failed because the peer's process or its component ends.
-bool peer_has_gone(CallStatus status) {
-    return status == CallStatus::peer_died || status == CallStatus::shut_down ||
-           status == CallStatus::not_ready;
-}
 
 /// Removes the ports of the peer whose mirrors would have the name of another port. Returns a line about the last of
 /// them; empty if there is none.
@@ -103,6 +95,9 @@ void AdaptorComp::create_link() {
     options.wait = link::wait_options_from_environment();
     link_ =
         std::make_unique<link::Link>(shm::Side::first, options, own_ports_, static_cast<LinkHandler&>(*this));
+    mirrors_ = std::make_unique<MirrorPorts>(
+        settings_, *link_,
+        [this](const std::string& port, DataPortListener* listener) { listen_to(port, listener); });
 }
 
 /// A host that is to end meanwhile does not wait to the end. Throws LinkError.
@@ -111,7 +106,7 @@ void AdaptorComp::wait_for_peer(std::chrono::milliseconds timeout) {
 }
 
 ReturnType AdaptorComp::onStart() {
-    if (const std::string refused = first_refusal(); settings_.strict && !refused.empty()) {
+    if (const std::string refused = mirrors_->first_refusal(); settings_.strict && !refused.empty()) {
         spdlog::error("{}: strict: {}", getId(), refused);
         return OPROS_CALL_API_ERROR;
     }
@@ -142,15 +137,6 @@ CallStatus AdaptorComp::activate_rtc() {
     }
 }
 
-/// Why the first connection that was refused was refused; empty if there is none.
-std::string AdaptorComp::first_refusal() const {
-    for (const auto& port : inputs_)
-        if (!port->refusals().empty()) return port->refusals().front();
-    for (const auto& port : outputs_)
-        if (!port->refusals().empty()) return port->refusals().front();
-    return "";
-}
-
 ReturnType AdaptorComp::onStop() {
     started_ = false;
     // A peer that has gone, or goes meanwhile because both hosts are ended at once, has nothing left to deactivate.
@@ -177,78 +163,11 @@ ReturnType AdaptorComp::onDestroy() {
 
 void AdaptorComp::create_mirror_ports() {
     const std::lock_guard lock(mutex_);
-    for (const auto& name : settings_.event_ports)
-        if (const auto* port = peer_ports_.find(name); !port || !link::is_data_port(port->kind))
-            spdlog::error("{}: property 'event_ports' names '{}', which is no data port of {}", getId(), name,
-                          peer_ports_.component_names());
-    for (const auto& port : peer_ports_.ports) create_mirror_port(port);
+    mirrors_->create(peer_ports_, *this);
     mirrors_created_ = true;
     if (link_->is_up())
         spdlog::info("{}: link '{}' is up, {} ports of {} mirrored", getId(), settings_.link,
                      peer_ports_.ports.size(), peer_ports_.component_names());
-}
-
-link::PortPolicy AdaptorComp::policy_of(const std::string& port) const {
-    return link::read_port_policy("property", port, [this](const std::string& name) {
-        const auto at = settings_.policies.find(name);
-        return at == settings_.policies.end() ? std::string() : at->second;
-    });
-}
-
-void AdaptorComp::create_mirror_port(const link::Port& port) {
-    if (port.has_ring()) {
-        auto policy = policy_of(port.name);
-        add_queue_policy(port.queue, policy);
-        if (port.kind == PortKind::data_in)
-            link_->writer(port.name).set_policy(policy);
-        else
-            link_->reader(port.name).set_policy(policy);
-    }
-    if (port.is_event_in_port()) {
-        fsm_ports_.push_back(std::make_unique<MirrorFsmPort>(port, link_->writer(port.name)));
-        addPort(port.name, fsm_ports_.back().get());
-        return;
-    }
-    const auto& events = settings_.event_ports;
-    if (link::is_data_port(port.kind) && std::find(events.begin(), events.end(), port.name) != events.end())
-        return create_event_mirror(port);
-    switch (port.kind) {
-    case PortKind::data_in:
-        inputs_.push_back(
-            std::make_unique<MirrorInPort>(port, link_->writer(port.name), settings_.conversion(port.name)));
-        addPort(port.name, inputs_.back().get());
-        break;
-    case PortKind::data_out: {
-        const auto set_listener = [this, name = port.name](DataPortListener* listener) {
-            listen_to(name, listener);
-        };
-        outputs_.push_back(std::make_unique<MirrorOutPort>(port, link_->reader(port.name), set_listener,
-                                                           settings_.conversion(port.name)));
-        addPort(port.name, outputs_.back().get());
-        break;
-    }
-    case PortKind::service_provided:
-        addPort(port.name, new MirrorProvidedPort(port, *link_, settings_.call_timeout));
-        break;
-    case PortKind::service_required:
-        required_.push_back(new MirrorRequiredPort(port));
-        addPort(port.name, required_.back());
-        break;
-    }
-}
-
-void AdaptorComp::create_event_mirror(const link::Port& port) {
-    if (port.kind == PortKind::data_in) {
-        event_inputs_.push_back(std::make_unique<MirrorEventInPort>(port, link_->writer(port.name)));
-        addPort(port.name, event_inputs_.back().get());
-        return;
-    }
-    const auto set_listener = [this, name = port.name](DataPortListener* listener) {
-        listen_to(name, listener);
-    };
-    event_outputs_.push_back(
-        std::make_unique<MirrorEventOutPort>(port, link_->reader(port.name), set_listener));
-    addPort(port.name, event_outputs_.back().get());
 }
 
 /// Before the mirrors are created, any table is accepted; of two ports of one name the first counts. Afterwards the
@@ -325,96 +244,8 @@ Reply AdaptorComp::execute_command(const link::Request& request) {
 [[gnu::hot]] MirrorRequiredPort* AdaptorComp::find_required_port(std::string_view name) {
     std::unique_lock lock(mutex_, std::defer_lock);
     if (!mirrors_created_.load(std::memory_order_acquire))
-        lock.lock(); // afterwards required_ does not change
-    for (auto* port : required_)
-        if (port->port() == name) return port;
-    return nullptr;
-}
-
-// ---- commands to the peer
-
-/// An activation waits for the execution contexts of two components, and for a call that the RTC may make
-/// from its onActivated: so it gets the time of several calls. A transition waits for a callback of the RTC, which
-/// the peer limits itself; it has a second more for its answer.
-std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) const {
-    const auto rtcs =
-        static_cast<int>(std::max<std::size_t>(peer_ports_.components.size(), 1)); // one after the other
-    if (command == control::activate)
-        return rtcs * std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
-    if (command == control::deactivate || command == control::reset)
-        return rtcs * std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
-    return settings_.call_timeout;
-}
-
-Reply AdaptorComp::send_command(std::string_view command, std::span<const std::byte> arguments) {
-    return link_->call({"", command, "", arguments}, timeout_of(command));
-}
-
-/// Tells the peer which operations are provided here for the services that the RTC requires. Returns the failure if
-/// the peer could not be told. A service that the peer refuses is left out, unless the user is strict.
-Reply AdaptorComp::publish_bindings() {
-    for (const auto* port : required_) {
-        const auto reply = send_command(
-            control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
-        if (reply.status == CallStatus::ok) continue;
-        if (settings_.strict || reply.status != CallStatus::exception) return reply;
-        spdlog::error("{}: {}; this service is left out, the others work", getId(),
-                      describe_failure(reply, settings_.call_timeout));
-    }
-    return {};
-}
-
-/// Executes a life-cycle command on the RTC; logs one line if that fails, unless the peer has gone, of which the link tells.
-CallStatus AdaptorComp::drive_rtc(std::string_view command) {
-    // The RTC may call a service from its onActivated on, so the operations must be known before.
-    Reply reply = command == control::activate ? publish_bindings() : Reply{};
-    const bool bound = reply.status == CallStatus::ok;
-    if (bound) reply = send_command(command);
-    if (reply.status != CallStatus::ok && (command == control::reset || !peer_has_gone(reply.status)))
-        spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
-                      peer_ports_.component_names(),
-                      describe_failure(reply, bound ? timeout_of(command) : settings_.call_timeout));
-    return reply.status;
-}
-
-/// Called by a MirrorOutPort under the lock of the input port that is connected with it: does not wait.
-void AdaptorComp::listen_to(const std::string& port, DataPortListener* listener) {
-    if (listener)
-        link_->set_arrival_listener(port, [listener] { listener->arrived(); });
-    else
-        link_->set_arrival_listener(port, {});
-    {
-        const std::lock_guard lock(listened_ports_mutex_);
-        if (listener)
-            listened_ports_.insert(port);
-        else
-            listened_ports_.erase(port);
-    }
-    link_->post([this] { publish_listened_ports(); });
-}
-
-/// Asks the peer to ring the doorbell for the ports that event-driven components wait for. [task-thread]
-void AdaptorComp::publish_listened_ports() {
-    std::vector<std::string> ports;
-    {
-        const std::lock_guard lock(listened_ports_mutex_);
-        ports.assign(listened_ports_.begin(), listened_ports_.end());
-    }
-    if (!link_->is_up()) return; // peer_connected() comes here again
-    const auto reply = link_->request_rings(ports, settings_.call_timeout);
-    if (reply.status != CallStatus::ok && !peer_has_gone(reply.status) && link_->is_up())
-        spdlog::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
-                     settings_.link, describe_failure(reply, settings_.call_timeout));
-}
-
-void AdaptorComp::publish_link_state() {
-    timespec now{};
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    const std::lock_guard lock(link_state_mutex_);
-    // Asked under the lock, so that of two threads the one with the newer state sends last.
-    const bool up = link_->is_up();
-    const double stamp = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-    link_state_.push(std::vector<double>{stamp, static_cast<double>(++link_state_sequence_), up ? 1.0 : 0.0});
+        lock.lock(); // afterwards the mirrors do not change
+    return mirrors_->find_required(name);
 }
 
 } // namespace tandem::adaptor

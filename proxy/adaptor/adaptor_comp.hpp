@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "proxy/adaptor/data/mirror_in_port.hpp"
-#include "proxy/adaptor/data/mirror_out_port.hpp"
-#include "proxy/adaptor/event/mirror_event_in_port.hpp"
-#include "proxy/adaptor/event/mirror_event_out_port.hpp"
-#include "proxy/adaptor/event/mirror_fsm_port.hpp"
-#include "proxy/adaptor/service/mirror_provided_port.hpp"
-#include "proxy/adaptor/service/mirror_required_port.hpp"
+#include "proxy/adaptor/mirror_ports.hpp"
 #include "proxy/adaptor/settings.hpp"
 #include "proxy/adaptor/share/shared_components.hpp"
 #include "proxy/link/link.hpp"
@@ -21,16 +15,19 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tandem::adaptor {
 
 /// The OPRoS side of the proxy: an ordinary OPRoS component that creates mirrors of the ports of the RTC
 /// behind InterceptorComp. Starting and stopping it activates and deactivates that RTC; an RTC in ERROR puts
-/// it in ERROR. The OPRoS components that its property `share` names are shown as RTCs there. Its output port `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down}
-/// when the link comes up or goes down, and when the component is started. Its output event port `missedDeadline` sends
-/// the name of a port whose sender was silent for longer than its deadline_ms.
+/// it in ERROR. The OPRoS components that its property `share` names are shown as RTCs there. Its output port
+/// `linkState` sends {time [s, CLOCK_MONOTONIC], sequence number, 1 up / 0 down} when the link comes up or goes down, and
+/// when the component is started. Its output event port `missedDeadline` sends the name of a port whose sender was silent
+/// for longer than its deadline_ms.
 class AdaptorComp final : public Component, public ComponentDirectoryUser, private link::LinkHandler {
   public:
     AdaptorComp();
@@ -65,11 +62,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     void create_link();
     void wait_for_peer(std::chrono::milliseconds timeout);
     void close_link();
-    std::string first_refusal() const;
     void create_mirror_ports();
-    void create_mirror_port(const link::Port&);
-    void create_event_mirror(const link::Port&);
-    link::PortPolicy policy_of(const std::string& port) const;
     MirrorRequiredPort* find_required_port(std::string_view name);
 
     link::CallStatus drive_rtc(std::string_view command);
@@ -87,7 +80,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     std::unique_ptr<link::Link> link_;
     std::unique_ptr<SharedComponents> shared_; ///< uses the link
     link::PortTable own_ports_;
-    std::mutex mutex_; ///< peer_ports_, mirrors_created_, and required_ until the mirrors are created
+    std::mutex mutex_; ///< peer_ports_, mirrors_created_, and the mirrors until they are created
     link::PortTable peer_ports_;
     std::atomic<bool> mirrors_created_{false}; ///< set with mutex_ held
     std::atomic<bool> started_{false}, rtc_failed_{false};
@@ -95,12 +88,7 @@ class AdaptorComp final : public Component, public ComponentDirectoryUser, priva
     std::mutex listened_ports_mutex_;
     std::set<std::string> listened_ports_; ///< whose messages event-driven components wait for
 
-    std::vector<std::unique_ptr<MirrorInPort>> inputs_;
-    std::vector<std::unique_ptr<MirrorOutPort>> outputs_;
-    std::vector<std::unique_ptr<MirrorEventInPort>> event_inputs_;
-    std::vector<std::unique_ptr<MirrorEventOutPort>> event_outputs_;
-    std::vector<std::unique_ptr<MirrorFsmPort>> fsm_ports_;
-    std::vector<MirrorRequiredPort*> required_; ///< service ports belong to the component, which deletes them
+    std::unique_ptr<MirrorPorts> mirrors_; ///< uses the link
     OutputEventPort<std::string> missed_deadline_;
     std::mutex link_state_mutex_; ///< the members below
     OutputDataPort<std::vector<double>> link_state_;

@@ -330,8 +330,7 @@ bool OprosRtc::command(std::string_view command, std::chrono::milliseconds timeo
         }
     } else if (reply.status == CallStatus::timeout) {
         error = fmt::format("no reply within {} ms", bound.count());
-    } else if (reply.status == CallStatus::peer_died || reply.status == CallStatus::shut_down ||
-               reply.status == CallStatus::not_ready) {
+    } else if (link::peer_has_gone(reply.status)) {
         error = "the OPRoS host is not there";
     }
     spdlog::error("{}: cannot {} the OPRoS component: {}", getInstanceName(), command, error);

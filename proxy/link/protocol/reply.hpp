@@ -12,6 +12,12 @@ namespace tandem::link {
 
 using CallStatus = shm::CallStatus;
 
+/// Whether a call has failed because the peer's process or its component ends, or has ended.
+inline bool peer_has_gone(CallStatus status) {
+    return status == CallStatus::peer_died || status == CallStatus::shut_down ||
+           status == CallStatus::not_ready;
+}
+
 /// What a call across the link returned: the results in CDR if the status is ok, otherwise one line of text
 /// that describes the failure.
 struct Reply {

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// AdaptorComp: what it asks the peer for, and what it tells its own side of the link.
+#include "proxy/adaptor/adaptor_comp.hpp"
+
+#include "proxy/adaptor/service/call_failure.hpp"
+#include "proxy/link/protocol/control.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <ctime>
+
+namespace tandem::adaptor {
+namespace control = link::control;
+using link::CallStatus;
+using link::peer_has_gone;
+using link::Reply;
+using namespace std::chrono_literals;
+
+/// An activation waits for the execution contexts of two components, and for a call that the RTC may make
+/// from its onActivated: so it gets the time of several calls. A transition waits for a callback of the RTC, which
+/// the peer limits itself; it has a second more for its answer.
+std::chrono::milliseconds AdaptorComp::timeout_of(std::string_view command) const {
+    const auto rtcs =
+        static_cast<int>(std::max<std::size_t>(peer_ports_.components.size(), 1)); // one after the other
+    if (command == control::activate)
+        return rtcs * std::max(4 * settings_.call_timeout, control::activation_timeout + 1s);
+    if (command == control::deactivate || command == control::reset)
+        return rtcs * std::max(settings_.call_timeout, control::deactivation_timeout + 1s);
+    return settings_.call_timeout;
+}
+
+Reply AdaptorComp::send_command(std::string_view command, std::span<const std::byte> arguments) {
+    return link_->call({"", command, "", arguments}, timeout_of(command));
+}
+
+/// Tells the peer which operations are provided here for the services that the RTC requires. Returns the failure if
+/// the peer could not be told. A service that the peer refuses is left out, unless the user is strict.
+Reply AdaptorComp::publish_bindings() {
+    for (const auto* port : mirrors_->required()) {
+        const auto reply = send_command(
+            control::bind, control::encode(control::ServiceBinding{port->port(), port->operations()}));
+        if (reply.status == CallStatus::ok) continue;
+        if (settings_.strict || reply.status != CallStatus::exception) return reply;
+        spdlog::error("{}: {}; this service is left out, the others work", getId(),
+                      describe_failure(reply, settings_.call_timeout));
+    }
+    return {};
+}
+
+/// Executes a life-cycle command on the RTC; logs one line if that fails, unless the peer has gone, of which the link tells.
+CallStatus AdaptorComp::drive_rtc(std::string_view command) {
+    // The RTC may call a service from its onActivated on, so the operations must be known before.
+    Reply reply = command == control::activate ? publish_bindings() : Reply{};
+    const bool bound = reply.status == CallStatus::ok;
+    if (bound) reply = send_command(command);
+    if (reply.status != CallStatus::ok && (command == control::reset || !peer_has_gone(reply.status)))
+        spdlog::error("{}: link '{}': cannot {} {}: {}", getId(), settings_.link, command,
+                      peer_ports_.component_names(),
+                      describe_failure(reply, bound ? timeout_of(command) : settings_.call_timeout));
+    return reply.status;
+}
+
+/// Called by a MirrorOutPort under the lock of the input port that is connected with it: does not wait.
+void AdaptorComp::listen_to(const std::string& port, DataPortListener* listener) {
+    if (listener)
+        link_->set_arrival_listener(port, [listener] { listener->arrived(); });
+    else
+        link_->set_arrival_listener(port, {});
+    {
+        const std::lock_guard lock(listened_ports_mutex_);
+        if (listener)
+            listened_ports_.insert(port);
+        else
+            listened_ports_.erase(port);
+    }
+    link_->post([this] { publish_listened_ports(); });
+}
+
+/// Asks the peer to ring the doorbell for the ports that event-driven components wait for. [task-thread]
+void AdaptorComp::publish_listened_ports() {
+    std::vector<std::string> ports;
+    {
+        const std::lock_guard lock(listened_ports_mutex_);
+        ports.assign(listened_ports_.begin(), listened_ports_.end());
+    }
+    if (!link_->is_up()) return; // peer_connected() comes here again
+    const auto reply = link_->request_rings(ports, settings_.call_timeout);
+    if (reply.status != CallStatus::ok && !peer_has_gone(reply.status) && link_->is_up())
+        spdlog::warn("{}: link '{}': event-driven components notice arrivals up to 1 s late: {}", getId(),
+                     settings_.link, describe_failure(reply, settings_.call_timeout));
+}
+
+void AdaptorComp::publish_link_state() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const std::lock_guard lock(link_state_mutex_);
+    // Asked under the lock, so that of two threads the one with the newer state sends last.
+    const bool up = link_->is_up();
+    const double stamp = static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    link_state_.push(std::vector<double>{stamp, static_cast<double>(++link_state_sequence_), up ? 1.0 : 0.0});
+}
+
+} // namespace tandem::adaptor
