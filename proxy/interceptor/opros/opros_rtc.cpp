@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "proxy/interceptor/opros/opros_rtc.hpp"
 
-#include "proxy/interceptor/opros/shown_type.hpp"
-#include "proxy/interceptor/service/interface_operations.hpp"
-#include "proxy/wire/type.hpp"
-
 #include <rtm/Manager.h>
 
 #include <fmt/format.h>
@@ -34,37 +30,6 @@ class SourceScope {
 bool is_plain(const std::string& name) {
     return !name.empty() && name.find_first_of("?&=,:/ \t\n") == std::string::npos;
 }
-
-/// A listener to connections that says that there was a change.
-class ChangeListener final : public RTC::ConnectorListener {
-  public:
-    explicit ChangeListener(std::function<void()> changed) : changed_(std::move(changed)) {}
-    ReturnCode operator()(RTC::ConnectorInfo&) override {
-        changed_();
-        return NO_CHANGE;
-    }
-
-  private:
-    std::function<void()> changed_;
-};
-
-class SetListener final : public RTC::ConfigurationSetListener {
-  public:
-    explicit SetListener(std::function<void()> changed) : changed_(std::move(changed)) {}
-    void operator()(const coil::Properties&) override { changed_(); }
-
-  private:
-    std::function<void()> changed_;
-};
-
-class SetNameListener final : public RTC::ConfigurationSetNameListener {
-  public:
-    explicit SetNameListener(std::function<void()> changed) : changed_(std::move(changed)) {}
-    void operator()(const char*) override { changed_(); }
-
-  private:
-    std::function<void()> changed_;
-};
 
 } // namespace
 
@@ -128,138 +93,6 @@ void OprosRtc::leave(RTC::Manager& manager) {
 /// What is to be told the component: not when this RTC only follows it, ends with its own host, or nobody is there.
 bool OprosRtc::must_tell_component() const {
     return !leaving_ && !is_following() && !RTC::Manager::terminationRequested() && source_.link->is_up();
-}
-
-// ---- ports and configuration
-
-std::string OprosRtc::channel_key(const link::Port& port) const {
-    return source_.link_name + "/" + port.name;
-}
-
-void OprosRtc::add_port(const link::Port& port) {
-    const std::string name = port.name.substr(source_.component.name.size() + 1);
-    if (link::is_data_port(port.kind))
-        add_data_port(port, name);
-    else if (port.kind == link::PortKind::service_provided)
-        add_provided_port(port, name);
-    else
-        add_required_port(port, name);
-}
-
-// The operations are those of the IDL, where it is known: the component's methods say nothing of out arguments and
-// exceptions.
-void OprosRtc::add_required_port(const link::Port& port, const std::string& name) {
-    link::Port required = port;
-    required.operations = operations_of(port.type);
-    Consumer consumer{std::make_unique<MirrorProvidedPort>(std::move(required), source_.call_timeout),
-                      std::make_unique<RTC::CorbaPort>(name.c_str())};
-    consumer.port->registerConsumer(port.instance.c_str(), port.type.c_str(), consumer.source->consumer());
-    addPort(*consumer.port);
-    consumers_.push_back(std::move(consumer));
-}
-
-void OprosRtc::send_interfaces() {
-    for (const auto& consumer : consumers_) {
-        const auto& port = consumer.source->port();
-        const auto binding = control::encode(control::ServiceBinding{port.name, port.operations});
-        const auto reply = source_.link->call({"", control::bind, "", binding}, source_.call_timeout);
-        if (reply.status != CallStatus::ok && source_.link->is_up())
-            spdlog::error("{}: required service port '{}' is not ready: {}", getInstanceName(), port.name,
-                          reply.text());
-    }
-}
-
-MirrorProvidedPort* OprosRtc::find_required(std::string_view channel) const {
-    for (const auto& consumer : consumers_)
-        if (consumer.source->port().name == channel) return consumer.source.get();
-    return nullptr;
-}
-
-void OprosRtc::add_provided_port(const link::Port& port, const std::string& name) {
-    Service service;
-    try {
-        service.target = std::make_unique<MirrorRequiredPort>(port, *source_.link, source_.call_timeout);
-        service.target->bind({port.name, port.operations}); // the component that provides it is there
-    } catch (const wire::SignatureError& error) {           // it came from another process
-        spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
-        return;
-    }
-    service.port = std::make_unique<RTC::CorbaPort>(name.c_str());
-    service.port->registerProvider(port.instance.c_str(), port.type.c_str(), service.target->servant());
-    addPort(*service.port);
-    services_.push_back(std::move(service));
-}
-
-void OprosRtc::add_data_port(const link::Port& port, const std::string& name) {
-    std::string type;
-    try {
-        type = shown_type(port);
-    } catch (const std::runtime_error& error) { // no type fits, or a signature of another process is damaged
-        spdlog::warn("{}: port '{}' is not shown: {}", getInstanceName(), name, error.what());
-        return;
-    }
-    LinkChannel channel = make_link_channel(wire::parse_signature(RTC::InterfaceSignatures::type(type)));
-    const std::string key = channel_key(port);
-    const bool is_input = port.kind == link::PortKind::data_in;
-    if (is_input)
-        channel.writer = &source_.link->writer(port.name);
-    else
-        channel.reader = &source_.link->reader(port.name);
-    LinkBuffer::register_channel(key, channel);
-    channel_keys_.push_back(key);
-    if (is_input) {
-        inputs_.push_back(std::make_unique<OprosInPort>(name.c_str(), type.c_str(), key));
-        addInPort(name.c_str(), *inputs_.back());
-        return;
-    }
-    auto out = std::make_unique<ForwardingOutPort>(name.c_str(), type.c_str(), key);
-    for (const auto event :
-         {RTC::ConnectorListenerType::ON_CONNECT, RTC::ConnectorListenerType::ON_DISCONNECT})
-        out->addConnectorListener(event, new ChangeListener(source_.connections_changed));
-    addOutPort(name.c_str(), *out);
-    outputs_.push_back({std::move(out), port.name});
-}
-
-void OprosRtc::add_configuration() {
-    for (const auto& [name, value] : source_.component.properties) {
-        sent_[name] = value;
-        bindParameter(name.c_str(), values_[name], value.c_str());
-    }
-    addConfigurationSetListener(RTC::ON_SET_CONFIG_SET, new SetListener(source_.configuration_changed));
-    addConfigurationSetNameListener(RTC::ON_ACTIVATE_CONFIG_SET,
-                                    new SetNameListener(source_.configuration_changed));
-}
-
-void OprosRtc::send_configuration(const std::vector<link::Property>* known) {
-    if (known)
-        for (const auto& [name, value] : *known) sent_[name] = value;
-    const coil::Properties set = m_configsets.getActiveConfigurationSet();
-    for (auto& [name, sent] : sent_) {
-        const std::string value = set.findNode(name) ? set.getProperty(name) : sent;
-        if (value == sent) continue;
-        const auto setting = control::encode(control::Setting{source_.component.name, name, value});
-        const auto reply = source_.link->call({"", control::configure, "", setting}, source_.call_timeout);
-        if (reply.status == CallStatus::ok)
-            sent = value;
-        else if (source_.link->is_up())
-            spdlog::error("{}: the OPRoS component was not given {} = '{}': {}", getInstanceName(), name,
-                          value, reply.text());
-    }
-}
-
-std::vector<std::string> OprosRtc::listen() {
-    std::vector<std::string> channels;
-    for (auto& output : outputs_) {
-        const bool listens = output.port->is_connected();
-        if (listens != output.listens) {
-            if (listens) output.port->discard(); // what came before is of no interest to the first receiver
-            source_.link->set_arrival_listener(output.channel,
-                                               listens ? std::function<void()>([this] { wake(); }) : nullptr);
-            output.listens = listens;
-        }
-        if (listens) channels.push_back(output.channel);
-    }
-    return channels;
 }
 
 /// One cycle is enough for all messages that come before it. [notifier-thread]
