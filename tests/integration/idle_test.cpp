@@ -69,17 +69,6 @@ long sum_of(const std::map<std::string, long>& switches) {
     return sum;
 }
 
-/// Whether SIGSTOP has reached each thread: until then one of them may still answer a call.
-bool is_stopped(pid_t process) {
-    for (const auto& task : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process))) {
-        std::ifstream file(task.path() / "status");
-        bool stopped = false;
-        for (std::string line; std::getline(file, line);) stopped = stopped || line.starts_with("State:\tT");
-        if (!stopped) return false;
-    }
-    return true;
-}
-
 /// 3 s, with TANDEM_STRESS=20 and more 60 s.
 std::chrono::seconds observed_time() {
     const char* factor = std::getenv("TANDEM_STRESS");
@@ -140,12 +129,11 @@ TEST_CASE(
     REQUIRE(hosts.says("opros", "ready"));
     hosts.ask("alpha");
     REQUIRE(hosts.is_answered("alpha"));
-    REQUIRE(::kill(hosts.pid("rtm"), SIGSTOP) == 0);
-    for (int i = 0; i < 30'000 && !is_stopped(hosts.pid("rtm")); ++i) std::this_thread::sleep_for(1ms);
+    hosts.pause("rtm");
     hosts.ask("beta");
     CHECK(hosts.says("opros", "refused: "));
     CHECK(hosts.output("opros").find("is down") == std::string::npos);
-    REQUIRE(::kill(hosts.pid("rtm"), SIGCONT) == 0);
+    hosts.resume("rtm");
     hosts.ask("gamma");
     CHECK(hosts.is_answered("gamma"));
     INFO(hosts.output("opros") + hosts.output("rtm"));

@@ -106,6 +106,8 @@ class TwoHosts {
         rtc_properties_ += ", " + type;
         if (type != rtc_) modules_ += type + ".so, ";
     }
+    /// One more RTC, of a type that rtm_host has itself, created after the others.
+    void add_built_in_rtc(const std::string& arguments) { rtc_properties_ += ", " + arguments; }
     /// One more link, with an AdaptorComp of that name, for the RTC of that name.
     void add_link(const std::string& adaptor, const std::string& rtc) {
         const std::string link = link_ + "-" + std::to_string(++more_links_ + 1);
@@ -223,6 +225,13 @@ class TwoHosts {
         start_rtm();
         return before;
     }
+    /// Stops a host by SIGSTOP; returns when each of its threads has stopped, which until then may still answer a call.
+    void pause(const std::string& host) const {
+        ::kill(pid(host), SIGSTOP);
+        for (int i = 0; i < 30'000 && !is_stopped(pid(host)); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    void resume(const std::string& host) const { ::kill(pid(host), SIGCONT); }
     pid_t pid(const std::string& host) const { return hosts_.at(host).pid(); }
     std::vector<std::filesystem::path> segments() const {
         std::vector<std::filesystem::path> found;
@@ -234,6 +243,17 @@ class TwoHosts {
     bool left_in_shared_memory() const { return !segments().empty(); }
 
   private:
+    static bool is_stopped(pid_t process) {
+        const auto tasks = "/proc/" + std::to_string(process) + "/task";
+        for (const auto& task : std::filesystem::directory_iterator(tasks)) {
+            std::ifstream file(task.path() / "status");
+            bool stopped = false;
+            for (std::string line; std::getline(file, line);)
+                stopped = stopped || line.starts_with("State:\tT");
+            if (!stopped) return false;
+        }
+        return true;
+    }
     void start(const std::string& host, std::vector<std::string> command) {
         command.insert(command.end(), {"--plugin-path", TEST_PLUGINS, "--parent-death"});
         command.insert(command.end(), switches_.begin(), switches_.end());

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints the texts of the events that come.
+#include <OPRoSInclude.h>
+
+#include <iostream>
+#include <string>
+
+class WatchComp : public Component {
+  public:
+    WatchComp() {
+        late_.setOwner(this);
+        addPort("late", &late_);
+    }
+
+    ReturnType onEvent(Event* event) override {
+        const std::string* port = static_cast<EventData<std::string>*>(event)->getContentData();
+        std::cout << event->getId() + ": " + (port ? *port : "") + "\n" << std::flush;
+        return OPROS_SUCCESS;
+    }
+
+  protected:
+    ReturnType onInitialize() override { return OPROS_SUCCESS; }
+    ReturnType onStart() override { return OPROS_SUCCESS; }
+    ReturnType onStop() override { return OPROS_SUCCESS; }
+    ReturnType onReset() override { return OPROS_SUCCESS; }
+    ReturnType onError() override { return OPROS_SUCCESS; }
+    ReturnType onRecover() override { return OPROS_SUCCESS; }
+    ReturnType onDestroy() override { return OPROS_SUCCESS; }
+
+  private:
+    InputEventPort<std::string> late_;
+};
+
+extern "C" {
+Component* getComponent() { return new WatchComp; }
+void releaseComponent(Component* component) { delete component; }
+}

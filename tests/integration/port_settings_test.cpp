@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the two sides' own configuration asks of single ports, and ports that are those of a composite's members.
+#include "tests/apps/tandem/program.hpp"
+#include "two_hosts.hpp"
+
+#include <catch2/catch.hpp>
+
+namespace {
+
+/// The ring of the RTC's InPort `word`, as `tandem shm stats` shows it; nothing sent while there is none.
+nlohmann::json word_ring(const TwoHosts& hosts) {
+    const auto stats = tandem::test::shm_program({"stats", hosts.link(), "--json"});
+    REQUIRE(stats.exit_code == 0);
+    const auto json = stats.json();
+    for (const auto& ring : json["rings"])
+        if (ring["name"] == "port word") return ring;
+    return nlohmann::json::object({{"sent", 0}});
+}
+
+/// EchoRtc in a context that never ticks, so that it reads nothing, and messages for it.
+struct Unread : TwoHosts {
+    explicit Unread(const std::string& full_policy) {
+        set_rtc_properties(
+            "execution_contexts=SynchExtTriggerEC&port.inport.word.buffer.length=4&port.inport."
+            "word.buffer.write.full_policy=" +
+            full_policy);
+        set_connections(connection("data", "Talker", "word", "Adaptor", "word"));
+        start_rtm();
+        start_opros();
+        REQUIRE(says("opros", "ready"));
+    }
+    /// The ring's counters after twenty messages more than it has room for, with the sender at rest.
+    nlohmann::json counters() const {
+        for (int i = 0; i < 1500 && word_ring(*this)["sent"] < 24; ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        pause("opros");
+        const auto ring = word_ring(*this);
+        resume("opros");
+        return ring;
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "a queue has the length that rtc.conf gives the InPort, and drops the newest or the oldest as it says") {
+    SECTION("do_nothing") {
+        Unread hosts("do_nothing");
+        const auto ring = hosts.counters();
+        CHECK(ring["dropped"]["overwritten"] == 0);
+        CHECK(ring["dropped"]["refused"] == ring["sent"].get<int>() - 4);
+        CHECK(ring["waiting"] == 4);
+        CHECK(hosts.stop_both());
+    }
+    SECTION("overwrite") {
+        Unread hosts("overwrite");
+        const auto ring = hosts.counters();
+        CHECK(ring["dropped"]["refused"] == 0);
+        CHECK(ring["dropped"]["overwritten"] == ring["sent"].get<int>() - 4);
+        CHECK(ring["waiting"] == 4);
+        CHECK(hosts.stop_both());
+    }
+}
+
+TEST_CASE("an OPRoS component is told which port of the RTC was silent for too long") {
+    TwoHosts hosts;
+    hosts.set_rtc_properties("execution_contexts=SynchExtTriggerEC");
+    hosts.set_adaptor_property("deadline_ms.reply", "20");
+    hosts.add_component("Watch", "WatchComp");
+    hosts.set_connections(TwoHosts::connection("event", "Adaptor", "missedDeadline", "Watch", "late"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "missedDeadline: reply\n"));
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("an RTC is told which port of the OPRoS component was silent for too long") {
+    TwoHosts hosts;
+    hosts.set_rtc("ListenRtc");
+    hosts.set_interceptor("rtc=ListenRtc0&deadline_ms.word=20");
+    hosts.append_to_rtc_conf(
+        "manager.components.preconnect: InterceptorComp0.missedDeadline?port=ListenRtc0.word\n");
+    hosts.set_connections(""); // nobody sends words
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("rtm", "heard: word"));
+    CHECK(hosts.stop_both());
+}
+
+TEST_CASE("the ports that a composite exports cross, and it is activated with its members") {
+    TwoHosts hosts;
+    hosts.add_built_in_rtc("PeriodicECSharedComposite?instance_name=Pair0");
+    hosts.set_interceptor("rtc=Pair0");
+    hosts.append_to_rtc_conf(
+        "composite.PeriodicECShared.Pair0.conf.default.members: EchoRtc0\n"
+        "composite.PeriodicECShared.Pair0.conf.default.exported_ports: EchoRtc0.word, EchoRtc0.reply\n");
+    hosts.set_connections(TwoHosts::connection("data", "Talker", "word", "Adaptor", "word") +
+                          TwoHosts::connection("data", "Adaptor", "reply", "Talker", "reply"));
+    hosts.start_rtm();
+    hosts.start_opros();
+    CHECK(hosts.says("opros", "reply: hello 5 at a time"));
+    INFO(hosts.output("opros") + hosts.output("rtm"));
+    const auto before = hosts.restart_rtm("opros");
+    CHECK(hosts.says("opros", "reply: hello", before));
+    CHECK(hosts.stop_both());
+    CHECK_FALSE(hosts.left_in_shared_memory());
+}
