@@ -32,7 +32,7 @@ struct JoinedFolder : ScratchFolder {
 
 } // namespace
 
-TEST_CASE("link check prints each port with its partner, both signatures and the conversion") {
+TEST_CASE("link check prints each port with its peer, both signatures and the conversion") {
     JoinedFolder folder;
     const auto result = folder.tandem({"link", "check", "joined"});
     INFO(result.output);
@@ -54,8 +54,8 @@ TEST_CASE("link check prints each port with its partner, both signatures and the
     CHECK(connection("TalkerComp.dictionary")["to_port"]["methods"][0]["signature"] ==
           "sad:ai raises IDL:TestDictionary/NotFound:1.0(s)");
     CHECK_THAT(result.output,
-               Contains("without a partner: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
-                   Contains("without a partner: TalkerComp.numbers (data output, 'ai')"));
+               Contains("without a peer: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
+                   Contains("without a peer: TalkerComp.numbers (data output, 'ai')"));
 }
 
 TEST_CASE("link check fails for a configured connection that cannot be made, and tells the other ones") {
@@ -70,7 +70,7 @@ TEST_CASE("link check fails for a configured connection that cannot be made, and
     CHECK_THAT(result.output, Contains("EchoRtc0.reply"));
 }
 
-TEST_CASE("link check shows the conversions that are asked for, and suggests partners by type") {
+TEST_CASE("link check shows the conversions that are asked for, and suggests peers by type") {
     JoinedFolder folder;
     for (const char* component : {"TalkerComp", "Adaptor"})
         folder.edit("joined/opros/joined.xml",
@@ -83,11 +83,11 @@ TEST_CASE("link check shows the conversions that are asked for, and suggests par
     CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output, Contains("TalkerComp.numbers") && Contains(" widen\n"));
     CHECK_THAT(result.output,
-               Contains("without a partner: EchoRtc0.word (data input, '(uu)s'): no connection of ") &&
+               Contains("without a peer: EchoRtc0.word (data input, '(uu)s'): no connection of ") &&
                    Contains(" names it; by type it fits TalkerComp.word\n") &&
                    Contains(" names it; by type it fits EchoRtc0.word\n"));
     CHECK_THAT(result.output,
-               Contains("without a partner: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
+               Contains("without a peer: EchoRtc0.picture (data input, '(uu)ay'): no connection of ") &&
                    !Contains("it fits EchoRtc0.picture"));
 }
 

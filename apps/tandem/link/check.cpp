@@ -109,7 +109,7 @@ json describe_unconnected(const JoinedPorts& joined) {
             json fitting = json::array();
             if (const auto found = joined.suggestions.find(reference.text());
                 found != joined.suggestions.end())
-                for (const auto& partner : found->second) fitting.push_back(port_name(joined, partner));
+                for (const auto& peer : found->second) fitting.push_back(port_name(joined, peer));
             ports.push_back({{"port", port_name(joined, reference)},
                              {"of", std::move(port)},
                              {"reason", reason},
@@ -166,7 +166,7 @@ std::string format_report(const json& report) {
     text += "\n";
     for (const auto& port : report["unconnected"])
         text +=
-            "without a partner: " + text_at(port, "port") + " (" + text_at(port["of"], "kind") + " " +
+            "without a peer: " + text_at(port, "port") + " (" + text_at(port["of"], "kind") + " " +
             text_at(port["of"], "direction") +
             (text_at(port["of"], "signature").empty() ? "" : ", '" + text_at(port["of"], "signature") + "'") +
             "): " + text_at(port, "reason") + fitting_text(port["fitting"]) + "\n";

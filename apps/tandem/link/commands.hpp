@@ -31,7 +31,7 @@ struct LinkCheckOptions {
     double timeout_s = 10;   ///< time limit for the components' code
     bool json = false;
 };
-/// Prints every port of both sides of the links of an application with its partner, signatures and conversion, or why it
+/// Prints every port of both sides of the links of an application with its peer, signatures and conversion, or why it
 /// has none. 1 if a configured connection cannot be made.
 int link_check(const LinkCheckOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two sides of the links of an application: which port has which partner, as the configuration says.
+// The two sides of the links of an application: which port has which peer, as the configuration says.
 #pragma once
 
 #include "apps/tandem/opros/commands.hpp"

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 std::string text_of(const json& port, const char* key) { return port[key].get<std::string>(); }
 
-/// The direction of a port's partner.
+/// The direction of a port's peer.
 const char* opposite(const std::string& direction) {
     if (direction == "input") return "output";
     if (direction == "output") return "input";
@@ -52,9 +52,9 @@ class Matcher {
         for (const auto* pair : unique) take(*pair, "type");
     }
 
-    /// `side`: "opros" or "rtc"; `partner`: the other component. The line is empty for a port with a partner.
+    /// `side`: "opros" or "rtc"; `peer`: the other component. The line is empty for a port with a peer.
     std::string why_left_out(const char* side, const std::string& component, const json& port,
-                             const std::string& partner) const {
+                             const std::string& peer) const {
         if (taken(side).count(port["name"]) != 0) return "";
         const std::string what = component + "." + text_of(port, "name") + " (" + text_of(port, "kind") +
                                  " " + text_of(port, "direction") + "): ";
@@ -65,18 +65,17 @@ class Matcher {
             // The reason is told once, for the OPRoS port of the two.
             if (same_name(pair) && !pair.error.empty())
                 return what + (other == "rtc" ? pair.error
-                                              : partner + "." + text_of(pair.opros, "name") +
+                                              : peer + "." + text_of(pair.opros, "name") +
                                                     " does not fit, although it has the name");
             if (fits(pair)) fitting.push_back(side_of(pair, other)["name"]);
         }
         if (fitting.size() > 1)
-            return what + "several ports of " + partner + " fit: " + join(fitting) +
+            return what + "several ports of " + peer + " fit: " + join(fitting) +
                    "; connect the one that is meant";
         if (fitting.size() == 1)
-            return what + partner + "." + fitting.front() +
-                   " fits several ports; connect the one that is meant";
-        return what + "no " + opposite(port["direction"]) + " " + text_of(port, "kind") + " port of " +
-               partner + " is left that fits";
+            return what + peer + "." + fitting.front() + " fits several ports; connect the one that is meant";
+        return what + "no " + opposite(port["direction"]) + " " + text_of(port, "kind") + " port of " + peer +
+               " is left that fits";
     }
 
     std::vector<PortPair> chosen;
@@ -108,7 +107,7 @@ class Matcher {
     }
 
     const std::vector<PortPair>& possible_;
-    std::set<std::string> opros_, rtc_; ///< names of the ports that have a partner
+    std::set<std::string> opros_, rtc_; ///< names of the ports that have a peer
 };
 
 } // namespace

@@ -23,7 +23,7 @@ struct PortPair {
 
 struct PortMatch {
     std::vector<PortPair> pairs;
-    std::vector<std::string> left_out; ///< a line for each port without a partner, with the reason
+    std::vector<std::string> left_out; ///< a line for each port without a peer, with the reason
 };
 
 /// The type that connections of the port have.

@@ -68,7 +68,7 @@ class ChairServant : public POA_TestChair::Chair {
         text = CORBA::string_dup("here");
         return row > 0;
     }
-    TestChair::Furniture_ptr partner(TestChair::Furniture_ptr of, CORBA::Object_out none) override {
+    TestChair::Furniture_ptr neighbour(TestChair::Furniture_ptr of, CORBA::Object_out none) override {
         none = CORBA::Object::_nil();
         return TestChair::Furniture::_duplicate(of);
     }
@@ -96,7 +96,7 @@ class Forward : public CallTarget {
                                        {"hide", ":"}, // as an IDL that does not declare the exception
                                        {"locate", "i>(sn[3]db)&ad>s:b"},
                                        {"beep", "i: oneway"},
-                                       {"partner", "o>o:o"},
+                                       {"neighbour", "o>o:o"},
                                        {"_get_owner", ":s"},
                                        {"_get_number", ":i"},
                                        {"_set_number", "i:"}})
@@ -217,7 +217,7 @@ TEST_CASE("a generic servant and generic calls carry every type there and back")
     SECTION("object references come back as themselves") {
         TestChair::Chair_var stub = TestChair::Chair::_narrow(active.object);
         CORBA::Object_var none = CORBA::Object::_duplicate(stub);
-        TestChair::Furniture_var back = stub->partner(stub, none.out());
+        TestChair::Furniture_var back = stub->neighbour(stub, none.out());
         CHECK(back->_is_equivalent(stub));
         CHECK(std::string(CORBA::String_var(back->owner())) == "Tandem");
         CHECK(CORBA::is_nil(none));
@@ -295,7 +295,7 @@ TEST_CASE("generic calls name what went wrong") {
     for (const char* text : {"IOR:00zz", "corbaloc::127.0.0.1:1/Nobody", "IOR:"}) {
         std::vector<std::byte> argument;
         wire::CdrWriter(argument).put_string(text);
-        const auto refused = generic_call(object, "partner", wire::parse_operation("o>o:o"), argument,
+        const auto refused = generic_call(object, "neighbour", wire::parse_operation("o>o:o"), argument,
                                           std::chrono::seconds(1));
         CHECK((refused.status == Status::bad_arguments || refused.status == Status::exception));
     }
