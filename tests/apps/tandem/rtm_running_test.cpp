@@ -279,16 +279,36 @@ TEST_CASE(
         return result;
     };
     CHECK(other.host.wait_for_output("uses step 1\n"));
-    CHECK(conf({"step=5"}).output_contains("default (active)\n  step=5\n"));
+    CHECK(conf({"step=5"}).output_contains("default (active)\n  level=2\n  size=3\n  step=5\n"));
     CHECK(other.host.wait_for_output("uses step 5\n"));
-    CHECK(conf({"step=6"}).output_contains("default (active)\n  step=6\n"));
+    CHECK(conf({"step=6"}).output_contains("default (active)\n  level=2\n  size=3\n  step=6\n"));
     CHECK(other.host.wait_for_output("uses step 6\n"));
     // The values of another set leave the active one active.
     CHECK(conf({"step=8", "--set", "other"}).output_contains("other\n  step=8\n"));
-    CHECK(conf({"step=9"}).output_contains("default (active)\n  step=9\n"));
+    CHECK(conf({"step=9"}).output_contains("default (active)\n  level=2\n  size=3\n  step=9\n"));
     CHECK(other.host.wait_for_output("uses step 9\n"));
     CHECK(conf({"--activate", "other"}).output_contains("other (active)\n  step=8\n"));
     CHECK(other.host.wait_for_output("uses step 8\n"));
+}
+
+TEST_CASE("tandem rtm conf warns of a lost number where the host accepts any text") {
+    Running host("ConfigurationUser", {"manager.components.preactivation:ConfigurationUser0"});
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    const std::vector<std::string> conf = {"conf", "ConfigurationUser0"};
+    auto with = [&](const std::string& assignment) {
+        auto arguments = conf;
+        arguments.push_back(assignment);
+        return arguments;
+    };
+    CHECK(host.good(with("level=5")).errors.empty());
+    CHECK(host.good(with("level=abc")).errors ==
+          "tandem: warning: level=abc replaces 5: if level is a number, the component now uses its default, "
+          "since its host does not check values\n");
+    CHECK(host.good(with("level=def")).errors.empty()); // it was no number, so far as can be seen
+    CHECK(host.failed(with("size=abc")) == "tandem: size=abc is not set: size is declared as int, and the "
+                                           "component would use its default\n");
+    CHECK(host.good(conf).output_contains("size=3"));
+    CHECK(host.good(with("size=4")).output_contains("size=4"));
 }
 
 TEST_CASE("tandem rtm list and tree show the sources that answer and fail if a named one does not") {

@@ -58,7 +58,8 @@ class OpenRtmConfiguration : public SDOPackage::Configuration_impl {
     std::atomic<bool> has_active_set_{true};
 };
 
-/// Takes `step` over from an active set only, and prints what it uses: `uses step N`. Its sets are default and other.
+/// Takes `step` over from an active set only, and prints what it uses: `uses step N`. Its sets are default and other; that
+/// `size` is an int is said by a set of its own, as RTCBuilder writes it. Tells nothing about contexts that Tandem's would.
 class ConfigurationUser : public RTC::DataFlowComponentBase {
   public:
     explicit ConfigurationUser(RTC::Manager* manager)
@@ -70,6 +71,11 @@ class ConfigurationUser : public RTC::DataFlowComponentBase {
         coil::Properties other("other");
         other.setProperty("step", "7");
         getConfigService().addConfigurationSet(other);
+        bindParameter("level", level_, "2"); // any text, as those hosts accept it for numbers too
+        bindParameter("size", size_, "3");
+        coil::Properties types("__type__");
+        types.setProperty("size", "int");
+        getConfigService().addConfigurationSet(types);
         return RTC::RTC_OK;
     }
     RTC::ReturnCode_t onExecute(RTC::UniqueId) override {
@@ -84,9 +90,11 @@ class ConfigurationUser : public RTC::DataFlowComponentBase {
         return RTC::RTC_OK;
     }
     SDOPackage::Configuration_ptr get_configuration() override { return configuration_->_this(); }
+    RTC::ExecutionContextList* get_owned_contexts() override { return new RTC::ExecutionContextList; }
 
   private:
-    int step_ = 0, used_ = 0;
+    int step_ = 0, used_ = 0, size_ = 0;
+    std::string level_;
     PortableServer::Servant_var<OpenRtmConfiguration> configuration_;
 };
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/rtm/running/context_info.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
 #include "host/rtm/runtime/naming/remote_names.hpp"
 #include "host/text/nearest_name.hpp"
 
+#include <coil/stringutil.h>
+#include <cstdio>
 #include <fmt/format.h>
 #include <map>
 #include <rtm/CORBA_RTCUtil.h>
 #include <rtm/NVUtil.h>
+#include <set>
 
 namespace tandem::command {
 namespace {
@@ -26,10 +30,62 @@ bool is_description(const SDOPackage::ConfigurationSet& set) {
     return std::string(set.id).compare(0, 2, "__") == 0;
 }
 
+// The type that RTCBuilder has declared for a parameter (conf.__type__.NAME); empty if there is none.
+std::string declared_type(SDOPackage::Configuration_ptr configuration, const std::string& name) {
+    try {
+        SDOPackage::ConfigurationSet_var types = configuration->get_configuration_set("__type__");
+        return NVUtil::toString(types->configuration_data, name.c_str());
+    } catch (const SDOPackage::InternalError&) { // no such set
+        return "";
+    }
+}
+
+bool is_number(const std::string& text) {
+    double number = 0;
+    return coil::stringTo(number, text.c_str());
+}
+
+// Tandem's host refuses what a parameter's type cannot hold. OpenRTM-aist's accepts any text, and the variable then gets its
+// default. A parameter without a declared type is taken for a number if it has been one so far.
+void check_number(SDOPackage::Configuration_ptr configuration, const std::string& name,
+                  const std::string& former, const std::string& value) {
+    static const std::set<std::string> number_types = {"short",
+                                                       "int",
+                                                       "long",
+                                                       "long long",
+                                                       "unsigned short",
+                                                       "unsigned",
+                                                       "unsigned int",
+                                                       "unsigned long",
+                                                       "unsigned long long",
+                                                       "float",
+                                                       "double",
+                                                       "unsigned char",
+                                                       "int32_t",
+                                                       "int64_t"};
+    if (is_number(value)) return;
+    const std::string type = declared_type(configuration, name);
+    if (number_types.count(type) > 0)
+        throw std::runtime_error(fmt::format("{0}={1} is not set: {0} is declared as {2}, and the component "
+                                             "would use its default",
+                                             name, value, type));
+    if (type.empty() && is_number(former))
+        fmt::print(stderr,
+                   "tandem: warning: {0}={1} replaces {2}: if {0} is a number, the component now uses its "
+                   "default, since its host does not check values\n",
+                   name, value, former);
+}
+
+// Whether the component's host is Tandem's, which checks values.
+bool host_checks_values(RTC::RTObject_ptr component) {
+    RTC::ExecutionContextList_var own = component->get_owned_contexts();
+    return own->length() > 0 && ContextInfo(own[0]).tells_callbacks();
+}
+
 // Sets parameters of a configuration set. The whole set is read, changed and written back: OpenRTM has no operation for
 // one parameter. Only names that the set has are accepted, since a new one would have no effect.
 void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
-                const std::string& id) {
+                const std::string& id, bool host_checks) {
     SDOPackage::ConfigurationSet_var set = configuration->get_configuration_set(id.c_str());
     for (const auto& assignment : options.values) {
         const std::size_t equals = assignment.find('=');
@@ -38,6 +94,9 @@ void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& 
         const std::string name = assignment.substr(0, equals);
         const CORBA::Long index = NVUtil::find_index(set->configuration_data, name.c_str());
         if (index < 0) throw std::runtime_error(unknown_parameter_text(name, id, set->configuration_data));
+        if (!host_checks)
+            check_number(configuration, name, NVUtil::toString(set->configuration_data, name.c_str()),
+                         assignment.substr(equals + 1));
         // Values of OpenRTM's parameters are strings in the profile, whatever their C++ type.
         set->configuration_data[static_cast<CORBA::ULong>(index)].value <<=
             assignment.substr(equals + 1).c_str();
@@ -81,12 +140,13 @@ void activate_set(SDOPackage::Configuration_ptr configuration, const ConfOptions
 
 // Values are set first. OpenRTM-aist's components take values over when their set is activated, and until then none of
 // their sets is active: the one that was active is activated again, also if the values are those of another.
-void change_configuration(SDOPackage::Configuration_ptr configuration, const ConfOptions& options) {
+void change_configuration(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
+                          bool host_checks) {
     const std::string active = active_configuration_set(configuration);
     std::string changed = options.set.empty() ? active : options.set;
     if (!options.values.empty()) {
         if (changed.empty()) changed = only_set(configuration);
-        set_values(configuration, options, changed);
+        set_values(configuration, options, changed, host_checks);
     }
     std::string id = options.activate;
     if (id.empty() && !options.values.empty()) id = options.set.empty() ? changed : active;
@@ -117,7 +177,8 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
     const RemoteComponent component = client.find_component(options.component);
     try {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
-        change_configuration(configuration.in(), options);
+        change_configuration(configuration.in(), options,
+                             options.values.empty() || host_checks_values(component.object.in()));
         // Read back, so that what is printed is what the component has and not what was asked for.
         const nlohmann::json sets = sets_json(configuration.in());
         if (client_options.json) {
