@@ -70,8 +70,12 @@ int rtm_connect(const RtmClientOptions& client_options, const ConnectOptions& op
         const std::string names = first.name + " and " + other.name;
         call_remote(names, [&] {
             const std::string name = options.name.empty() ? first.name + "-" + other.name : options.name;
-            RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
-                name, connection_properties(options.properties), first.object.in(), other.object.in());
+            coil::Properties properties = connection_properties(options.properties);
+            // See RTC::PortBase::connect(); require_compatible() looks for a connection that is there.
+            if (properties.getProperty("dataport.allow_dup_connection").empty())
+                properties.setProperty("dataport.allow_dup_connection", "YES");
+            RTC::ConnectorProfile_var profile =
+                CORBA_RTCUtil::create_connector(name, properties, first.object.in(), other.object.in());
             require_compatible(first, other, profile.in());
             const RTC::ReturnCode_t code = first.object->connect(profile.inout());
             if (code != RTC::RTC_OK)

@@ -61,6 +61,19 @@ bool has_remote_port(const ConnectorProfile& profile) {
     return false;
 }
 
+bool allows_duplicates(const ConnectorProfile& profile, const coil::Properties& port) {
+    return coil::toBool(
+        NVUtil::toProperties(profile.properties)
+            .getProperty("dataport.allow_dup_connection", port.getProperty("allow_dup_connection")),
+        "YES", "NO", false);
+}
+
+// For the ports of a connection of which the first to be asked has found none like it. A port of OpenRTM-aist 2.x looks for one
+// while it holds its lock, and if it then finds another connection whose peer has died it waits for that lock itself, for ever.
+void leave_out_duplicate_check(ConnectorProfile& profile) {
+    CORBA_SeqUtil::push_back(profile.properties, NVUtil::newNV("dataport.allow_dup_connection", "YES"));
+}
+
 // Where `port` is in the list of the profile; -1 when it is not.
 CORBA::Long position_of(PortService_ptr port, const ConnectorProfile& profile) {
     return CORBA_SeqUtil::find(profile.ports,
@@ -113,6 +126,13 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
     try {
         const std::string mismatch = incompatibility(profile);
         if (!mismatch.empty()) return refused(BAD_PARAMETER, mismatch);
+        if (has_remote_port(profile) && !allows_duplicates(profile, m_properties) &&
+            occurrencesIn(profile) == 1) {
+            if (isAlreadyConnected(profile))
+                return refused(PRECONDITION_NOT_MET,
+                               std::string(getName()) + " is already connected to that port");
+            leave_out_duplicate_check(profile);
+        }
         const ReturnCode_t result = notify_connect_at(profile.ports[0], profile);
         if (result == RTC_OK) return clearConnectError();
         // A port of OpenRTM-aist gives no reason; this one may have one of its own.
@@ -160,12 +180,7 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
     if (occurrences != 1)
         return refuse(BAD_PARAMETER, std::string(getName()) + " is " + std::to_string(occurrences) +
                                          " times in the list of ports to connect, expected once");
-    const coil::Properties properties = NVUtil::toProperties(profile.properties);
-    const bool duplicates =
-        coil::toBool(properties.getProperty("dataport.allow_dup_connection",
-                                            m_properties.getProperty("allow_dup_connection")),
-                     "YES", "NO", false);
-    if (!duplicates && isAlreadyConnected(profile))
+    if (!allows_duplicates(profile, m_properties) && isAlreadyConnected(profile))
         return refuse(PRECONDITION_NOT_MET, std::string(getName()) + " is already connected to that port");
     clearConnectError();
 

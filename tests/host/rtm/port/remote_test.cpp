@@ -79,6 +79,29 @@ TEST_CASE("Data crosses processes in both directions, and a receiver that dies i
     CHECK(fixture.state(counter) == RTC::ACTIVE_STATE);
 }
 
+TEST_CASE("A port looks for a duplicate itself and spares ports of other processes the look") {
+    Other other;
+    REQUIRE(other.host.wait_for_output("ready\n"));
+    ManagerFixture fixture;
+    auto& counter = fixture.create<Counter>("Counter");
+    RTC::RTObject_var there = other.component(fixture, "Reporter0");
+    RTC::PortService_var in = CORBA_RTCUtil::get_port_by_name(there.in(), "in");
+    auto connect = [&](const coil::Properties& properties) {
+        RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
+            "c", properties, RTC::PortService_var(counter.out_.getPortRef()).in(), in.in());
+        return counter.out_.connect(profile.inout());
+    };
+    CHECK(connect(coil::Properties()) == RTC::RTC_OK);
+    RTC::ConnectorProfileList_var present = in->get_connector_profiles();
+    REQUIRE(present->length() == 1);
+    CHECK(NVUtil::toString(present[0].properties, "dataport.allow_dup_connection") == "YES");
+    CHECK(connect(coil::Properties()) == RTC::PRECONDITION_NOT_MET);
+    CHECK(std::string(counter.out_.connectError()) == "Counter0.out is already connected to that port");
+    coil::Properties duplicates;
+    duplicates.setProperty("dataport.allow_dup_connection", "YES");
+    CHECK(connect(duplicates) == RTC::RTC_OK);
+}
+
 TEST_CASE("A pull connection fetches from another process") {
     Other other;
     REQUIRE(other.host.wait_for_output("ready\n"));
