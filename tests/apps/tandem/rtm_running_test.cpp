@@ -265,6 +265,30 @@ TEST_CASE("tandem rtm cat pulls, and says what it waits for") {
     CHECK(host.good(with_time("20")).output_contains("\"data\":"));
 }
 
+TEST_CASE("tandem rtm cat connects again when the port drops its connection without telling") {
+    Running host("Dropper", {"manager.components.preactivation:Dropper0"});
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    const Result result = host.good({"cat", "Dropper0:out", "-n", "1", "--for", "60"});
+    CHECK_THAT(result.errors,
+               Catch::Contains("tandem: Dropper0.out has dropped the connection; connecting again\n"));
+    CHECK(result.output_contains("\"data\":"));
+}
+
+TEST_CASE("tandem rtm disconnect warns where the reader's host may crash") {
+    Running host("ForeignReader,Counter,Reporter");
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    auto disconnect = [&](const std::string& reader) {
+        host.good({"connect", "Counter0:out", reader});
+        return host.good({"disconnect", "Counter0:out", reader}).errors;
+    };
+    CHECK(disconnect("ForeignReader0:in").empty()); // it is not active
+    host.good({"activate", "ForeignReader0", "Reporter0"});
+    CHECK(disconnect("Reporter0:in").empty());
+    CHECK(disconnect("ForeignReader0:in") ==
+          "tandem: warning: ForeignReader0 is ACTIVE in a host of OpenRTM-aist, which may crash when "
+          "ForeignReader0.in is disconnected while it reads; tandem rtm deactivate ForeignReader0 first\n");
+}
+
 TEST_CASE(
     "tandem rtm conf has effect on a component that takes values over at the next activation of their set") {
     testing::RemoteHost other("ConfigurationUser", testing::unused_port(),

@@ -35,6 +35,34 @@ class FragileHost : public Counter {
     PortableServer::Servant_var<FragileManager> servant_;
 };
 
+/// A component that does not tell, by the profile of a context of its own, that its host is Tandem's.
+template <class Base>
+class InForeignHost : public Base {
+  public:
+    using Base::Base;
+    RTC::ExecutionContextList* get_owned_contexts() override { return new RTC::ExecutionContextList; }
+    RTC::ExecutionContextList* get_participating_contexts() override { return Base::get_owned_contexts(); }
+};
+
+/// Drops the first connection of its port without telling the other side, as OpenRTM-aist's ports do after a call that has failed.
+class Dropper : public Counter {
+  public:
+    using Counter::Counter;
+    RTC::ReturnCode_t onExecute(RTC::UniqueId id) override {
+        if (!has_dropped_) {
+            RTC::ConnectorProfileList_var present = out_.get_connector_profiles();
+            if (present->length() == 0) return RTC::RTC_OK;
+            out_.notify_disconnect(
+                present[0].connector_id); // tells only the ports behind this one: there is none
+            has_dropped_ = true;
+        }
+        return Counter::onExecute(id);
+    }
+
+  private:
+    bool has_dropped_ = false;
+};
+
 /// As OpenRTM-aist's: no set is active after values were set, until one is activated.
 class OpenRtmConfiguration : public SDOPackage::Configuration_impl {
   public:
@@ -59,7 +87,7 @@ class OpenRtmConfiguration : public SDOPackage::Configuration_impl {
 };
 
 /// Takes `step` over from an active set only, and prints what it uses: `uses step N`. Its sets are default and other; that
-/// `size` is an int is said by a set of its own, as RTCBuilder writes it. Tells nothing about contexts that Tandem's would.
+/// `size` is an int is said by a set of its own, as RTCBuilder writes it.
 class ConfigurationUser : public RTC::DataFlowComponentBase {
   public:
     explicit ConfigurationUser(RTC::Manager* manager)
@@ -90,7 +118,6 @@ class ConfigurationUser : public RTC::DataFlowComponentBase {
         return RTC::RTC_OK;
     }
     SDOPackage::Configuration_ptr get_configuration() override { return configuration_->_this(); }
-    RTC::ExecutionContextList* get_owned_contexts() override { return new RTC::ExecutionContextList; }
 
   private:
     int step_ = 0, used_ = 0, size_ = 0;
@@ -102,5 +129,7 @@ class ConfigurationUser : public RTC::DataFlowComponentBase {
 
 void register_openrtm_components(RTC::Manager& manager) {
     register_component_type<FragileHost>(manager, "FragileHost");
-    register_component_type<ConfigurationUser>(manager, "ConfigurationUser");
+    register_component_type<Dropper>(manager, "Dropper");
+    register_component_type<InForeignHost<ConfigurationUser>>(manager, "ConfigurationUser");
+    register_component_type<InForeignHost<Accumulator>>(manager, "ForeignReader");
 }

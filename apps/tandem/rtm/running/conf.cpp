@@ -76,12 +76,6 @@ void check_number(SDOPackage::Configuration_ptr configuration, const std::string
                    name, value, former);
 }
 
-// Whether the component's host is Tandem's, which checks values.
-bool host_checks_values(RTC::RTObject_ptr component) {
-    RTC::ExecutionContextList_var own = component->get_owned_contexts();
-    return own->length() > 0 && ContextInfo(own[0]).tells_callbacks();
-}
-
 // Sets parameters of a configuration set. The whole set is read, changed and written back: OpenRTM has no operation for
 // one parameter. Only names that the set has are accepted, since a new one would have no effect.
 void set_values(SDOPackage::Configuration_ptr configuration, const ConfOptions& options,
@@ -178,7 +172,7 @@ int rtm_conf(const RtmClientOptions& client_options, const ConfOptions& options)
     try {
         SDOPackage::Configuration_var configuration = component.object->get_configuration();
         change_configuration(configuration.in(), options,
-                             options.values.empty() || host_checks_values(component.object.in()));
+                             options.values.empty() || is_in_tandem_host(component.object.in()));
         // Read back, so that what is printed is what the component has and not what was asked for.
         const nlohmann::json sets = sets_json(configuration.in());
         if (client_options.json) {

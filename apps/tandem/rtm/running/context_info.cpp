@@ -34,4 +34,9 @@ std::string ContextInfo::property(const char* name) const {
     return profile_.operator->() ? NVUtil::toString(profile_->properties, name) : "";
 }
 
+bool is_in_tandem_host(RTC::RTObject_ptr component) {
+    RTC::ExecutionContextList_var own = component->get_owned_contexts();
+    return own->length() > 0 && ContextInfo(own[0]).tells_callbacks();
+}
+
 } // namespace tandem::command

@@ -26,4 +26,7 @@ class ContextInfo {
     RTC::ExecutionContextProfile_var profile_;
 };
 
+/// Whether the component is in a host of Tandem's, and not of OpenRTM-aist's: what both tell differs.
+bool is_in_tandem_host(RTC::RTObject_ptr component);
+
 } // namespace tandem::command

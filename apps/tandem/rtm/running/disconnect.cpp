@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/output/print.hpp"
+#include "apps/tandem/rtm/running/context_info.hpp"
 #include "apps/tandem/rtm/running/running_commands.hpp"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <rtm/NVUtil.h>
 
 namespace tandem::command {
 namespace {
@@ -10,6 +15,32 @@ bool includes_port(const RTC::ConnectorProfile& connection, RTC::PortService_ptr
     for (CORBA::ULong i = 0; i < connection.ports.length(); ++i)
         if (connection.ports[i]->_is_equivalent(port)) return true;
     return false;
+}
+
+// OpenRTM-aist deletes an InPort's connection although a read() may use it (1.2 to 2.1, RTC::InPort::read() takes it from the list
+// without a lock): on a loaded machine one disconnection in a thousand ends the process of a component that reads in each cycle.
+void warn_of_reader(RTC::PortService_ptr port) {
+    RTC::PortProfile_var profile = port->get_port_profile();
+    if (NVUtil::toString(profile->properties, "port.port_type") != "DataInPort" ||
+        CORBA::is_nil(profile->owner) || is_in_tandem_host(profile->owner) ||
+        component_state(profile->owner) != "ACTIVE")
+        return;
+    const std::string name(profile->name);
+    const std::string component = name.substr(0, name.rfind('.'));
+    fmt::print(stderr,
+               "tandem: warning: {0} is ACTIVE in a host of OpenRTM-aist, which may crash when {1} is "
+               "disconnected while it reads; tandem rtm deactivate {0} first\n",
+               component, name);
+}
+
+void warn_of_readers(const RTC::ConnectorProfile& connection) {
+    for (CORBA::ULong i = 0; i < connection.ports.length(); ++i) {
+        try {
+            warn_of_reader(connection.ports[i]);
+        } catch (const CORBA::SystemException&) {
+            // a port that has gone reads no more
+        }
+    }
 }
 
 } // namespace
@@ -27,6 +58,7 @@ int rtm_disconnect(const RtmClientOptions& client_options, const DisconnectOptio
             const std::string id(all[i].connector_id);
             if (!options.id.empty() && id != options.id) continue;
             if (!CORBA::is_nil(second.object.in()) && !includes_port(all[i], second.object.in())) continue;
+            warn_of_readers(all[i]);
             const RTC::ReturnCode_t code = first.object->disconnect(id.c_str());
             if (code != RTC::RTC_OK)
                 throw std::runtime_error("connection " + id + " cannot be ended: " + to_string(code));

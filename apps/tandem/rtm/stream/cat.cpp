@@ -4,8 +4,10 @@
 #include "apps/tandem/rtm/stream/type_codes.hpp"
 #include "apps/tandem/rtm/stream/untyped_ports.hpp"
 
+#include <chrono>
 #include <cstdio>
 #include <fmt/format.h>
+#include <optional>
 
 namespace tandem::command {
 namespace {
@@ -44,6 +46,29 @@ std::string describe_wait(const RemotePort& port) {
                        component);
 }
 
+/// The connection of cat's own port, made again when the remote port has dropped it: a port of OpenRTM-aist does that without
+/// telling, after one call to this process that has failed, for instance while the machine is loaded.
+class KeptConnection {
+  public:
+    KeptConnection(const RemotePort& remote, RTC::PortBase& own, const StreamOptions& options)
+        : remote_(remote), own_(own), options_(options) {
+        connect();
+    }
+    /// To be called when no sample has come for a while.
+    void restore() {
+        if (connection_->exists_at_remote_port()) return;
+        fmt::print(stderr, "tandem: {} has dropped the connection; connecting again\n", remote_.name);
+        connect();
+    }
+
+  private:
+    void connect() { connection_.emplace(remote_, own_, options_.properties, "tandem-cat"); }
+    const RemotePort& remote_;
+    RTC::PortBase& own_;
+    const StreamOptions& options_;
+    std::optional<PortConnection> connection_;
+};
+
 } // namespace
 
 int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options) {
@@ -62,9 +87,10 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
             "--types LIBRARY to see members\n",
             remote_port.name, type);
     UntypedInPort port("in", type.c_str());
-    const PortConnection connection(remote_port, port, options.properties, "tandem-cat");
+    KeptConnection connection(remote_port, port, options);
     // The time of --for begins with the connection, not with the search for the component.
     const auto begin = std::chrono::steady_clock::now();
+    auto last_sign = begin; // the last sample, or the last look at the connection
     unsigned long received = 0;
     bool has_said_that_it_waits = false;
     const bool pulls =
@@ -80,8 +106,13 @@ int rtm_cat(const RtmClientOptions& client_options, const StreamOptions& options
         // The wait is short, because a signal does not end it, and a sender that is pulled from has to be asked again.
         if (!port.samples().pop(bytes, std::chrono::milliseconds(pulls ? 10 : 100))) {
             if (pulls) port.fetch();
+            if (std::chrono::steady_clock::now() - last_sign > std::chrono::seconds(2)) {
+                connection.restore();
+                last_sign = std::chrono::steady_clock::now();
+            }
             continue;
         }
+        last_sign = std::chrono::steady_clock::now();
         ++received;
         // One line for each sample, flushed at once: another program may read them through a pipe.
         print_text(sample_json(converter, code.in(), bytes, options.raw)

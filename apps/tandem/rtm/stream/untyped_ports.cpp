@@ -110,7 +110,7 @@ std::string require_data_type(const RemotePort& port, const std::string& kind) {
 
 PortConnection::PortConnection(const RemotePort& remote_port, RTC::PortBase& own_port,
                                const std::vector<std::string>& properties, const char* name)
-    : own_port_(own_port) {
+    : remote_(RTC::PortService::_duplicate(remote_port.object.in())), own_port_(own_port) {
     call_remote(remote_port.name, [&] {
         RTC::PortService_var own = own_port.getPortRef();
         RTC::ConnectorProfile_var profile = CORBA_RTCUtil::create_connector(
@@ -123,6 +123,15 @@ PortConnection::PortConnection(const RemotePort& remote_port, RTC::PortBase& own
 }
 
 PortConnection::~PortConnection() { own_port_.disconnect(id_.c_str()); }
+
+bool PortConnection::exists_at_remote_port() const {
+    try {
+        RTC::ConnectorProfile_var profile = remote_->get_connector_profile(id_.c_str());
+        return id_ == profile->connector_id.in();
+    } catch (const CORBA::SystemException&) {
+        return true; // a host that has gone is noticed by the port itself
+    }
+}
 
 bool interrupted() {
     static const bool installed = [] {
