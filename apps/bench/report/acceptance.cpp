@@ -11,7 +11,6 @@ namespace tandem::bench {
 namespace {
 
 // The denominators of most ratios.
-constexpr const char* cache_line = "baseline/cache-line/one-way/8/spin";
 constexpr const char* minimal_ring = "baseline/index-ring/one-way/64/spin";
 constexpr const char* ring_polling = "tandem/ring/one-way/64/spin";
 

@@ -9,138 +9,16 @@ docs/joining.md says how operations and methods stand for each other.
 import os
 import sys
 
-from omniidl import idlast, idltype
+from omniidl import idlast
 
-PRIMITIVES = {
-    idltype.tk_void: "void", idltype.tk_boolean: "bool", idltype.tk_char: "char", idltype.tk_octet: "unsigned char",
-    idltype.tk_short: "short", idltype.tk_ushort: "unsigned short", idltype.tk_long: "int",
-    idltype.tk_ulong: "unsigned int", idltype.tk_longlong: "long long", idltype.tk_ulonglong: "unsigned long long",
-    idltype.tk_float: "float", idltype.tk_double: "double", idltype.tk_string: "std::string",
-    idltype.tk_objref: "std::string", # an object reference is an opaque text
-}
-NO_COUNTERPART = {idltype.tk_any: "any", idltype.tk_TypeCode: "TypeCode", idltype.tk_longdouble: "long double",
-                  idltype.tk_wchar: "wchar", idltype.tk_wstring: "wstring", idltype.tk_fixed: "fixed"}
+from tandem_opros_types import CONVERTER, NoCounterpart, TypeWriter, scoped, types_header
+
 MAX_ARGUMENTS = 15
 # Functions of every OPRoS port: a function of a required port that has such a name gets an underscore behind it.
 PORT_FUNCTIONS = {"addMethod", "bindProvided", "getEnd", "getFirst", "getMethod", "getName", "getRole", "getType",
                   "isDynamic", "reset", "sample", "setName", "typeError"}
 NOTE = "// Made by tandem idl2opros from %s; changes are lost when it is made again.\n#pragma once\n\n"
 
-
-class NoCounterpart(Exception):
-    """Why a type or an operation cannot be said in OPRoS; the text is a part of one line."""
-
-
-def scoped(decl):
-    return "::".join(decl.scopedName())
-
-
-class Converter:
-    """The C++ type of an IDL type, and whether there is one."""
-
-    def __init__(self):
-        self.open = [] # structures being looked at, to find those that contain themselves
-
-    def cxx(self, t):
-        kind = t.kind()
-        if kind in NO_COUNTERPART:
-            raise NoCounterpart("%s has no OPRoS counterpart" % NO_COUNTERPART[kind])
-        if kind in PRIMITIVES:
-            return PRIMITIVES[kind]
-        if kind == idltype.tk_sequence:
-            return "std::vector<%s>" % self.cxx(t.seqType())
-        decl = t.decl()
-        if kind == idltype.tk_alias:
-            if decl.sizes() or not self.is_plain(decl.alias().aliasType()):
-                self.cxx(decl.alias().aliasType())
-                return scoped(decl) if decl.sizes() else self.cxx(decl.alias().aliasType())
-            return self.cxx(decl.alias().aliasType())
-        if kind == idltype.tk_enum:
-            return scoped(decl)
-        if isinstance(decl, idlast.StructForward):
-            decl = decl.fullDecl()
-        if not isinstance(decl, idlast.Struct):
-            raise NoCounterpart("%s, a union or value type, has no OPRoS counterpart" % scoped(decl))
-        if decl in self.open:
-            raise NoCounterpart("%s contains itself" % scoped(decl))
-        self.open.append(decl)
-        try:
-            for member in decl.members():
-                self.cxx(member.memberType())
-        finally:
-            self.open.pop()
-        return scoped(decl)
-
-    @staticmethod
-    def is_plain(t):
-        return t.kind() in PRIMITIVES
-
-
-CONVERTER = Converter()
-
-
-# ---- types
-
-def dimensions(sizes):
-    return "".join("[%d]" % size for size in sizes)
-
-
-def struct_lines(name, members):
-    """`members` are (type, name, dimensions)."""
-    lines = ["struct %s {" % name]
-    for cxx, member, sizes in members:
-        lines.append("    %s %s%s{};" % (cxx, member, sizes))
-    fields = [member for _, member, _ in members]
-    lines += ["};", 'inline std::string typeName(%s*) { return "%s"; }' % (name, name)]
-    for function, archive, operator in [("save_this", "oarchive", "<<"), ("load_this", "iarchive", ">>")]:
-        lines.append("inline void %s(opros::archive::%s& ar, %s& value) { ar%s; }" % (
-            function, archive, name, "".join(" %s value.%s" % (operator, field) for field in fields)))
-    return lines
-
-
-class TypeWriter:
-    """Collects the types of one file, in the order of the IDL."""
-
-    def __init__(self):
-        self.lines = []
-
-    def in_namespaces(self, decl, lines):
-        names = decl.scopedName()[:-1]
-        if names:
-            # One in the other: these headers are C++14.
-            lines = [" ".join("namespace %s {" % name for name in names)] + lines + ["}" * len(names)]
-        self.lines += lines + [""]
-
-    def add(self, decl):
-        try:
-            if isinstance(decl, idlast.Struct):
-                CONVERTER.cxx(decl_type(decl))
-                members = [(CONVERTER.cxx(m.memberType()), d.identifier(), dimensions(d.sizes()))
-                           for m in decl.members() for d in m.declarators()]
-                self.in_namespaces(decl, struct_lines(decl.identifier(), members))
-            elif isinstance(decl, idlast.Enum):
-                values = ", ".join(e.identifier() for e in decl.enumerators())
-                self.in_namespaces(decl, ["enum %s { %s };" % (decl.identifier(), values)])
-            elif isinstance(decl, idlast.Typedef):
-                for d in decl.declarators():
-                    cxx = CONVERTER.cxx(decl.aliasType())
-                    if d.sizes(): # C++ passes no arrays: a structure of one member is encoded the same
-                        self.in_namespaces(d, struct_lines(d.identifier(), [(cxx, "value", dimensions(d.sizes()))]))
-                    else:
-                        self.in_namespaces(d, ["typedef %s %s;" % (cxx, d.identifier())])
-        except NoCounterpart:
-            pass # the operations that use it say so
-
-
-def decl_type(decl):
-    return idltype.declaredType(decl, decl.scopedName(), idltype.tk_struct, 0)
-
-
-def types_header(file):
-    return os.path.splitext(os.path.basename(file))[0] + "Types.h"
-
-
-# ---- services
 
 def direction(parameter):
     return "in" if not parameter.is_out() else "inout" if parameter.is_in() else "out"
@@ -280,7 +158,7 @@ class Collector:
                 self.visit(d.declarations())
                 if d.mainFile():
                     self.interfaces.append(d)
-            elif isinstance(d, (idlast.Struct, idlast.Enum, idlast.Typedef)):
+            elif isinstance(d, (idlast.Struct, idlast.Union, idlast.Enum, idlast.Typedef)):
                 self.types.setdefault(d.file(), TypeWriter()).add(d)
 
 
