@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <arpa/inet.h>
+#include <fstream>
 #include <thread>
 
 using tandem::test::Result;
@@ -333,6 +334,28 @@ TEST_CASE("tandem rtm conf warns of a lost number where the host accepts any tex
                                            "component would use its default\n");
     CHECK(host.good(conf).output_contains("size=3"));
     CHECK(host.good(with("size=4")).output_contains("size=4"));
+}
+
+TEST_CASE("tandem rtm list finds hosts that listen with sockets of IPv6") {
+    // OpenRTM-aist's managers do, unless corba.endpoints says otherwise.
+    std::ifstream addresses("/proc/net/if_inet6");
+    if (addresses.peek() == std::ifstream::traits_type::eof()) {
+        WARN("this machine has no IPv6");
+        return;
+    }
+    for (const char* address : {"[::1]:", "[::ffff:127.0.0.1]:"}) {
+        const std::string port = testing::unused_port();
+        auto arguments =
+            testing::RemoteHost::arguments("Counter", port, {"corba.endpoints:" + (address + port)});
+        arguments.erase(std::find(arguments.begin(), arguments.end(), "-p"),
+                        arguments.end() - 4); // and its port
+        testing::HostProcess host(arguments);
+        REQUIRE(host.wait_for_output("ready\n"));
+        const std::string shown = std::string(address) == "[::1]:" ? address : "127.0.0.1:";
+        const Result result = tandem_program({"rtm", "list"});
+        INFO(result.output << result.errors);
+        CHECK(result.output_contains("rtcloc://" + shown + port + "/Counter0"));
+    }
 }
 
 TEST_CASE("tandem rtm list and tree show the sources that answer and fail if a named one does not") {

@@ -14,11 +14,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Inode of the socket -> IPv4 address and port, of all listening TCP sockets. A socket that listens on every
-// interface is reached by the loopback address. The format is that of proc_pid_net(5).
-std::map<std::string, std::string> listening_sockets() {
-    std::map<std::string, std::string> sockets;
-    std::ifstream table("/proc/net/tcp");
+// The address by which a listening socket is reached from this machine; empty for addresses of IPv6 other than the loopback's. A
+// socket of either family that listens at every address is reached by 127.0.0.1: omniORB's are of IPv6 and take IPv4 as well.
+// Each group of eight digits is a number of this machine's byte order (little-endian, as for all of Tandem).
+std::string reachable_address(std::string digits) {
+    if (digits.find_first_not_of('0') == std::string::npos) return "127.0.0.1";
+    if (digits == "00000000000000000000000001000000") return "[::1]";
+    if (digits.compare(0, 24, "0000000000000000FFFF0000") == 0)
+        digits.erase(0, 24); // IPv4 in a socket of IPv6
+    if (digits.size() != 8) return "";
+    std::string address;
+    for (int i = 3; i >= 0; --i)
+        address +=
+            std::to_string(std::stoul(digits.substr(static_cast<std::size_t>(i) * 2, 2), nullptr, 16)) +
+            (i > 0 ? "." : "");
+    return address;
+}
+
+// Inode of the socket -> address and port, of all listening TCP sockets. The format is that of proc_pid_net(5).
+void add_listening_sockets(const char* path, std::map<std::string, std::string>& sockets) {
+    std::ifstream table(path);
     std::string line;
     std::getline(table, line); // headings
     while (std::getline(table, line)) {
@@ -28,19 +43,19 @@ std::map<std::string, std::string> listening_sockets() {
         words >> slot >> local >> remote >> state;
         for (int i = 0; i < 5; ++i) words >> word;
         words >> inode;
-        if (state != "0A" /* TCP_LISTEN */ || local.size() < 13) continue;
-        const std::string port = std::to_string(std::stoul(local.substr(9), nullptr, 16));
-        unsigned char ip[4]; // written as one number of this machine's byte order
-        for (int i = 0; i < 4; ++i)
-            ip[3 - i] = static_cast<unsigned char>(
-                std::stoul(local.substr(static_cast<std::size_t>(i) * 2, 2), nullptr, 16));
-        std::string address = "127.0.0.1";
-        if (local.compare(0, 8, "00000000") != 0) {
-            address.clear();
-            for (int i = 0; i < 4; ++i) address += (i == 0 ? "" : ".") + std::to_string(ip[i]);
-        }
-        sockets.emplace(inode, address + ":" + port);
+        const std::size_t colon = local.find(':');
+        if (state != "0A" /* TCP_LISTEN */ || colon == std::string::npos) continue;
+        const std::string address = reachable_address(local.substr(0, colon));
+        if (!address.empty())
+            sockets.emplace(inode,
+                            address + ":" + std::to_string(std::stoul(local.substr(colon + 1), nullptr, 16)));
     }
+}
+
+std::map<std::string, std::string> listening_sockets() {
+    std::map<std::string, std::string> sockets;
+    add_listening_sockets("/proc/net/tcp", sockets);
+    add_listening_sockets("/proc/net/tcp6", sockets); // absent without IPv6
     return sockets;
 }
 
@@ -81,7 +96,7 @@ std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb) {
         // Without this, every server of the user would be sent a CORBA message that it does not understand.
         if (!has_omniorb(it->path())) continue;
         for (const auto& inode : sockets_of(it->path())) {
-            // A process's other sockets are connections or of another family.
+            // A process's other sockets are connections, or unreachable from here.
             const auto found = sockets.find(inode);
             if (found != sockets.end()) candidates.insert(found->second);
         }

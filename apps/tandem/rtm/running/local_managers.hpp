@@ -10,7 +10,7 @@ namespace tandem::command {
 /// HOST:PORT of the RTM managers in this user's processes on this machine: TCP ports on which a process with an ORB
 /// listens and a manager answers. Needs no name server and no well-known port. Other users' processes cannot be read in
 /// /proc and are left out.
-/// Listening sockets of IPv4 only. A candidate that does not answer in half a second is not a manager.
+/// A candidate that does not answer in half a second is not a manager.
 std::vector<std::string> find_local_managers(CORBA::ORB_ptr orb);
 
 } // namespace tandem::command
