@@ -22,7 +22,7 @@ TEST_CASE("tandem link profile connects what fits and tells why the rest does no
     folder.add_component("TalkerComp");
     folder.add_component("EchoRtc");
     // In either order.
-    const auto result = folder.tandem({"link", "profile", "EchoRtc", "TalkerComp", "--out", "joined"});
+    const auto result = folder.tandem({"link", "profile", "EchoRtc", "TalkerComp", "--output", "joined"});
     INFO(result.output);
     CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output, Contains("data     TalkerComp.word        EchoRtc0.word        name\n"));
@@ -48,7 +48,7 @@ TEST_CASE("tandem link profile makes event ports of the RTC's data ports that ev
     ScratchFolder folder;
     folder.add_component("AlarmComp");
     folder.add_component("AlarmRtc");
-    const auto result = folder.tandem({"link", "profile", "AlarmComp", "AlarmRtc", "--out", "joined"});
+    const auto result = folder.tandem({"link", "profile", "AlarmComp", "AlarmRtc", "--output", "joined"});
     INFO(result.output);
     CHECK(result.exit_code() == 0);
     CHECK_THAT(result.output, Contains("event  AlarmComp.alarm   AlarmRtc0.raised  type\n"));
@@ -85,7 +85,7 @@ TEST_CASE("tandem link profile refuses what is not one component of each model, 
     folder.add_component("EchoRtc");
     std::filesystem::create_directory(folder.path() / "empty");
     const auto refusal = [&](const char* first, const char* second) {
-        const auto result = folder.tandem({"link", "profile", first, second, "--out", "joined"});
+        const auto result = folder.tandem({"link", "profile", first, second, "--output", "joined"});
         CHECK(result.exit_code() == 1);
         CHECK_FALSE(std::filesystem::exists(folder.path() / "joined"));
         return result.output;
@@ -98,10 +98,11 @@ TEST_CASE("tandem link profile refuses what is not one component of each model, 
     CHECK_THAT(refusal("EchoRtc", "empty"),
                Contains("empty has no built RTC (tandem rtm build) and is no OPRoS component"));
     CHECK_THAT(refusal("EchoRtc", "nowhere"), Contains("nowhere does not exist"));
-    const auto occupied = folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--out", "TalkerComp"});
+    const auto occupied =
+        folder.tandem({"link", "profile", "TalkerComp", "EchoRtc", "--output", "TalkerComp"});
     CHECK(occupied.exit_code() == 1);
     CHECK_THAT(
         occupied.output,
-        Contains("TalkerComp exists and is not empty; remove it, or name another folder with --out DIR"));
+        Contains("TalkerComp exists and is not empty; remove it, or name another folder with --output DIR"));
     CHECK(std::filesystem::exists(folder.path() / "TalkerComp/TalkerComp.so"));
 }

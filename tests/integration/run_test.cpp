@@ -183,5 +183,5 @@ TEST_CASE("tandem run says what a folder lacks") {
     CHECK(empty.exit_code() == 1);
     CHECK_THAT(empty.output,
                Contains("empty has neither an application profile in opros/ nor rtm/rtc.conf; tandem link "
-                        "profile A B --out DIR writes both for two components\n"));
+                        "profile A B --output DIR writes both for two components\n"));
 }

@@ -146,7 +146,7 @@ IncludeScan scan_includes(const fs::path& folder, const Paths& sources, const Pa
 }
 
 fs::path write_forwards(const std::map<std::string, std::string>& forwards, const fs::path& folder) {
-    const auto search_path = folder / "searched" / "from" / "here";
+    auto search_path = folder / "searched" / "from" / "here";
     fs::create_directories(search_path);
     for (const auto& [name, meant] : forwards) {
         const auto file = (search_path / name).lexically_normal(); // one with '\\' is a file's name here

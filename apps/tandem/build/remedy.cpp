@@ -44,7 +44,7 @@ std::string for_symbol(const std::string& symbol) {
 std::string unknown_name(const std::string& error) {
     // g++ writes names between these quotes in a locale of UTF-8, otherwise between apostrophes.
     for (const auto& [open, close] : {std::pair{"\u2018", "\u2019"}, std::pair{"'", "'"}}) {
-        const auto name = between(error, std::string("error: ") + open, close);
+        auto name = between(error, std::string("error: ") + open, close);
         if (!name.empty() && (error.find(" was not declared") != std::string::npos ||
                               error.find(" does not name a type") != std::string::npos ||
                               error.find(" has not been declared") != std::string::npos))
@@ -80,7 +80,7 @@ std::string find_remedy(const std::string& error, const std::filesystem::path& f
     for (const auto& macro : macros_that_avoid(error))
         definitions += (definitions.empty() ? "-D " : ", or -D ") + macro;
     if (!definitions.empty()) return definitions;
-    if (const auto text = for_name(unknown_name(error)); !text.empty()) return text;
+    if (auto text = for_name(unknown_name(error)); !text.empty()) return text;
     if (error.find("required packages were not found") != std::string::npos)
         return "install the Debian package that has the module's .pc file, or leave --pkg-config out";
     return "";
@@ -91,7 +91,7 @@ std::string undefined_symbol(const std::string& error) {
 }
 
 std::string dropped_by_opencv(const std::string& error) {
-    const auto name = unknown_name(error);
+    auto name = unknown_name(error);
     for (const char* prefix : {"cv", "Cv", "CV_", "Ipl", "IPL_"})
         if (name.rfind(prefix, 0) == 0 && name.find(':') == std::string::npos) return name;
     return "";

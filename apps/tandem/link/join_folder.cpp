@@ -90,7 +90,7 @@ JoinFolder::JoinFolder(const fs::path& path, std::string link)
     std::error_code error;
     if (fs::exists(path_) && !(fs::is_directory(path_) && fs::is_empty(path_, error)))
         throw std::runtime_error(
-            path_.string() + " exists and is not empty; remove it, or name another folder with --out DIR");
+            path_.string() + " exists and is not empty; remove it, or name another folder with --output DIR");
     for (const char* part : {"opros", "rtm"})
         if (!fs::create_directories(path_ / part, error) && error)
             throw std::runtime_error("folder " + (path_ / part).string() +

@@ -19,7 +19,9 @@ void add_profile(CLI::App& link, Action& selected) {
         "Exit code 1 if no port can be connected.");
     command->add_option("A", options->first, "folder of a component")->required();
     command->add_option("B", options->second, "folder of a component of the other model")->required();
-    command->add_option("--out", options->out, "folder to write (./OPROS-RTC, named after the components)")
+    command
+        ->add_option("-o,--output,--out", options->out,
+                     "folder to write (./OPROS-RTC, named after the components)")
         ->type_name("DIR");
     command->add_option("--profile", options->profile, "component profile, when the OPRoS folder has several")
         ->type_name("FILE");

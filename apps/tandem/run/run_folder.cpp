@@ -45,7 +45,7 @@ RunFolder find_run_folder(const fs::path& folder) {
         throw std::runtime_error(
             whole.string() +
             " has neither an application profile in opros/ nor rtm/rtc.conf; tandem link profile A B "
-            "--out DIR writes both for two components");
+            "--output DIR writes both for two components");
     return found;
 }
 
