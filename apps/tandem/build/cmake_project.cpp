@@ -42,8 +42,12 @@ std::string cmake_project(const Plugin& plugin, const PluginBuildOptions& option
     const bool rtm = plugin.model == "rtm"; // whose CMake function passes programs over
     return "cmake_minimum_required(VERSION 3.16)\nproject(component C CXX)\n"
            "find_package(Tandem REQUIRED COMPONENTS " +
-           plugin.model + ")\nset(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote((build / "made").string()) +
-           ")\ntandem_add_" + plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
+           plugin.model + ")\n" +
+           (plugin.needs_cv_h ? "add_compile_options(\"$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include cv.h "
+                                "-include highgui.h>\")\n"
+                              : "") +
+           "set(CMAKE_LIBRARY_OUTPUT_DIRECTORY " + cmake_quote((build / "made").string()) + ")\ntandem_add_" +
+           plugin.model + "_component(" + plugin.name + "\n  FOLDER " +
            cmake_quote(fs::absolute(options.folder).string()) +
            cmake_argument(rtm ? "CANDIDATES" : "SOURCES", absolute_names(plugin.sources.sources)) +
            (rtm ? cmake_argument("MORE_IDL", absolute_names(plugin.includes.idl_files)) : "") +

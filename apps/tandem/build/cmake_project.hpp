@@ -17,6 +17,8 @@ struct Plugin {
     std::vector<std::string> definitions; ///< those of the component's own project
     NeighbourHeaders neighbours;
     IncludeScan includes;
+    bool needs_cv_h =
+        false; ///< it uses OpenCV's C API by headers that had it in OpenCV 2 and 3, and have not in 4
 };
 
 /// The CMakeLists.txt in the folder `build` that makes the plugin. `forwards`: folder of the headers that stand for others.

@@ -71,7 +71,8 @@ std::string advice(const std::string& error, const Plugin& plugin, const fs::pat
         for (const auto& file : plugin.sources.sources) text += " --source " + file.filename().string();
         text += " --source " + definitions[0].lexically_proximate(fs::current_path()).string();
     }
-    if (const auto name = dropped_by_opencv(error); plugin.includes.old_opencv && !name.empty())
+    if (const auto name = dropped_by_opencv(error);
+        (plugin.includes.old_opencv || plugin.needs_cv_h) && !name.empty())
         text = "OpenCV 4 does not have " + name + " any more; only its C++ API replaces it";
     return text.empty() ? "" : "; " + text;
 }
@@ -124,6 +125,20 @@ bool add_neighbours(const std::string& output, const fs::path& folder, Neighbour
     return added;
 }
 
+// opencv2/opencv.hpp and others had the C API in OpenCV 2 and 3. Returns whether including what has it now may help; says so.
+bool add_cv_h(const std::string& output, Plugin& plugin) {
+    const std::string name = dropped_by_opencv(first_error(output));
+    if (name.empty() || plugin.includes.pkg_config.count("opencv4") == 0 || plugin.includes.old_opencv ||
+        plugin.needs_cv_h)
+        return false;
+    plugin.needs_cv_h = true;
+    fmt::print(stderr,
+               "tandem: {} is of OpenCV's C API, which the headers of OpenCV 4 that {} includes leave out; "
+               "cv.h and highgui.h are included before each source\n",
+               name, plugin.name);
+    return true;
+}
+
 // Configures and compiles in the folder `build`, anew each time that headers were found which were missing.
 void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& build) {
     const std::string bin = (build / "bin").string();
@@ -141,7 +156,7 @@ void compile(Plugin& plugin, const PluginBuildOptions& options, const fs::path& 
         if (output) fail(*output, plugin, options.folder, "cannot be set up");
         output = run_cmake({"cmake", "--build", bin, "--parallel"}, options.timeout_s, plugin.name);
         if (!output) return;
-        if (!add_neighbours(*output, options.folder, plugin.neighbours))
+        if (!add_neighbours(*output, options.folder, plugin.neighbours) && !add_cv_h(*output, plugin))
             fail(*output, plugin, options.folder, "does not compile");
     }
 }

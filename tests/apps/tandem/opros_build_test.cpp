@@ -294,6 +294,16 @@ TEST_CASE("the old headers of OpenCV are found where OpenCV 4 is, and its packag
     fs::current_path(here);
     INFO(info.errors);
     CHECK(info.exit_code == 0);
+    // With the header of OpenCV 2 and 3 that had the C API as well.
+    folder.write("Eye/Eye.cpp", "#include <Component.h>\n#include <opencv2/opencv.hpp>\n"
+                                "class Eye : public Component {\n  IplImage* image;\n};\n"
+                                "int gray() { return CV_GRAY2RGB; }\n"
+                                "extern \"C\" {\nComponent* getComponent() { return new Eye; }\n"
+                                "void releaseComponent(Component* com) { delete com; }\n}\n");
+    const auto with_cpp_header = build({folder.path() / "Eye"});
+    INFO(with_cpp_header.output << with_cpp_header.errors);
+    CHECK(with_cpp_header.exit_code == 0);
+    CHECK_THAT(with_cpp_header.errors, Catch::Contains("cv.h and highgui.h are included before each source"));
     folder.write("Eye/Eye.cpp", "#include <cv.h>\nvoid* eye() { return cvHaarDetectObjects(0, 0, 0); }\n");
     CHECK_THAT(build({folder.path() / "Eye"}).errors,
                Catch::Contains("OpenCV 4 does not have cvHaarDetectObjects any more"));
