@@ -67,6 +67,7 @@ int drive(Options options) {
         if (options.plot.empty()) options.plot = (std::filesystem::current_path() / "fig14.svg").string();
     }
     std::vector<RunResult> runs;
+    runs.reserve(configurations.size());
     for (auto configuration : configurations) runs.push_back(run(options, configuration));
     // Printed before files are written: a full disk must not cost the user the result.
     const Report report = make_report(std::move(runs), options);

@@ -2,7 +2,7 @@
 #include "apps/tandem/link/joined_ports.hpp"
 
 #include "apps/tandem/link/port_pairs.hpp"
-#include "apps/tandem/opros/partner_ports.hpp"
+#include "apps/tandem/opros/peer_ports.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/shared_ports/link_ports.hpp"
 #include "apps/tandem/shared_ports/running_host.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tandem/opros/commands.hpp"
-#include "apps/tandem/opros/partner_ports.hpp"
+#include "apps/tandem/opros/peer_ports.hpp"
 #include "apps/tandem/opros/port_mismatches.hpp"
 #include "apps/tandem/opros/probe_tasks.hpp"
 #include "apps/tandem/opros/service_differences.hpp"
@@ -169,7 +169,7 @@ int opros_check(const InspectOptions& options) {
     for (const auto& connection : application.connections)
         if (!connection.error.empty())
             errors.lines.push_back(connection.location.text() + ": " + connection.error);
-    LinkPortFinder finder(options.rtc_conf.empty() ? partner_rtc_conf(options.file) : options.rtc_conf,
+    LinkPortFinder finder(options.rtc_conf.empty() ? peer_rtc_conf(options.file) : options.rtc_conf,
                           {{}, options.timeout_s});
     std::vector<std::string> excluded;
     for (const auto& entry : application.subcomponents) {

@@ -26,7 +26,7 @@ const std::map<std::string, link::PortTable>& LinkPortFinder::configured() {
     return *configured_;
 }
 
-std::filesystem::path partner_rtc_conf(const std::filesystem::path& application) {
+std::filesystem::path peer_rtc_conf(const std::filesystem::path& application) {
     const auto folder = std::filesystem::absolute(application).lexically_normal().parent_path();
     auto conf = folder.parent_path() / "rtm" / "rtc.conf";
     return folder.filename() == "opros" && std::filesystem::is_regular_file(conf) ? conf

@@ -36,6 +36,6 @@ class LinkPortFinder {
 };
 
 /// The rtc.conf that belongs to an application profile: FOLDER/rtm/rtc.conf of FOLDER/opros/app.xml; empty without one.
-std::filesystem::path partner_rtc_conf(const std::filesystem::path& application);
+std::filesystem::path peer_rtc_conf(const std::filesystem::path& application);
 
 } // namespace tandem::command

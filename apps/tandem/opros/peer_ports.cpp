@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tandem/opros/partner_ports.hpp"
+#include "apps/tandem/opros/peer_ports.hpp"
 
 #include <utility>
 
@@ -31,7 +31,7 @@ std::set<std::string> event_ports(const std::map<std::string, std::string>& prop
 }
 
 std::string adaptor_link(const engine::Subcomponent& entry, const engine::ComponentProfile& profile) {
-    const std::string link = adaptor_properties(entry, profile)["link"];
+    std::string link = adaptor_properties(entry, profile)["link"];
     if (link.empty())
         throw engine::SetupError(entry.location, "component '" + entry.name +
                                                      "': property 'link' is missing: give it the name that "
