@@ -81,7 +81,7 @@ std::string ComponentHost::run_transition(const char* callback,
     // somebody else has left in this thread for their own.
     dlerror();
     std::string why;
-    const std::string thrown = run_guarded(callback, [&] {
+    std::string thrown = run_guarded(callback, [&] {
         try {
             result = (component_.get()->*transition)();
             why = "it returned code " + code_text(component_->getErrorInfo());

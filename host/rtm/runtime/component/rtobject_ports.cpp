@@ -32,7 +32,7 @@ void RTObject_impl::setInstanceName(const char* instance_name) {
     m_properties["instance_name"] = instance_name;
     m_profile.instance_name = CORBA::string_dup(instance_name);
     rtclog.setName(instance_name);
-    set_servant_owner(this, std::make_shared<ServantOwner>(instance_name, &typeid(*this)));
+    set_servant_owner(this, std::make_shared<ServantOwner>(ServantOwner{instance_name, &typeid(*this)}));
 }
 
 std::vector<std::string> RTObject_impl::getNamingNames() {

@@ -43,7 +43,8 @@ class CorbaPort::Provider {
     void activate(const std::string& component) {
         if (active_) return;
         called_ = servant_;
-        set_servant_owner(called_, std::make_shared<ServantOwner>(component, &typeid(*servant_)));
+        set_servant_owner(called_,
+                          std::make_shared<ServantOwner>(ServantOwner{component, &typeid(*servant_)}));
         poa_->activate_object_with_id(id_.in(), servant_);
         active_ = true;
     }
