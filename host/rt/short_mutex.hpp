@@ -2,39 +2,66 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
 namespace tandem::rt {
 
-/// A mutex for what a component's cycle passes through: without contention, lock and unlock are one atomic instruction
-/// each and no call, a fifth of the instructions of std::mutex. A thread that has to wait sleeps. Not recursive, no
-/// priority inheritance (as std::mutex has none). For std::lock_guard. The algorithm is the second mutex of U. Drepper,
-/// "Futexes Are Tricky". [any-thread]
+/// A mutex for what a component's cycle passes through. Not recursive, no priority inheritance (as std::mutex has none). A
+/// thread that has to wait sleeps. For std::lock_guard. [any-thread]
+///
+/// A thread that takes it again and again without another one in between becomes its owner, and needs no instruction that
+/// locks a cache line from then on: the owner writes `inside_`, then looks at `asked_`. Another thread writes `asked_`, makes
+/// all threads of the process pass a memory barrier (membarrier(2)), and waits until `inside_` is 0. So either the owner
+/// sees `asked_`, and takes the usual way, or the other one sees `inside_`, and waits. A mutex that others take often has no
+/// owner any more. The usual way is the second mutex of U. Drepper, "Futexes Are Tricky".
 class ShortMutex {
   public:
-    void lock() {
+    [[gnu::always_inline]] void lock() {
+        if (owner_.load(std::memory_order_relaxed) != this_thread()) return lock_without_owner();
+        inside_.store(true, std::memory_order_relaxed);
+        // The compiler must not exchange the two; the processor is made to keep the order by who asks.
+        std::atomic_signal_fence(std::memory_order_seq_cst);
+        if (asked_.load(std::memory_order_acquire)) [[unlikely]]
+            leave_and_lock();
+    }
+    [[gnu::always_inline]] void unlock() {
+        if (owner_.load(std::memory_order_relaxed) == this_thread() &&
+            inside_.load(std::memory_order_relaxed)) [[likely]]
+            inside_.store(false, std::memory_order_release);
+        else
+            unlock_usual_way();
+    }
+
+  private:
+    static constexpr int unlocked = 0, locked = 1, locked_with_waiters = 2;
+    /// Values of owner_ that are no thread: none has become the owner yet; none ever will.
+    static constexpr std::uintptr_t nobody_yet = 0, nobody_again = 1;
+
+    static std::uintptr_t this_thread() {
+        return reinterpret_cast<std::uintptr_t>(__builtin_thread_pointer());
+    }
+    // Out of line, so that the code of a message is dense.
+    void lock_without_owner();
+    void unlock_usual_way();
+    [[gnu::cold]] void leave_and_lock();
+    void lock_usual_way() {
         int state = unlocked;
         if (!state_.compare_exchange_strong(state, locked, std::memory_order_acquire,
                                             std::memory_order_relaxed))
             wait_and_lock();
     }
-    void unlock() {
-        if (state_.exchange(unlocked, std::memory_order_release) == locked_with_waiters) [[unlikely]]
-            wake_one();
-    }
+    [[gnu::cold]] void wait_and_lock();
+    [[gnu::cold]] void choose_owner(std::uintptr_t self);
+    [[gnu::cold]] void ask_owner();
 
-  private:
-    static constexpr int unlocked = 0, locked = 1, locked_with_waiters = 2;
-
-    // Neither is on the way of a message: without them here, its code is denser.
-    [[gnu::cold, gnu::noinline]] void wake_one() { state_.notify_one(); }
-    [[gnu::cold, gnu::noinline]] void wait_and_lock() {
-        // The thread that gets the lock here cannot know whether others still wait: it leaves the state that makes
-        // unlock() wake one.
-        while (state_.exchange(locked_with_waiters, std::memory_order_acquire) != unlocked)
-            state_.wait(locked_with_waiters, std::memory_order_relaxed);
-    }
-
+    std::atomic<std::uintptr_t> owner_{
+        nobody_yet}; ///< changed with the usual way's lock held, as all below it
     std::atomic<int> state_{unlocked};
+    std::atomic<bool> inside_{false}; ///< the owner has the mutex; written by the owner only
+    std::atomic<bool> asked_{false};  ///< another thread has the mutex, or waits for the owner to leave
+    std::uint8_t in_a_row_ = 0;       ///< how often last_ has taken the mutex since another thread did
+    std::uint8_t changes_ = 0;        ///< how often another thread has come
+    std::uintptr_t last_ = 0;
 };
 
 } // namespace tandem::rt

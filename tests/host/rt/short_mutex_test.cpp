@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <atomic>
 #include <chrono>
 #include <future>
 #include <mutex>
@@ -26,6 +27,50 @@ TEST_CASE("threads that lock a short mutex exclude each other and none is left w
         });
     for (auto& thread : threads) thread.join();
     CHECK(sum == 4 * rounds);
+}
+
+TEST_CASE("a thread that has a short mutex to itself and one that comes now and then exclude each other") {
+    ShortMutex mutex;
+    long sum = 0;
+    std::atomic<bool> done{false};
+    std::atomic<int> visits{0};
+    std::thread visitor([&] {
+        while (!done.load()) {
+            {
+                const std::lock_guard lock(mutex);
+                sum += 1'000'000;
+                visits.fetch_add(1);
+            }
+            std::this_thread::sleep_for(
+                std::chrono::microseconds(200)); // the other one becomes the owner meanwhile
+        }
+    });
+    long rounds = 0;
+    for (; visits.load() < 300; ++rounds) { // the mutex loses its owner on the way
+        const std::lock_guard lock(mutex);
+        ++sum;
+    }
+    done.store(true);
+    visitor.join();
+    CHECK(sum == rounds + 1'000'000L * visits.load());
+}
+
+TEST_CASE("a thread that asks for a short mutex waits for its owner to leave") {
+    ShortMutex mutex;
+    for (int i = 0; i < 100; ++i) {
+        const std::lock_guard lock(mutex);
+    }
+    std::atomic<bool> owner_is_inside{true};
+    mutex.lock();
+    auto asked = std::async(std::launch::async, [&] {
+        const std::lock_guard lock(mutex);
+        return owner_is_inside.load();
+    });
+    CHECK(asked.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout);
+    owner_is_inside.store(false);
+    mutex.unlock();
+    CHECK_FALSE(asked.get());
+    const std::lock_guard lock(mutex); // it is free, for the owner, too
 }
 
 TEST_CASE("a thread that waits for a short mutex sleeps") {

@@ -15,7 +15,7 @@ class DataMutex {
     void unlock();
 
   private:
-    alignas(int) unsigned char m_mutex[sizeof(int)];
+    alignas(void*) unsigned char m_mutex[3 * sizeof(void*)];
 };
 
 } // namespace RTC

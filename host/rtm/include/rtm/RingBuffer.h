@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <rtm/BufferBase.h>
+#include <rtm/DataMutex.h>
 #include <vector>
 
 namespace RTC {
@@ -160,7 +161,7 @@ class RingBuffer : public BufferBase<DataType> {
     bool empty() const override { return readable() == 0; }
 
   private:
-    using Lock = std::unique_lock<std::mutex>;
+    using Lock = std::unique_lock<DataMutex>;
 
     static void read_policy(const coil::Properties& prop, const char* key, const char* default_word,
                             bool& default_policy, bool& block) {
@@ -191,9 +192,9 @@ class RingBuffer : public BufferBase<DataType> {
     bool block_read_ = false;
     std::chrono::nanoseconds write_timeout_ = std::chrono::seconds(1);
     std::chrono::nanoseconds read_timeout_ = std::chrono::seconds(1);
-    mutable std::mutex mutex_;
-    std::condition_variable not_empty_;
-    std::condition_variable not_full_;
+    mutable DataMutex mutex_;
+    std::condition_variable_any not_empty_;
+    std::condition_variable_any not_full_;
 };
 
 } // namespace RTC

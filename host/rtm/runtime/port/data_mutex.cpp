@@ -16,7 +16,7 @@ ShortMutex& mutex_in(unsigned char* memory) { return *std::launder(reinterpret_c
 } // namespace
 
 DataMutex::DataMutex() {
-    static_assert(sizeof(ShortMutex) == sizeof m_mutex && alignof(ShortMutex) == alignof(int));
+    static_assert(sizeof(ShortMutex) == sizeof m_mutex && alignof(ShortMutex) == alignof(void*));
     new (m_mutex) ShortMutex;
 }
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host/rt/short_mutex.hpp"
+
+#include <chrono>
+#include <linux/membarrier.h>
+#include <sys/syscall.h>
+#include <thread>
+#include <unistd.h>
+
+namespace tandem::rt {
+namespace {
+
+// A thread that takes the mutex as often without another one becomes its owner.
+constexpr std::uint8_t in_a_row_for_owner = 16;
+// A mutex that has changed hands as often gets no owner, or loses it: asking costs a system call.
+constexpr std::uint8_t changes_for_nobody = 64;
+
+/// Whether threads of this process can be made to pass a barrier. The thread sanitizer does not know such barriers.
+bool has_barrier() {
+#ifdef __SANITIZE_THREAD__
+    return false;
+#else
+    static const bool registered =
+        syscall(SYS_membarrier, MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED, 0, 0) == 0;
+    return registered;
+#endif
+}
+
+/// On return each running thread of the process has passed a full memory barrier.
+void pass_barrier_in_all_threads() {
+    if (syscall(SYS_membarrier, MEMBARRIER_CMD_PRIVATE_EXPEDITED, 0, 0) == 0) return;
+    // Forbidden after the registration, by a new seccomp filter: stores reach the cache in far less time than this.
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+} // namespace
+
+void ShortMutex::wait_and_lock() {
+    // The thread that gets the lock here cannot know whether others still wait: it leaves the state that makes
+    // unlock() wake one.
+    while (state_.exchange(locked_with_waiters, std::memory_order_acquire) != unlocked)
+        state_.wait(locked_with_waiters, std::memory_order_relaxed);
+}
+
+[[gnu::hot]] void ShortMutex::lock_without_owner() {
+    lock_usual_way();
+    const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
+    if (owner == nobody_again) [[likely]]
+        return;
+    const std::uintptr_t self = this_thread();
+    if (owner == nobody_yet)
+        choose_owner(self);
+    else if (owner != self)
+        ask_owner();
+}
+
+void ShortMutex::leave_and_lock() {
+    inside_.store(false, std::memory_order_release);
+    lock_without_owner();
+}
+
+[[gnu::hot]] void ShortMutex::unlock_usual_way() {
+    const std::uintptr_t owner = owner_.load(std::memory_order_relaxed);
+    if (owner > nobody_again && owner != this_thread()) asked_.store(false, std::memory_order_release);
+    if (state_.exchange(unlocked, std::memory_order_release) == locked_with_waiters) [[unlikely]]
+        state_.notify_one();
+}
+
+/// With the lock held the usual way, as this thread leaves it, too, though it may be the owner now.
+void ShortMutex::choose_owner(std::uintptr_t self) {
+    if (last_ != self) {
+        last_ = self;
+        in_a_row_ = 0;
+        if (++changes_ == changes_for_nobody) owner_.store(nobody_again, std::memory_order_relaxed);
+    } else if (++in_a_row_ == in_a_row_for_owner) {
+        owner_.store(has_barrier() ? self : nobody_again, std::memory_order_relaxed);
+        changes_ = 0;
+    }
+}
+
+/// With the lock held the usual way by a thread that is not the owner: returns when the owner is not inside, and will
+/// not be before unlock(), or never without the lock if it loses the mutex here.
+void ShortMutex::ask_owner() {
+    asked_.store(true, std::memory_order_seq_cst);
+    pass_barrier_in_all_threads();
+    for (int looks = 0; inside_.load(std::memory_order_acquire); ++looks) {
+        constexpr int quick_looks = 100;
+        if (looks < quick_looks)
+            std::this_thread::yield();
+        else // by the clock, not yielding: the owner may have a lower priority than this thread
+            std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
+    // asked_ stays set then: the owner may still find its name in owner_.
+    if (++changes_ == changes_for_nobody) owner_.store(nobody_again, std::memory_order_relaxed);
+}
+
+} // namespace tandem::rt
