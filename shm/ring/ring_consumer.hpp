@@ -90,9 +90,10 @@ class alignas(layout::line_pair) RingConsumer {
 
 template <class A>
 RingConsumer<A>::RingConsumer(const RingView<A>& ring)
-    : ring_(ring), scratch_(std::make_unique_for_overwrite<std::uint64_t[]>(
-                       (payload_front + std::max(round_up(ring.max_record, word_bytes), first_line_payload)) /
-                       word_bytes)) {
+    : ring_(ring),
+      scratch_(std::make_unique_for_overwrite<std::uint64_t[]>(
+          (payload_front + std::max(round_up(ring.max_record, 2 * word_bytes), first_line_payload)) /
+          word_bytes)) {
     auto& shared = *ring_.shared;
     position_ = shared.tail.load(std::memory_order_acquire);
     received_ = shared.received.load(std::memory_order_relaxed);
@@ -129,12 +130,13 @@ template <class A>
         return read_slowly(newest);
     const std::uint64_t end = position_ + record_size(length);
     if (newest && A::load(*ring_.cell(end), std::memory_order_acquire) != 0) return read_slowly(newest);
-    // Always the whole first line: a copy of fixed length is quicker, and scratch_ has room for it.
+    // Always the whole first line, and whole pairs of words: the record has them, scratch_ has room for them, and a copy
+    // without a rest is shorter.
     const auto* cells = ring_.cell(position_);
     A::copy_atomic_from_shared(payload(), cells + 2, first_line_payload);
     if (length > first_line_payload)
         A::copy_atomic_from_shared(payload() + first_line_payload / word_bytes, cells + 8,
-                                   length - first_line_payload);
+                                   round_up(length - first_line_payload, 2 * word_bytes));
     const std::uint64_t stamp = A::load(*(cells + 1), std::memory_order_acquire);
     std::uint64_t from = position_;
     if (!move_tail(from, end)) return read_slowly(newest);
