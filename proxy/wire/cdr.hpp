@@ -31,40 +31,62 @@ concept CdrPrimitive = std::is_arithmetic_v<T> && !std::is_same_v<T, wchar_t>;
 template <CdrPrimitive T>
 constexpr std::size_t cdr_alignment = std::min<std::size_t>(sizeof(T), 8);
 
-/// memcpy for what is mostly short: whole words, up to 128 bytes, are copied here, since a call takes more code than
-/// the copy, and cold code is what a message costs.
-inline void copy_block(void* to, const void* from, std::size_t bytes) {
-    constexpr std::size_t word = sizeof(std::uint64_t), two_words = 2 * word, max_short = 128;
-    if (bytes > max_short || bytes % word != 0) {
-        std::memcpy(to, from, bytes);
+/// memcpy for what is mostly short: up to 128 bytes are copied here, without a loop, by blocks that may overlap, since a
+/// call takes more code than the copy, and cold code is what a message costs.
+[[gnu::always_inline]] inline void copy_block(void* to, const void* from, std::size_t bytes) {
+    constexpr std::size_t word = sizeof(std::uint64_t), pair = 2 * word, max_short = 8 * pair;
+    if (bytes < word || bytes > max_short) [[unlikely]] {
+        if (bytes != 0) std::memcpy(to, from, bytes);
         return;
     }
-    auto* out = static_cast<std::byte*>(to);
-    const auto* in = static_cast<const std::byte*>(from);
-    for (; bytes >= two_words; bytes -= two_words, out += two_words, in += two_words) {
-        std::memcpy(out, in, two_words);
-        std::atomic_signal_fence(std::memory_order_seq_cst); // or the compiler calls memcpy for the loop
+    auto* const out = static_cast<std::byte*>(to);
+    const auto* const in = static_cast<const std::byte*>(from);
+    if (bytes < pair) {
+        std::memcpy(out, in, word);
+        std::memcpy(out + bytes - word, in + bytes - word, word);
+        return;
     }
-    if (bytes != 0) std::memcpy(out, in, word);
+    std::byte* const out_end = out + bytes;
+    const std::byte* const in_end = in + bytes;
+    if (bytes > 2 * pair) {
+        if (bytes > 4 * pair) {
+            std::memcpy(out + 2 * pair, in + 2 * pair, 2 * pair);
+            std::memcpy(out_end - 4 * pair, in_end - 4 * pair, 2 * pair);
+        }
+        std::memcpy(out + pair, in + pair, pair);
+        std::memcpy(out_end - 2 * pair, in_end - 2 * pair, pair);
+    }
+    std::memcpy(out, in, pair);
+    std::memcpy(out_end - pair, in_end - pair, pair);
 }
 
-/// Memory for one message while it is needed: it grows with the message, and goes back to the thread's spare memory.
+/// Memory for one message while it is needed, on the stack: a longer one takes the thread's spare memory.
 class MessageBuffer {
   public:
-    MessageBuffer() : memory_(take_spare_bytes()) {
-        if (memory_.size() < first_bytes) memory_.resize(first_bytes);
+    MessageBuffer() {} // NOLINT(modernize-use-equals-default): that would fill short_ in MessageBuffer{}
+    ~MessageBuffer() {
+        if (!longer_.empty()) [[unlikely]]
+            give_back(std::move(longer_));
     }
-    ~MessageBuffer() { give_back(std::move(memory_)); }
     MessageBuffer(const MessageBuffer&) = delete;
     MessageBuffer& operator=(const MessageBuffer&) = delete;
 
-    std::span<std::byte> memory() { return memory_; }
+    std::span<std::byte> memory() {
+        return longer_.empty() ? std::span<std::byte>(short_, sizeof short_) : std::span<std::byte>(longer_);
+    }
     /// Keeps what is there. For the CdrWriter that writes to it.
-    void grow(std::size_t bytes) { memory_.resize(std::max(bytes, 2 * memory_.size())); }
+    [[gnu::cold]] void grow(std::size_t bytes) {
+        const std::size_t before = memory().size();
+        if (longer_.empty()) {
+            longer_ = take_spare_bytes();
+            longer_.assign(short_, short_ + sizeof short_);
+        }
+        longer_.resize(std::max(bytes, 2 * before));
+    }
 
   private:
-    static constexpr std::size_t first_bytes = 256;
-    std::vector<std::byte> memory_; ///< its size is what there is room for
+    std::byte short_[512]; ///< not filled
+    std::vector<std::byte> longer_;
 };
 
 /// Writes CDR, into a span, a buffer or a vector. Beyond the end of a span nothing is written but size() goes
@@ -109,6 +131,22 @@ class CdrWriter {
         const std::uint64_t zeros = 0;
         std::memcpy(data_ + size_, &zeros, sizeof zeros);
     }
+    /// A CDR sequence of `count` numbers: the count, and one block.
+    template <CdrPrimitive T>
+    void put_sequence(const T* numbers, std::size_t count) {
+        const std::size_t bytes = count * sizeof(T);
+        if (bytes == 0 || bytes > room_ || size_ + 4 * max_padding > room_ - bytes) [[unlikely]]
+            return put_sequence_slowly(numbers, count, bytes, cdr_alignment<T>);
+        skip_padding(cdr_alignment<std::uint32_t>);
+        const std::uint64_t count_and_zeros = count;
+        std::memcpy(data_ + size_, &count_and_zeros, sizeof count_and_zeros);
+        size_ += sizeof(std::uint32_t);
+        skip_padding(cdr_alignment<T>);
+        copy_block(data_ + size_, numbers, bytes);
+        size_ += bytes;
+        const std::uint64_t zeros = 0;
+        std::memcpy(data_ + size_, &zeros, sizeof zeros);
+    }
     /// Pads with zeros to a multiple of `alignment` (a power of two, 8 at most).
     void align(std::size_t alignment) { put_slowly(nullptr, 0, alignment); }
 
@@ -129,6 +167,11 @@ class CdrWriter {
         static constexpr std::byte zeros[8]{};
         append(zeros, (0 - size_) & (alignment - 1));
         append(data, bytes);
+    }
+    [[gnu::cold, gnu::noinline]] void put_sequence_slowly(const void* numbers, std::size_t count,
+                                                          std::size_t bytes, std::size_t alignment) {
+        put(static_cast<std::uint32_t>(count));
+        if (bytes != 0) put_block(numbers, bytes, alignment);
     }
     void append(const void* data, std::size_t bytes) {
         if (buffer_ && size_ + bytes + 3 * max_padding > room_) {
@@ -198,6 +241,25 @@ class CdrReader {
     std::span<const std::byte> get_block(std::size_t bytes, std::size_t alignment) {
         if (!align(alignment) || !skip(bytes)) return {};
         return in_.subspan(position_ - bytes, bytes);
+    }
+    /// The elements of a sequence, `element_bytes` each; empty if there are none, or they are not there.
+    [[gnu::always_inline]] std::span<const std::byte> get_sequence(std::size_t element_bytes,
+                                                                   std::size_t alignment) {
+        const std::size_t head = (position_ + 3) & ~std::size_t{3},
+                          behind_head = head + sizeof(std::uint32_t);
+        if (ok_ && behind_head <= in_.size()) [[likely]] {
+            std::uint32_t count = 0;
+            std::memcpy(&count, in_.data() + head, sizeof count);
+            const std::size_t begin =
+                count == 0 ? behind_head : (behind_head + alignment - 1) & ~(alignment - 1);
+            const std::size_t bytes = count * element_bytes;
+            if (begin <= in_.size() && bytes <= in_.size() - begin) [[likely]] {
+                position_ = begin + bytes;
+                return {in_.data() + begin, bytes};
+            }
+        }
+        ok_ = false;
+        return {};
     }
     bool align(std::size_t alignment) { return skip((0 - position_) & (alignment - 1)); }
 

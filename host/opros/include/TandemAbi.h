@@ -3,7 +3,7 @@
 #ifndef TANDEM_ABI_H_
 #define TANDEM_ABI_H_
 
-#define TANDEM_OPROS_ABI 9 // headers: c8556a3442b4a98f
+#define TANDEM_OPROS_ABI 10 // headers: 44ddb7f17ccebfd8
 
 // Left as an ELF note in every object file, for the loader to read. A note and not a symbol: nothing to link
 // or to clash, and no linker drops it, with --gc-sections, a version script, hidden visibility, LTO or strip.

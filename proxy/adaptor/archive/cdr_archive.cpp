@@ -36,6 +36,16 @@ void put_all(wire::CdrWriter& out, const T* p, long size) {
 }
 
 template <class T>
+void put_sequence(wire::CdrWriter& out, const T* p, std::size_t count) {
+    if constexpr (std::is_same_v<T, wchar_t>) {
+        out.put(static_cast<std::uint32_t>(count));
+        put_all(out, p, static_cast<long>(count));
+    } else {
+        out.put_sequence(p, count);
+    }
+}
+
+template <class T>
 void get(wire::CdrReader& in, T& value) {
     if constexpr (std::is_same_v<T, bool>)
         value = in.get_bool();
@@ -52,6 +62,24 @@ void get_all(wire::CdrReader& in, T* p, long size) {
     } else if (size > 0) {
         const auto block = in.get_block(sizeof(T) * static_cast<std::size_t>(size), wire::cdr_alignment<T>);
         if (!block.empty()) std::memcpy(p, block.data(), block.size());
+    }
+}
+
+/// Numbers whose bytes are their values are copied as one block; the others may be wrong one by one.
+template <class T>
+void get_sequence(wire::CdrReader& in, std::vector<T>& values) {
+    if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, wchar_t>) {
+        values.resize(in.get_count(1));
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            T value{};
+            get(in, value);
+            values[i] = value;
+        }
+    } else {
+        const auto block = in.get_sequence(sizeof(T), wire::cdr_alignment<T>);
+        const std::size_t count = block.size() / sizeof(T);
+        if (values.size() != count) values.resize(count);
+        wire::copy_block(values.data(), block.data(), block.size());
     }
 }
 
@@ -90,6 +118,10 @@ bool CdrIarchive::load_time_word(T& value) {
     }                                                                                                        \
     [[gnu::hot]] oarchive& CdrOarchive::save_array(const type* p, long size) {                               \
         put_all(out_, p, size);                                                                              \
+        return *this;                                                                                        \
+    }                                                                                                        \
+    [[gnu::hot]] oarchive& CdrOarchive::save_sequence(const type* p, std::size_t count) {                    \
+        put_sequence(out_, p, count);                                                                        \
         return *this;                                                                                        \
     }
 OPROS_FOR_EACH_PRIMITIVE(TANDEM_SAVE)
@@ -132,6 +164,11 @@ oarchive& CdrOarchive::save_binary(const char* p, long size) {
     }                                                                                                        \
     [[gnu::hot]] iarchive& CdrIarchive::load_array(type* p, long size) {                                     \
         get_all(in_, p, size);                                                                               \
+        check();                                                                                             \
+        return *this;                                                                                        \
+    }                                                                                                        \
+    [[gnu::hot]] iarchive& CdrIarchive::load_sequence(std::vector<type>& values) {                           \
+        get_sequence(in_, values);                                                                           \
         check();                                                                                             \
         return *this;                                                                                        \
     }

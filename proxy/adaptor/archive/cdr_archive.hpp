@@ -19,7 +19,8 @@ class CdrOarchive final : public opros::archive::oarchive {
 
 #define TANDEM_SAVE(type)                                                                                    \
     oarchive& save(type value) override;                                                                     \
-    oarchive& save_array(const type* p, long size) override;
+    oarchive& save_array(const type* p, long size) override;                                                 \
+    oarchive& save_sequence(const type* p, std::size_t count) override;
     OPROS_FOR_EACH_PRIMITIVE(TANDEM_SAVE)
 #undef TANDEM_SAVE
     oarchive& save(const std::string& value) override;
@@ -48,7 +49,8 @@ class CdrIarchive final : public opros::archive::iarchive {
 
 #define TANDEM_LOAD(type)                                                                                    \
     iarchive& load(type& value) override;                                                                    \
-    iarchive& load_array(type* p, long size) override;
+    iarchive& load_array(type* p, long size) override;                                                       \
+    iarchive& load_sequence(std::vector<type>& values) override;
     OPROS_FOR_EACH_PRIMITIVE(TANDEM_LOAD)
 #undef TANDEM_LOAD
     iarchive& load(std::string& value) override;

@@ -18,15 +18,19 @@ bool MirrorInPort::checkType(opros_any& sample) {
         refusals_.push_back(check.error);
         return false;
     }
-    if (encodings_.empty() || !std::any_of(encodings_.begin(), encodings_.end(),
-                                           [&](const Encoding& each) { return each.type == sample.type(); }))
-        encodings_.push_back({sample.type(), std::move(check)});
+    if (encodings_.empty() || !std::any_of(encodings_.begin(), encodings_.end(), [&](const Encoding& each) {
+            return each.type == sample.type();
+        })) {
+        const bool converts = check.conversion || check.set_time;
+        encodings_.push_back({sample.type(), std::move(check), converts});
+    }
+    sole_encoding_ = encodings_.size() == 1 ? &encodings_.front() : nullptr;
     return true;
 }
 
 /// Asked by name only where ports of several types push here: a name costs an allocation.
 [[gnu::hot]] MirrorInPort::Encoding* MirrorInPort::find_encoding(const opros_any& value) {
-    if (encodings_.size() == 1) return &encodings_.front();
+    if (sole_encoding_) return sole_encoding_;
     const std::string type = value.type();
     const auto at = std::find_if(encodings_.begin(), encodings_.end(),
                                  [&](const Encoding& each) { return each.type == type; });
@@ -38,7 +42,7 @@ bool MirrorInPort::checkType(opros_any& sample) {
     if (!encoding) return OPROS_BAD_INPUT_PARAMETER;
     TypeCheck& check = encoding->check;
     try {
-        if (check.conversion || check.set_time) return push_converted(value, check);
+        if (encoding->converts) return push_converted(value, check);
         std::uint64_t stamp = check.value_has_time ? 0 : wire::wall_clock_stamp();
         // The channel reads `stamp` after this function has run, so the archive may still set it.
         const bool sent = channel_.write(stamp, [&](wire::CdrWriter& out) {

@@ -42,6 +42,7 @@ class MirrorInPort final : public InputDataPortInterface {
     struct Encoding {
         std::string type; ///< of the values
         TypeCheck check;
+        bool converts = false; ///< a value is not sent as it encodes itself
     };
     Encoding* find_encoding(const opros_any& value);
     ReturnType push_converted(opros_any& value, TypeCheck& check);
@@ -50,6 +51,7 @@ class MirrorInPort final : public InputDataPortInterface {
     link::ChannelWriter& channel_;
     const std::string convert_;
     std::vector<Encoding> encodings_; ///< of the connected ports; complete before anybody pushes
+    Encoding* sole_encoding_ = nullptr;
     std::string type_error_;
     std::vector<std::string> refusals_;
 

@@ -253,3 +253,49 @@ TEST_CASE("a type that does not fit is refused with both signatures") {
     CHECK_THAT(adaptor::check_type(opros_any(1.0), other, true).error,
                Catch::Contains("type signature '(('"));
 }
+
+namespace {
+
+/// By the functions for a head and for elements, as an archive without save_sequence() writes a vector.
+template <class T>
+std::vector<std::byte> written_in_parts(const std::vector<T>& values) {
+    std::vector<std::byte> bytes;
+    wire::CdrWriter out(bytes);
+    adaptor::CdrOarchive archive(out);
+    archive.save(true); // so that the vector is not aligned
+    archive.write_sequence_head(values.size());
+    for (const T value : values) archive.save(value);
+    return bytes;
+}
+
+template <class T>
+void check_vector() {
+    for (const std::size_t count : {0, 1, 5, 100}) {
+        std::vector<T> values;
+        for (std::size_t i = 0; i < count; ++i) values.push_back(static_cast<T>(i % 2 == 0 ? i + 60 : 1));
+        std::vector<std::byte> bytes;
+        wire::CdrWriter out(bytes);
+        adaptor::CdrOarchive archive(out);
+        archive << true << values;
+        INFO(typeid(T).name() << " " << count);
+        if (!std::is_same_v<T, long double>) // 6 of its bytes are any
+            CHECK(bytes == written_in_parts(values));
+        adaptor::CdrIarchive in{wire::CdrReader(bytes)};
+        bool first = false;
+        std::vector<T> read{T()};
+        in >> first >> read;
+        CHECK(read == values);
+        if (count == 0) continue;
+        adaptor::CdrIarchive cut{wire::CdrReader(std::span<const std::byte>(bytes).first(bytes.size() - 1))};
+        cut >> first;
+        CHECK_THROWS_AS(cut >> read, opros::archive::archive_type_exception);
+    }
+}
+
+} // namespace
+
+TEST_CASE("vectors of every primitive type are written as a count and their elements") {
+#define CHECK_VECTOR(type) check_vector<type>();
+    OPROS_FOR_EACH_PRIMITIVE(CHECK_VECTOR)
+#undef CHECK_VECTOR
+}

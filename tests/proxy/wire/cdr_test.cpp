@@ -150,3 +150,66 @@ TEST_CASE("a time goes through the header bit for bit") {
     CHECK(stamp_seconds(stamp) == 4'000'000'000u);
     CHECK(stamp_nanoseconds(stamp) == 4'123'456'789u);
 }
+
+TEST_CASE("blocks of all lengths are copied whole, and nothing around them") {
+    for (std::size_t length = 0; length <= 200; ++length) {
+        std::vector<std::byte> from(length), to(length + 2, std::byte{0xee});
+        for (std::size_t i = 0; i < length; ++i) from[i] = static_cast<std::byte>(i + 1);
+        copy_block(to.data() + 1, from.data(), length);
+        INFO(length);
+        CHECK(std::equal(from.begin(), from.end(), to.begin() + 1));
+        CHECK((to.front() == std::byte{0xee} && to.back() == std::byte{0xee}));
+    }
+}
+
+TEST_CASE("a sequence is its count and its elements, wherever it begins and however much room there is") {
+    const auto check = [](auto number, std::size_t count, std::size_t bytes_before) {
+        using Number = decltype(number);
+        std::vector<Number> values(count);
+        for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<Number>(3 * i + 1);
+        const auto put_before = [&](CdrWriter& out) {
+            for (std::size_t i = 0; i < bytes_before; ++i) out.put<std::uint8_t>(9);
+        };
+        std::vector<std::byte> expected;
+        CdrWriter by_element(expected);
+        put_before(by_element);
+        by_element.put(static_cast<std::uint32_t>(count));
+        for (const Number value : values) by_element.put(value);
+        for (const std::size_t spare : {0, 1, 7, 8, 40}) {
+            std::vector<std::byte> room(expected.size() + spare, std::byte{0xee});
+            CdrWriter out{std::span<std::byte>(room)};
+            put_before(out);
+            out.put_sequence(values.data(), count);
+            INFO(sizeof(Number) << " bytes, count " << count << ", behind " << bytes_before << ", spare "
+                                << spare);
+            REQUIRE(out.size() == expected.size());
+            CHECK(std::equal(expected.begin(), expected.end(), room.begin()));
+            CdrReader in(out.written());
+            for (std::size_t i = 0; i < bytes_before; ++i) in.get<std::uint8_t>();
+            const auto block = in.get_sequence(sizeof(Number), cdr_alignment<Number>);
+            CHECK((in.ok() && in.remaining() == 0));
+            REQUIRE(block.size() == count * sizeof(Number));
+            CHECK((count == 0 || std::memcmp(block.data(), values.data(), block.size()) == 0));
+        }
+    };
+    for (const std::size_t count : {0, 1, 2, 6, 40})
+        for (std::size_t before = 0; before < 9; ++before) {
+            check(double{}, count, before);
+            check(std::int16_t{}, count, before);
+            check(std::uint8_t{}, count, before);
+        }
+}
+
+TEST_CASE("a sequence that the message does not hold is not read") {
+    for (const std::uint32_t count : {2U, 0xffffffffU}) {
+        CdrWriter out(buffer);
+        out.put(count);
+        out.put(1.5);
+        CdrReader in(written(out));
+        CHECK(in.get_sequence(sizeof(double), 8).empty());
+        CHECK_FALSE(in.ok());
+    }
+    CdrReader empty(Bytes{});
+    CHECK(empty.get_sequence(1, 1).empty());
+    CHECK_FALSE(empty.ok());
+}

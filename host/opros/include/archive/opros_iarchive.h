@@ -7,6 +7,8 @@
 #include <archive/opros_iarchive_fwd.h>
 #include <archive/opros_oarchive.h>
 
+#include <vector>
+
 namespace opros {
 namespace archive {
 
@@ -27,6 +29,10 @@ class iarchive : public archive {
 #define OPROS_LOAD_ELEMENTS(type) virtual iarchive& load_array(type* p, long size);
     OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_ELEMENTS)
 #undef OPROS_LOAD_ELEMENTS
+    /// A sequence of numbers, in place: head, elements and end; by those functions unless overridden (ours).
+#define OPROS_LOAD_SEQUENCE(type) virtual iarchive& load_sequence(std::vector<type>& values);
+    OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_SEQUENCE)
+#undef OPROS_LOAD_SEQUENCE
 
     // The structure of the value that follows, as the functions of oarchive have written it. Archives without names or
     // marks in their format leave these as they are.
@@ -86,13 +92,15 @@ void load_value(iarchive& ar, T& value, by_enumeration) {
 }
 template <typename T, typename Way>
 void load_value(iarchive& ar, T& value, Way how) {
+    if (is_container<T>::value) {
+        if (ar.keeps_names()) ar.read_container_name(getTypeName<T>());
+        serialize_class(ar, value, how);
+        return;
+    }
     const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
-    if (!is_container<T>::value)
-        ar.read_class_head(name);
-    else if (ar.keeps_names())
-        ar.read_container_name(name);
+    ar.read_class_head(name);
     serialize_class(ar, value, how);
-    if (!is_container<T>::value) ar.read_class_end(name);
+    ar.read_class_end(name);
 }
 
 } // namespace detail

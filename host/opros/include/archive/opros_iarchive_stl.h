@@ -46,6 +46,18 @@ void load_map(iarchive& ar, Container& t) {
     load_each<std::pair<K, T>>(ar, [&t](std::pair<K, T>&& entry) { t.insert(std::move(entry)); });
 }
 
+// Numbers at once, as load_elements(); with the usual allocator in one call.
+template <typename T>
+void load_vector(iarchive& ar, std::vector<T>& t, by_primitive) {
+    ar.load_sequence(t);
+}
+template <typename T, typename A, typename Way>
+void load_vector(iarchive& ar, std::vector<T, A>& t, Way how) {
+    t.resize(ar.read_sequence_head());
+    load_elements(ar, t.data(), static_cast<long>(t.size()), how);
+    ar.read_sequence_end();
+}
+
 // In the order of pop(): into a stack the last one comes first. The order is nothing to a std::priority_queue.
 template <typename Queue, typename T>
 auto push_all(Queue& queue, const std::vector<T>& values, int) -> decltype(static_cast<void>(queue.front())) {
@@ -68,9 +80,7 @@ void load_adaptor(iarchive& ar, Adaptor& t) {
 // In place, so that a vector of the same size as before allocates nothing.
 template <typename T, typename A, typename = if_serializable<T>>
 void load_this(iarchive& ar, std::vector<T, A>& t) {
-    t.resize(ar.read_sequence_head());
-    detail::load_elements(ar, t.data(), static_cast<long>(t.size()), typename detail::way<T>::type());
-    ar.read_sequence_end();
+    detail::load_vector(ar, t, typename detail::way<T>::type());
 }
 template <typename A>
 void load_this(iarchive& ar, std::vector<bool, A>& t) {

@@ -37,6 +37,10 @@ class oarchive : public archive {
 #define OPROS_SAVE_ELEMENTS(type) virtual oarchive& save_array(const type* p, long size);
     OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_ELEMENTS)
 #undef OPROS_SAVE_ELEMENTS
+    /// A sequence of numbers: head, elements and end; by those functions unless overridden (ours).
+#define OPROS_SAVE_SEQUENCE(type) virtual oarchive& save_sequence(const type* p, std::size_t count);
+    OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_SEQUENCE)
+#undef OPROS_SAVE_SEQUENCE
 
     /// A class begins and ends; the standard containers are no classes. The name is empty when the archive does not
     /// keep names.
@@ -96,13 +100,15 @@ void save_value(oarchive& ar, const T& value, by_enumeration) {
 }
 template <typename T, typename Way>
 void save_value(oarchive& ar, const T& value, Way how) {
+    if (is_container<T>::value) {
+        if (ar.keeps_names()) ar.write_container_name(getTypeName<T>());
+        serialize_class(ar, const_cast<T&>(value), how);
+        return;
+    }
     const std::string name = ar.keeps_names() ? getTypeName<T>() : std::string();
-    if (!is_container<T>::value)
-        ar.write_class_head(name);
-    else if (ar.keeps_names())
-        ar.write_container_name(name);
+    ar.write_class_head(name);
     serialize_class(ar, const_cast<T&>(value), how); // users' save() is not const
-    if (!is_container<T>::value) ar.write_class_end(name);
+    ar.write_class_end(name);
 }
 
 } // namespace detail

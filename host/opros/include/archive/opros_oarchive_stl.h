@@ -27,6 +27,18 @@ void save_each(oarchive& ar, const Container& container, std::size_t count) {
     ar.write_sequence_end();
 }
 
+// Numbers at once, as save_elements().
+template <typename T, typename A>
+void save_vector(oarchive& ar, const std::vector<T, A>& t, by_primitive) {
+    ar.save_sequence(t.data(), t.size());
+}
+template <typename T, typename A, typename Way>
+void save_vector(oarchive& ar, const std::vector<T, A>& t, Way how) {
+    ar.write_sequence_head(t.size());
+    save_elements(ar, t.data(), static_cast<long>(t.size()), how);
+    ar.write_sequence_end();
+}
+
 // The element that pop() takes: of a queue the front, of the others the top.
 template <typename Queue>
 auto save_next(oarchive& ar, const Queue& queue, int) -> decltype(static_cast<void>(queue.front())) {
@@ -48,9 +60,7 @@ void save_adaptor(oarchive& ar, Adaptor copy) {
 
 template <typename T, typename A, typename = if_serializable<T>>
 void save_this(oarchive& ar, const std::vector<T, A>& t) {
-    ar.write_sequence_head(t.size());
-    detail::save_elements(ar, t.data(), static_cast<long>(t.size()), typename detail::way<T>::type());
-    ar.write_sequence_end();
+    detail::save_vector(ar, t, typename detail::way<T>::type());
 }
 // Its elements are bits without an address: not as an array.
 template <typename A>

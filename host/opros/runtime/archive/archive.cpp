@@ -4,6 +4,18 @@
 
 namespace opros::archive {
 
+namespace {
+
+template <class T>
+void load_elements_of(iarchive& in, std::vector<T>& values) {
+    in.load_array(values.data(), static_cast<long>(values.size()));
+}
+void load_elements_of(iarchive& in, std::vector<bool>& values) {
+    for (std::vector<bool>::reference bit : values) in >> bit;
+}
+
+} // namespace
+
 // The defaults of the functions for elements of one type: one by one. Archives that can copy whole arrays, as the
 // proxy's CDR archives do, override them.
 
@@ -20,6 +32,19 @@ OPROS_FOR_EACH_PRIMITIVE(OPROS_SAVE_ELEMENTS)
         return *this;                                                                                        \
     }
 OPROS_FOR_EACH_PRIMITIVE(OPROS_LOAD_ELEMENTS)
+
+#define OPROS_SEQUENCE(type)                                                                                 \
+    oarchive& oarchive::save_sequence(const type* p, std::size_t count) {                                    \
+        write_sequence_head(count);                                                                          \
+        save_array(p, static_cast<long>(count));                                                             \
+        return write_sequence_end();                                                                         \
+    }                                                                                                        \
+    iarchive& iarchive::load_sequence(std::vector<type>& values) {                                           \
+        values.resize(read_sequence_head());                                                                 \
+        load_elements_of(*this, values);                                                                     \
+        return read_sequence_end();                                                                          \
+    }
+OPROS_FOR_EACH_PRIMITIVE(OPROS_SEQUENCE)
 
 } // namespace opros::archive
 
