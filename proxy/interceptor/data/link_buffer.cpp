@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -35,6 +36,7 @@ std::map<std::string, LinkChannel>& channels() {
 LinkChannel make_link_channel(const wire::Type& message) {
     LinkChannel channel;
     channel.timed = wire::is_timed(message);
+    channel.copies_numbers = channel.timed && !wire::contains(message, wire::Kind::character);
     if (wire::contains(message, wire::Kind::any) || wire::contains(message, wire::Kind::fixed))
         channel.transcoded =
             std::make_shared<const wire::Type>(channel.timed ? wire::without_time(message) : message);
@@ -116,9 +118,35 @@ std::span<const std::byte> LinkBuffer::transcode_to_link(std::span<const std::by
 
 [[gnu::hot]] BufferStatus LinkBuffer::writeInPlace(const RTC::Marshal& marshal) {
     if (!channel_.writer) return BufferStatus::PRECONDITION_NOT_MET;
-    if (!last_was_long_)
-        if (const auto status = write_short(marshal)) return *status;
+    if (!last_was_long_) {
+        const bool has_numbers = channel_.copies_numbers && marshal.numbers().tm;
+        if (const auto status = has_numbers ? write_numbers(marshal.numbers()) : write_short(marshal))
+            return *status;
+    }
     return write_long(marshal);
+}
+
+// What marshalling would write behind the time. Nothing: it does not fit into a record.
+[[gnu::hot]] std::optional<BufferStatus> LinkBuffer::write_numbers(const RTC::TimedNumbers& numbers) {
+    std::uint32_t time[2];
+    std::memcpy(time, numbers.tm, sizeof time);
+    const std::uint64_t stamp = wire::pack_time(time[0], time[1]);
+    const std::uint64_t count_and_zeros = numbers.count;
+    const std::size_t bytes = std::size_t{numbers.count} * numbers.element_bytes;
+    const std::size_t head = bytes != 0 && numbers.element_bytes > sizeof numbers.count
+                                 ? sizeof count_and_zeros
+                                 : sizeof numbers.count;
+    bool fits = true;
+    const bool written =
+        channel_.writer->write_record(stamp, [&](std::span<std::byte> room) -> std::optional<std::size_t> {
+            fits = head + bytes <= room.size() && room.size() >= sizeof count_and_zeros;
+            if (!fits) return std::nullopt;
+            std::memcpy(room.data(), &count_and_zeros, sizeof count_and_zeros);
+            wire::copy_block(room.data() + head, numbers.elements, bytes);
+            return head + bytes;
+        });
+    if (!fits) return std::nullopt;
+    return write_status(written);
 }
 
 // Marshals once, as most messages fit into a record. Nothing: this one does not, or the value cannot be marshalled.
@@ -195,6 +223,10 @@ BufferStatus LinkBuffer::read(RTC::ByteData& message, std::chrono::nanoseconds) 
     if (!channel_.reader) return BufferStatus::PRECONDITION_NOT_MET;
     return read_or_wait([&] {
         return channel_.reader->read(false, [&](const shm::Record& record) {
+            if (channel_.copies_numbers &&
+                reader.take(wire::stamp_seconds(record.stamp_ns), wire::stamp_nanoseconds(record.stamp_ns),
+                            reinterpret_cast<const unsigned char*>(record.bytes.data()), record.bytes.size()))
+                return;
             in_.open(record.bytes, channel_.timed, record.stamp_ns, record.front);
             reader(in_);
         });

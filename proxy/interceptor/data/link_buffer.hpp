@@ -22,7 +22,8 @@ namespace tandem::interceptor {
 struct LinkChannel {
     link::ChannelWriter* writer = nullptr; ///< of an OutPort of the RTC: data go to the peer
     link::ChannelReader* reader = nullptr; ///< of an InPort of the RTC: data come from the peer
-    bool timed = false; ///< the messages begin with RTM's time, which travels in the record's header
+    bool timed = false;          ///< the messages begin with RTM's time, which travels in the record's header
+    bool copies_numbers = false; ///< timed, and without characters, which the ORB checks by its code set
     /// The message without its time, if it crosses in another form than the RTC's bytes have: it holds an any or a fixed.
     std::shared_ptr<const wire::Type> transcoded{};
 };
@@ -72,6 +73,7 @@ class LinkBuffer final : public RTC::CdrBufferBase, public RTC::InPlaceBuffer {
     bool full() const override { return false; }
 
   private:
+    std::optional<RTC::BufferStatus> write_numbers(const RTC::TimedNumbers& numbers);
     std::optional<RTC::BufferStatus> write_short(const RTC::Marshal& marshal);
     RTC::BufferStatus write_long(const RTC::Marshal& marshal);
     RTC::BufferStatus write_body(std::span<const std::byte> body, std::uint64_t stamp);

@@ -15,12 +15,11 @@ namespace tandem::link {
 // ---- ChannelWriter; the private functions are called with mutex_ held
 
 bool ChannelWriter::publish_chunk(std::span<const std::byte> message, std::uint64_t stamp) {
-    if (asks_policy() && !follow_policy(message, stamp)) {
+    if (has_policy_ && !follow_policy(message, stamp)) {
         bound_->ring.cancel_reservation();
         return false;
     }
     if (!bound_->ring.commit(message.size(), stamp)) return report_damage();
-    if (room_ != 0) --room_;
     notify_peer();
     return true;
 }
@@ -34,6 +33,7 @@ bool ChannelWriter::follow_policy(std::span<const std::byte> message, std::uint6
     }
     if ((policy_.wait.count() != 0 || policy_.length != 0) && !make_room(message.size()))
         return report_damage();
+    if (room_ != 0) --room_; // this message's
     return true;
 }
 
@@ -82,7 +82,7 @@ bool ChannelWriter::wait_for_room(std::size_t bytes) {
 void ChannelWriter::set_policy(const PortPolicy& policy) {
     const std::lock_guard lock(mutex_);
     policy_ = policy;
-    has_policy_ = policy.keep_last || policy.wait.count() != 0;
+    has_policy_ = policy.keep_last || policy.wait.count() != 0 || policy.length != 0;
 }
 
 /// To a peer that has come after the message was sent.

@@ -110,11 +110,11 @@ class ChannelWriter {
         const auto room = ring.scratch().first(bytes);
         const std::optional<std::size_t> used = fill(room);
         if (!used) return false;
-        if (asks_policy() && !follow_policy(room.first(*used), stamp)) [[unlikely]]
-            return false;
+        if (has_policy_) [[unlikely]] {
+            if (!follow_policy(room.first(*used), stamp)) return false;
+        }
         if (!ring.write(room.first(*used), stamp)) [[unlikely]]
             return report_refusal(*used);
-        if (room_ != 0) --room_;
         notify_peer();
         return true;
     }
@@ -129,8 +129,6 @@ class ChannelWriter {
         return used && publish_chunk(room.first(*used), stamp);
     }
     bool publish_chunk(std::span<const std::byte> message, std::uint64_t stamp);
-    /// Whether follow_policy() has something to do for this message.
-    bool asks_policy() const { return has_policy_ || (room_ == 0 && policy_.length != 0); }
     bool follow_policy(std::span<const std::byte> message, std::uint64_t stamp);
     bool make_room(std::size_t bytes);
     bool wait_for_room(std::size_t bytes);
@@ -153,7 +151,7 @@ class ChannelWriter {
     process::LogThrottle no_memory_, refused_, no_room_;
     PortPolicy policy_;
     std::uint32_t room_ = 0;      ///< with a length: messages that are known to fit
-    bool has_policy_ = false;     ///< policy_ asks a writer for something with each message
+    bool has_policy_ = false;     ///< policy_ asks a writer for something
     std::vector<std::byte> last_; ///< with keep_last: the last message
     std::uint64_t last_stamp_ = 0;
     bool has_last_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #ifndef RTC_CORBA_CDRMEMORYSTREAM_H
 #define RTC_CORBA_CDRMEMORYSTREAM_H
+#include <cstring>
 #include <rtm/ByteDataStreamBase.h>
 #include <rtm/InPlaceBuffer.h>
 #include <rtm/RTC.h>
@@ -9,7 +10,9 @@
 #include <rtm/idl/DataPort_OpenRTMSkel.h>
 #include <rtm/idl/ExtendedDataTypesSkel.h>
 #include <rtm/idl/InterfaceDataTypesSkel.h>
+#include <type_traits>
 #include <typeinfo>
+#include <utility>
 
 namespace RTC {
 
@@ -108,11 +111,76 @@ class ConnectorSerializer {
     bool m_isStandardCdr = false;
 };
 
+namespace detail {
+
+/// The elements of a sequence whose CDR is their bytes. Not of bool and char, which CDR checks and translates.
+template <class Sequence>
+using NumberOf = typename std::remove_reference<decltype(*std::declval<Sequence&>().get_buffer())>::type;
+template <class T>
+struct is_number
+    : std::integral_constant<bool, std::is_arithmetic<T>::value && !std::is_same<T, bool>::value &&
+                                       !std::is_same<T, char>::value && !std::is_same<T, wchar_t>::value &&
+                                       sizeof(T) <= 8> {};
+
+/// Is it `struct { Time tm; sequence<a number> data; }`, and nothing else?
+template <class DataType, class = void>
+struct is_timed_numbers : std::false_type {};
+template <class DataType>
+struct is_timed_numbers<DataType,
+                        typename std::enable_if<std::is_same<decltype(DataType::tm), Time>::value &&
+                                                is_number<NumberOf<decltype(DataType::data)>>::value>::type> {
+    struct Form {
+        Time tm;
+        decltype(DataType::data) data;
+    };
+    static const bool value = sizeof(DataType) == sizeof(Form);
+    typedef std::integral_constant<bool, value> type;
+};
+
+template <class DataType>
+TimedNumbers timed_numbers(const DataType&, std::false_type) {
+    return TimedNumbers{nullptr, nullptr, 0, 0};
+}
+template <class DataType>
+TimedNumbers timed_numbers(const DataType& data, std::true_type) {
+    // As CDR has them: the time first.
+    const bool time_first = static_cast<const void*>(&data.tm) == static_cast<const void*>(&data);
+    const auto* elements = data.data.get_buffer();
+    return TimedNumbers{time_first ? &data.tm : nullptr, elements, data.data.length(), sizeof(*elements)};
+}
+
+template <class DataType>
+bool take_numbers(DataType&, std::uint32_t, std::uint32_t, const unsigned char*, std::size_t, bool&,
+                  std::false_type) {
+    return false;
+}
+template <class DataType>
+bool take_numbers(DataType& data, std::uint32_t sec, std::uint32_t nsec, const unsigned char* body,
+                  std::size_t bytes, bool& valid, std::true_type) {
+    using Number = NumberOf<decltype(data.data)>;
+    if (static_cast<const void*>(&data.tm) != static_cast<const void*>(&data)) return false;
+    const std::size_t head = sizeof(Number) > sizeof(CORBA::ULong) ? sizeof(Number) : sizeof(CORBA::ULong);
+    CORBA::ULong count = 0;
+    if (bytes >= sizeof count) std::memcpy(&count, body, sizeof count);
+    valid =
+        bytes >= sizeof count && (count == 0 || (bytes >= head && count <= (bytes - head) / sizeof(Number)));
+    if (!valid) return true;
+    data.tm.sec = sec;
+    data.tm.nsec = nsec;
+    if (data.data.length() != count) data.data.length(count);
+    std::memcpy(data.data.get_buffer(), body + head, count * sizeof(Number));
+    return true;
+}
+
+} // namespace detail
+
 /// Encodes one value into an InPlaceBuffer. Refers to the value, which must outlive it.
 template <class DataType>
 class CdrMarshal final : public Marshal {
   public:
-    explicit CdrMarshal(const DataType& data) : m_data(data) {}
+    explicit CdrMarshal(const DataType& data)
+        : Marshal(detail::timed_numbers(data, typename detail::is_timed_numbers<DataType>::type())),
+          m_data(data) {}
     [[gnu::hot]] bool operator()(cdrStream& out) const override {
         try {
             m_data >>= out;
@@ -136,6 +204,16 @@ class CdrUnmarshal final : public Unmarshal {
             m_data <<= in;
         } catch (const CORBA::SystemException&) { // the bytes are not such a message
             valid = false;
+        }
+    }
+    [[gnu::hot]] bool take(std::uint32_t sec, std::uint32_t nsec, const unsigned char* body,
+                           std::size_t bytes) override {
+        try {
+            return detail::take_numbers(m_data, sec, nsec, body, bytes, valid,
+                                        typename detail::is_timed_numbers<DataType>::type());
+        } catch (const CORBA::SystemException&) { // more elements than the sequence's bound
+            valid = false;
+            return true;
         }
     }
     bool valid = true;

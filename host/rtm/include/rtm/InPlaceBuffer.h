@@ -2,26 +2,45 @@
 // Ours, for bridges whose shared memory can hold a message while it is encoded or decoded.
 #ifndef RTC_INPLACEBUFFER_H
 #define RTC_INPLACEBUFFER_H
+#include <cstddef>
+#include <cstdint>
 #include <rtm/BufferStatus.h>
 #include <rtm/ByteData.h>
 #include <rtm/RTC.h>
 
 namespace RTC {
 
+/// What a value of RTM's usual form consists of: `Time tm` and one sequence of numbers whose bytes are their CDR. `tm` is
+/// NULL for other values. So such a message can be copied without a stream.
+struct TimedNumbers {
+    const void* tm;       ///< its seconds and nanoseconds, as CDR has them
+    const void* elements; ///< of the sequence
+    std::uint32_t count, element_bytes;
+};
+
 /// Encodes one value into a stream. May be called several times, first to count the bytes, then to write
 /// them. False: the value cannot be encoded.
 class Marshal {
   public:
     virtual bool operator()(cdrStream& out) const = 0;
+    const TimedNumbers& numbers() const { return m_numbers; }
 
   protected:
+    explicit Marshal(const TimedNumbers& numbers) : m_numbers(numbers) {}
     ~Marshal() = default;
+
+  private:
+    TimedNumbers m_numbers;
 };
 
 /// Decodes a message from a stream over the buffer's memory.
 class Unmarshal {
   public:
     virtual void operator()(cdrStream& in) = 0;
+    /// Takes a message from its parts: the time, and the `bytes` bytes of CDR behind it, 8-aligned. False: the value is
+    /// not of RTM's usual form, use operator().
+    virtual bool take(std::uint32_t sec, std::uint32_t nsec, const unsigned char* body,
+                      std::size_t bytes) = 0;
 
   protected:
     ~Unmarshal() = default;
