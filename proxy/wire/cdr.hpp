@@ -165,7 +165,8 @@ class CdrWriter {
     /// Near the end, beyond it, or into a vector: byte by byte what the others do at once.
     [[gnu::cold, gnu::noinline]] void put_slowly(const void* data, std::size_t bytes, std::size_t alignment) {
         static constexpr std::byte zeros[8]{};
-        append(zeros, (0 - size_) & (alignment - 1));
+        const std::size_t padding = (0 - size_) & (alignment - 1);
+        if (padding != 0) append(zeros, padding);
         append(data, bytes);
     }
     [[gnu::cold, gnu::noinline]] void put_sequence_slowly(const void* numbers, std::size_t count,
