@@ -41,6 +41,7 @@ const LibraryPackage table[] = {
     {"speex/", "libspeex-dev", "speex", "speex", "speex_"},
     {"fftw3.h", "libfftw3-dev", "fftw3", "fftw3", "fftw_"},
     {"samplerate.h", "libsamplerate0-dev", "samplerate", "samplerate", "src_"},
+    {"libresample.h", "libresample1-dev", "", "resample", "resample_"},
     {"sndfile.h", "libsndfile1-dev", "sndfile", "sndfile", "sf_"},
     {"portaudio.h", "portaudio19-dev", "portaudio-2.0", "portaudio", "Pa_"},
     {"pulse/", "libpulse-dev", "libpulse-simple", "pulse-simple", "pa_"},

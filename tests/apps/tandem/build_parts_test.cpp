@@ -217,6 +217,7 @@ TEST_CASE("an error about a header or a library is followed by what to do about 
         return remedy("/x/Old.cpp:3:10: fatal error: " + name + ": No such file or directory");
     };
     CHECK(no_header("ode/ode.h") == "apt install libode-dev");
+    CHECK(no_header("libresample.h") == "apt install libresample1-dev");
     CHECK(no_header("opencv/cv.h") == "apt install libopencv-dev");
     CHECK(no_header("Gain.h") == "-I " + (fs::canonical(folder.path()) / "Neighbour/include").string());
     folder.write("Other/Gain.h", "");

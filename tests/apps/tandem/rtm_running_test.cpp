@@ -266,6 +266,15 @@ TEST_CASE("tandem rtm cat pulls, and says what it waits for") {
     CHECK(host.good(with_time("20")).output_contains("\"data\":"));
 }
 
+TEST_CASE("tandem rtm cat names the remedy for a component in its error state") {
+    Running host("FailingCounter", {"manager.components.preactivation:FailingCounter0"});
+    REQUIRE(host.other.host.wait_for_output("ready\n"));
+    const std::vector<std::string> cat{"cat", "FailingCounter0:out", "-n", "1", "--for", "1.5"};
+    CHECK_THAT(host.run(cat).errors,
+               Catch::StartsWith("tandem: waiting for FailingCounter0.out: FailingCounter0 is ERROR; "
+                                 "tandem rtm reset FailingCounter0\n"));
+}
+
 TEST_CASE("tandem rtm cat connects again when the port drops its connection without telling") {
     Running host("Dropper", {"manager.components.preactivation:Dropper0"});
     REQUIRE(host.other.host.wait_for_output("ready\n"));

@@ -63,6 +63,13 @@ class Dropper : public Counter {
     bool has_dropped_ = false;
 };
 
+/// Goes to its error state in its first cycle.
+class FailingCounter : public Counter {
+  public:
+    using Counter::Counter;
+    RTC::ReturnCode_t onExecute(RTC::UniqueId) override { return RTC::RTC_ERROR; }
+};
+
 /// As OpenRTM-aist's: no set is active after values were set, until one is activated.
 class OpenRtmConfiguration : public SDOPackage::Configuration_impl {
   public:
@@ -129,6 +136,7 @@ class ConfigurationUser : public RTC::DataFlowComponentBase {
 
 void register_openrtm_components(RTC::Manager& manager) {
     register_component_type<FragileHost>(manager, "FragileHost");
+    register_component_type<FailingCounter>(manager, "FailingCounter");
     register_component_type<Dropper>(manager, "Dropper");
     register_component_type<InForeignHost<ConfigurationUser>>(manager, "ConfigurationUser");
     register_component_type<InForeignHost<Accumulator>>(manager, "ForeignReader");

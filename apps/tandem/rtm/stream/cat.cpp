@@ -42,8 +42,8 @@ std::string describe_wait(const RemotePort& port) {
         // that it does not answer is what the line says
     }
     if (state == "is ACTIVE") return fmt::format("waiting for {} to write to {}", component, port.name);
-    return fmt::format("waiting for {}: {} {}; tandem rtm activate {}", port.name, component, state,
-                       component);
+    return fmt::format("waiting for {}: {} {}; tandem rtm {} {}", port.name, component, state,
+                       state == "is ERROR" ? "reset" : "activate", component);
 }
 
 /// The connection of cat's own port, made again when the remote port has dropped it: a port of OpenRTM-aist does that without
