@@ -175,7 +175,7 @@ void AdaptorComp::create_mirror_ports() {
 std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     const std::lock_guard lock(mutex_);
     if (!mirrors_created_) {
-        const std::string error = remove_doubles(peer, own_ports_, settings_.link);
+        std::string error = remove_doubles(peer, own_ports_, settings_.link);
         if (!error.empty() && settings_.strict) return error;
         if (!error.empty()) spdlog::error("{}; it is left out, the others work", error);
         peer_ports_ = peer;
@@ -184,7 +184,7 @@ std::string AdaptorComp::check_peer_ports(link::PortTable& peer) {
     for (const auto& port : peer_ports_.ports) {
         const auto* found = peer.find(port.name);
         if (found && *found == port) continue;
-        const auto error =
+        auto error =
             fmt::format("link '{}': port '{}' of the peer that came back {}; start this host again to use it",
                         settings_.link, port.name, found ? "has another type than before" : "is gone");
         if (settings_.strict) return error;

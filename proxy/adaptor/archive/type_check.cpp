@@ -14,7 +14,6 @@
 namespace tandem::adaptor {
 namespace {
 
-using wire::Kind;
 using wire::Type;
 
 std::string load_signature(const opros_any& sample, std::vector<long long> values) {
