@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iostream>
 #include <sstream>
+#include <syncstream>
 
 namespace {
 
@@ -44,9 +45,9 @@ class ConductorComp : public Component, public ComponentDirectoryUser {
         std::string number, verb, name;
         words >> number >> verb >> name;
         const std::string error = execute(verb, name);
-        std::cout << "conductor " << number << ": " << name << " is "
-                  << name_of(directory_->find(name)->getStatus()) << (error.empty() ? "" : ", " + error)
-                  << std::endl;
+        std::osyncstream(std::cout) << "conductor " << number << ": " << name << " is "
+                                    << name_of(directory_->find(name)->getStatus())
+                                    << (error.empty() ? "" : ", " + error) << std::endl;
     }
     std::string execute(const std::string& verb, const std::string& name) {
         if (verb == "start") return directory_->transition(name, TRANSITION_START);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <syncstream>
 
 namespace {
 
@@ -61,8 +62,8 @@ class Kind {
         return true;
     }
     void print(const char* direction, const char* policy, bool ok) const {
-        std::cout << "cell: " << name_ << ", " << direction << ", " << policy << ": " << (ok ? "ok" : "WRONG")
-                  << std::endl;
+        std::osyncstream(std::cout) << "cell: " << name_ << ", " << direction << ", " << policy << ": "
+                                    << (ok ? "ok" : "WRONG") << std::endl;
     }
 
     const std::string name_;
@@ -94,7 +95,8 @@ class MatrixComp : public Component {
             for (const auto& send : senders_) send();
         std::size_t done = 0;
         for (const auto& receive : receivers_) done += receive() ? 1 : 0;
-        if (done == receivers_.size() && !printed_) std::cout << "all kinds received" << std::endl;
+        if (done == receivers_.size() && !printed_)
+            std::osyncstream(std::cout) << "all kinds received" << std::endl;
         printed_ = done == receivers_.size();
         return OPROS_SUCCESS;
     }

@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <string>
+#include <syncstream>
 
 class AlarmComp : public Component {
   public:
@@ -24,7 +25,8 @@ class AlarmComp : public Component {
     }
     ReturnType onEvent(Event* event) override {
         const double* level = static_cast<EventData<double>*>(event)->getContentData();
-        std::cout << "event: " << event->getId() << ", " << (level ? *level : -1) << std::endl;
+        std::osyncstream(std::cout) << "event: " << event->getId() << ", " << (level ? *level : -1)
+                                    << std::endl;
         return OPROS_SUCCESS;
     }
 

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <syncstream>
 #include <thread>
 
 class BossComp : public Component {
@@ -22,7 +23,7 @@ class BossComp : public Component {
         if (done_) return OPROS_SUCCESS;
         done_ = true;
         attempt("work", [this] { work(); });
-        std::cout << "boss is done" << std::endl;
+        std::osyncstream(std::cout) << "boss is done" << std::endl;
         return OPROS_SUCCESS;
     }
 
@@ -37,16 +38,17 @@ class BossComp : public Component {
         try {
             step();
         } catch (const MethodInvokeException& error) {
-            std::cout << what << ": " << error.what() << std::endl;
+            std::osyncstream(std::cout) << what << ": " << error.what() << std::endl;
         }
     }
     static void print(const std::string& what, const RtcManagerRequired::Names& names) {
-        std::cout << what << ":";
-        for (const auto& name : names) std::cout << " " << name;
-        std::cout << std::endl;
+        std::osyncstream line(std::cout);
+        line << what << ":";
+        for (const auto& name : names) line << " " << name;
+        line << std::endl;
     }
     void print_state(const std::string& rtc) {
-        std::cout << rtc << " is " << manager_->state(rtc) << std::endl;
+        std::osyncstream(std::cout) << rtc << " is " << manager_->state(rtc) << std::endl;
     }
 
     void work() {

@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <memory>
+#include <syncstream>
 
 class CameraComp : public Component {
   public:
@@ -42,8 +43,8 @@ class CameraComp : public Component {
     void look_at(const Picture& back) {
         if (back.size() != last_.size()) return; // of one that was given up
         returned_ = taken_;
-        std::cout << "picture of " << back.size() << " bytes came back "
-                  << (back == last_ ? "whole" : "broken") << std::endl;
+        std::osyncstream(std::cout) << "picture of " << back.size() << " bytes came back "
+                                    << (back == last_ ? "whole" : "broken") << std::endl;
     }
 
     static constexpr int max_wait_cycles = 100; // cycles, for a picture that is lost while there is no peer

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <syncstream>
 
 class MotorComp : public Component {
   public:
@@ -37,7 +38,7 @@ class MotorComp : public Component {
 
   private:
     bool fails(const std::string& callback) { return getProperty("fails") == callback; }
-    void say(const std::string& what) { std::cout << getId() + " " + what << std::endl; }
+    void say(const std::string& what) { std::osyncstream(std::cout) << getId() + " " + what << std::endl; }
     ReturnType said(const std::string& what) {
         say(what);
         return OPROS_SUCCESS;

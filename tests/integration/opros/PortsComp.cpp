@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <syncstream>
 #include <vector>
 
 class PortsComp : public Component {
@@ -24,12 +25,15 @@ class PortsComp : public Component {
             out_[i].push(value);
             while (const std::unique_ptr<opros_any> back{in_[i].pop()}) {
                 came_[i] = in_[i].getContent(*back);
-                if (came_[i] != value) std::cout << "wrong value of port " << i << std::endl;
+                if (came_[i] != value)
+                    std::osyncstream(std::cout) << "wrong value of port " << i << std::endl;
             }
             right += came_[i] == value ? 1 : 0;
         }
         told_ = right == ports;
-        if (told_) std::cout << "all ports of number " << getProperty("number") << " crossed" << std::endl;
+        if (told_)
+            std::osyncstream(std::cout)
+                << "all ports of number " << getProperty("number") << " crossed" << std::endl;
         return OPROS_SUCCESS;
     }
 

@@ -6,6 +6,7 @@
 
 #include <iostream>
 #include <memory>
+#include <syncstream>
 
 class SurveyComp : public Component {
   public:
@@ -21,7 +22,7 @@ class SurveyComp : public Component {
 
     ReturnType onExecute() override {
         while (const std::unique_ptr<opros_any> any{markBack_.pop()})
-            std::cout << "mark: " << text(markBack_.getContent(*any)) << std::endl;
+            std::osyncstream(std::cout) << "mark: " << text(markBack_.getContent(*any)) << std::endl;
         while (const std::unique_ptr<opros_any> any{scanBack_.pop()}) print(scanBack_.getContent(*any));
         while (const std::unique_ptr<opros_any> any{readingBack_.pop()}) print(readingBack_.getContent(*any));
         Scan scan;
@@ -36,11 +37,12 @@ class SurveyComp : public Component {
         reading_.push(reading);
         try {
             const std::vector<Mark> moved = surveyor_->move(scan.marks, 10);
-            std::cout << "moved:";
-            for (const Mark& each : moved) std::cout << " " << text(each);
-            std::cout << std::endl;
+            std::osyncstream line(std::cout);
+            line << "moved:";
+            for (const Mark& each : moved) line << " " << text(each);
+            line << std::endl;
         } catch (const MethodInvokeException& error) {
-            std::cout << "refused: " << error.what() << std::endl;
+            std::osyncstream(std::cout) << "refused: " << error.what() << std::endl;
         }
         return OPROS_SUCCESS;
     }
@@ -67,14 +69,16 @@ class SurveyComp : public Component {
                std::to_string(mark.y).substr(0, 5);
     }
     static void print(const Scan& scan) {
-        std::cout << "scan: " << scan.id << (scan.valid ? " valid" : " not valid");
-        for (const Mark& each : scan.marks) std::cout << ", " << text(each);
-        std::cout << std::endl;
+        std::osyncstream line(std::cout);
+        line << "scan: " << scan.id << (scan.valid ? " valid" : " not valid");
+        for (const Mark& each : scan.marks) line << ", " << text(each);
+        line << std::endl;
     }
     static void print(const Reading& reading) {
-        std::cout << "reading: " << reading.channel;
-        for (const double value : reading.values) std::cout << " " << value;
-        std::cout << std::endl;
+        std::osyncstream line(std::cout);
+        line << "reading: " << reading.channel;
+        for (const double value : reading.values) line << " " << value;
+        line << std::endl;
     }
 
     OutputDataPort<Mark> mark_;

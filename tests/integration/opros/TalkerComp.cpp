@@ -7,6 +7,7 @@
 
 #include <iostream>
 #include <memory>
+#include <syncstream>
 
 class TalkerComp : public Component {
   public:
@@ -20,7 +21,7 @@ class TalkerComp : public Component {
     ReturnType onExecute() override {
         word_.push("hello " + std::to_string(++said_));
         while (const std::unique_ptr<opros_any> reply{reply_.pop()}) {
-            std::cout << "reply: " << reply_.getContent(*reply) << std::endl;
+            std::osyncstream(std::cout) << "reply: " << reply_.getContent(*reply) << std::endl;
             ask();
         }
         return OPROS_SUCCESS;
@@ -39,10 +40,10 @@ class TalkerComp : public Component {
     void ask() {
         try {
             const auto pages = dictionary_->pages("hello", {1.5, 2.5});
-            std::cout << "pages: " << pages.size() << " last " << pages.back() << std::endl;
+            std::osyncstream(std::cout) << "pages: " << pages.size() << " last " << pages.back() << std::endl;
             dictionary_->pages("unknown", {});
         } catch (MethodInvokeException& error) {
-            std::cout << "refused: " << error.getMessage() << std::endl;
+            std::osyncstream(std::cout) << "refused: " << error.getMessage() << std::endl;
         }
     }
 

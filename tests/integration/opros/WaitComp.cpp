@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <iostream>
 #include <memory>
+#include <syncstream>
 #include <thread>
 #include <unistd.h>
 
@@ -67,7 +68,7 @@ class WaitComp : public Component {
         }
     }
     /// In one piece, since two threads print.
-    static void print(const std::string& line) { std::cout << line + "\n" << std::flush; }
+    static void print(const std::string& line) { std::osyncstream(std::cout) << line + "\n" << std::flush; }
 
     int pipe_ = -1;
     std::thread reader_;

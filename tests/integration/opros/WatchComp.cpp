@@ -4,6 +4,7 @@
 
 #include <iostream>
 #include <string>
+#include <syncstream>
 
 class WatchComp : public Component {
   public:
@@ -14,7 +15,7 @@ class WatchComp : public Component {
 
     ReturnType onEvent(Event* event) override {
         const std::string* port = static_cast<EventData<std::string>*>(event)->getContentData();
-        std::cout << event->getId() + ": " + (port ? *port : "") + "\n" << std::flush;
+        std::osyncstream(std::cout) << event->getId() + ": " + (port ? *port : "") + "\n" << std::flush;
         return OPROS_SUCCESS;
     }
 

@@ -9,6 +9,7 @@
 #include <rtm/Manager.h>
 
 #include <iostream>
+#include <syncstream>
 
 class ClerkRtc : public RTC::DataFlowComponentBase {
   public:
@@ -27,11 +28,12 @@ class ClerkRtc : public RTC::DataFlowComponentBase {
         weights[1] = 2.5;
         try {
             TestDictionary::Numbers_var pages = dictionary_->pages("hello", weights);
-            std::cout << "clerk: " << pages->length() << " pages, the last is " << pages[1] << std::endl;
+            std::osyncstream(std::cout)
+                << "clerk: " << pages->length() << " pages, the last is " << pages[1] << std::endl;
             done_ = true;
             dictionary_->pages("unknown", weights);
         } catch (const CORBA::SystemException& error) {
-            if (done_) std::cout << "clerk: " << error._name() << std::endl;
+            if (done_) std::osyncstream(std::cout) << "clerk: " << error._name() << std::endl;
         }
         return RTC::RTC_OK;
     }

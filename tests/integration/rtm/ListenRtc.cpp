@@ -8,6 +8,7 @@
 #include <atomic>
 #include <iostream>
 #include <string>
+#include <syncstream>
 
 namespace {
 
@@ -17,9 +18,9 @@ class WordListener : public RTC::ConnectorDataListenerT<RTC::TimedString> {
     explicit WordListener(std::atomic<int>& stored) : stored_(stored) {}
     ReturnCode operator()(RTC::ConnectorInfo&, RTC::TimedString& word) override {
         const std::string text = word.data.in();
-        std::cout << "heard: " + text + (word.tm.sec ? " at a time" : "") +
-                         ", stored before: " + std::to_string(stored_.load()) + "\n"
-                  << std::flush;
+        std::osyncstream(std::cout) << "heard: " + text + (word.tm.sec ? " at a time" : "") +
+                                           ", stored before: " + std::to_string(stored_.load()) + "\n"
+                                    << std::flush;
         return NO_CHANGE;
     }
 
@@ -56,7 +57,7 @@ class ListenRtc : public RTC::DataFlowComponentBase {
     RTC::ReturnCode_t onDeactivated(RTC::UniqueId) override {
         int kept = 0;
         for (; wordIn_.isNew(); ++kept) wordIn_.read();
-        std::cout << "kept: " + std::to_string(kept) + "\n" << std::flush;
+        std::osyncstream(std::cout) << "kept: " + std::to_string(kept) + "\n" << std::flush;
         return RTC::RTC_OK;
     }
 

@@ -8,10 +8,11 @@
 
 #include <iostream>
 #include <string>
+#include <syncstream>
 
 namespace oven {
 
-void say(const std::string& text) { std::cout << "oven: " + text + "\n" << std::flush; }
+void say(const std::string& text) { std::osyncstream(std::cout) << "oven: " + text + "\n" << std::flush; }
 
 FSM_TOPSTATE(Top) {
     struct Box {

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <syncstream>
 #include <thread>
 
 inline void require(bool holds) {
@@ -34,11 +35,13 @@ class Cells {
             cell();
             ++passed_;
         } catch (...) { // CORBA exceptions are no std::exception
-            std::cout << "cell " << direction_ << " " << name << " failed: " << describe_() << std::endl;
+            std::osyncstream(std::cout)
+                << "cell " << direction_ << " " << name << " failed: " << describe_() << std::endl;
         }
     }
     void print() const {
-        std::cout << "cells " << direction_ << ": " << passed_ << " of " << count_ << " passed" << std::endl;
+        std::osyncstream(std::cout) << "cells " << direction_ << ": " << passed_ << " of " << count_
+                                    << " passed" << std::endl;
     }
 
   private:

@@ -91,10 +91,11 @@ void start_orb(Manager::Impl& impl) {
         impl.shortcut_poa = make_shortcut_poa(impl.poa.in(), impl.poa_manager.in());
         impl.poa_manager->activate();
     } catch (const CORBA::INITIALIZE&) {
+        const std::string args = impl.config.getProperty("corba.args");
         throw ManagerError("the ORB cannot start: is the endpoint " + coil::flatten(endpoints(impl.config)) +
                            " (corba.endpoints; manager.is_master adds corba.master_manager) in use or not an "
-                           "address of this machine, or an option of corba.args wrong (" +
-                           impl.config.getProperty("corba.args") + ")?");
+                           "address of this machine" +
+                           (args.empty() ? "?" : ", or an option of corba.args wrong (" + args + ")?"));
     } catch (const CORBA::Exception& e) {
         throw ManagerError(std::string("the ORB cannot start: CORBA exception ") + e._name());
     }

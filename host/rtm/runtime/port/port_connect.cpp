@@ -68,6 +68,8 @@ bool allows_duplicates(const ConnectorProfile& profile, const coil::Properties& 
         "YES", "NO", false);
 }
 
+std::string duplicate_reason(const std::string& port) { return port + " is already connected to that port"; }
+
 // For the ports of a connection of which the first to be asked has found none like it. A port of OpenRTM-aist 2.x looks for one
 // while it holds its lock, and if it then finds another connection whose peer has died it waits for that lock itself, for ever.
 void leave_out_duplicate_check(ConnectorProfile& profile) {
@@ -129,8 +131,7 @@ ReturnCode_t PortBase::connect(ConnectorProfile& profile) {
         if (has_remote_port(profile) && !allows_duplicates(profile, m_properties) &&
             occurrencesIn(profile) == 1) {
             if (isAlreadyConnected(profile))
-                return refused(PRECONDITION_NOT_MET,
-                               std::string(getName()) + " is already connected to that port");
+                return refused(PRECONDITION_NOT_MET, duplicate_reason(getName()));
             leave_out_duplicate_check(profile);
         }
         const ReturnCode_t result = notify_connect_at(profile.ports[0], profile);
@@ -181,7 +182,7 @@ ReturnCode_t PortBase::establishConnection(ConnectorProfile& profile) {
         return refuse(BAD_PARAMETER, std::string(getName()) + " is " + std::to_string(occurrences) +
                                          " times in the list of ports to connect, expected once");
     if (!allows_duplicates(profile, m_properties) && isAlreadyConnected(profile))
-        return refuse(PRECONDITION_NOT_MET, std::string(getName()) + " is already connected to that port");
+        return refuse(PRECONDITION_NOT_MET, duplicate_reason(getName()));
     clearConnectError();
 
     using Step = PortConnectRetListenerType;
