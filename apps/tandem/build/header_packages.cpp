@@ -4,6 +4,7 @@
 
 #include <iterator>
 #include <set>
+#include <utility>
 
 namespace tandem::command {
 namespace {
@@ -22,6 +23,11 @@ const LibraryPackage table[] = {
     {"boost/serialization", "libboost-serialization-dev", "", "boost_serialization", "boost::archive"},
     {"boost/system", "libboost-system-dev", "", "boost_system", "boost::system"},
     {"boost/", "libboost-dev", "", "", ""},
+    {"XnCppWrapper.h", "libopenni-dev", "libopenni", "OpenNI", "xn"},
+    {"OpenNI.h", "libopenni2-dev", "libopenni2", "OpenNI2", "openni::"},
+    {"libfreenect", "libfreenect-dev", "libfreenect", "freenect", "freenect_"},
+    {"dc1394/", "libdc1394-dev", "libdc1394-2", "dc1394", "dc1394_"},
+    {"libraw1394/", "libraw1394-dev", "libraw1394", "raw1394", "raw1394_"},
     {"pcl/", "libpcl-dev", "pcl_io", "pcl_common", "pcl::"},
     {"ode/", "libode-dev", "ode", "ode", "dWorld"},
     {"GL/glut.h", "freeglut3-dev", "glut", "glut", "glut"},
@@ -45,6 +51,8 @@ const LibraryPackage table[] = {
     {"sndfile.h", "libsndfile1-dev", "sndfile", "sndfile", "sf_"},
     {"portaudio.h", "portaudio19-dev", "portaudio-2.0", "portaudio", "Pa_"},
     {"pulse/", "libpulse-dev", "libpulse-simple", "pulse-simple", "pa_"},
+    {"AL/alut.h", "libalut-dev", "freealut", "alut", "alut"},
+    {"AL/", "libopenal-dev", "openal", "openal", "al"},
     {"alsa/", "libasound2-dev", "alsa", "asound", "snd_"},
     {"SDL/", "libsdl1.2-dev", "sdl", "SDL", "SDL_"},
     {"SDL2/", "libsdl2-dev", "sdl2", "SDL2", "SDL_"},
@@ -53,14 +61,21 @@ const LibraryPackage table[] = {
     {"glib.h", "libglib2.0-dev", "glib-2.0", "glib-2.0", "g_"},
     {"libxml/", "libxml2-dev", "libxml-2.0", "xml2", "xml"},
     {"libxslt/", "libxslt1-dev", "libxslt", "xslt", "xslt"},
+    {"tinyxml2.h", "libtinyxml2-dev", "tinyxml2", "tinyxml2", "tinyxml2::"},
     {"tinyxml.h", "libtinyxml-dev", "tinyxml", "tinyxml", "TiXml"},
     {"yaml-cpp/", "libyaml-cpp-dev", "yaml-cpp", "yaml-cpp", "YAML::"},
+    {"nlohmann/", "nlohmann-json3-dev", "nlohmann_json", "", ""},
     {"json/", "libjsoncpp-dev", "jsoncpp", "jsoncpp", "Json::"},
     {"curl/", "libcurl4-openssl-dev", "libcurl", "curl", "curl_"},
     {"openssl/", "libssl-dev", "openssl", "ssl", "SSL_"},
     {"usb.h", "libusb-dev", "libusb", "usb", "usb_"},
     {"libusb", "libusb-1.0-0-dev", "libusb-1.0", "usb-1.0", "libusb_"},
     {"ftdi.h", "libftdi1-dev", "libftdi1", "ftdi1", "ftdi_"},
+    {"spnav.h", "libspnav-dev", "spnav", "spnav", "spnav_"},
+    {"hidapi/", "libhidapi-dev", "hidapi-libusb", "hidapi-libusb", "hid_"},
+    {"libserial/", "libserial-dev", "libserial", "serial", "LibSerial::"},
+    {"SerialStream.h", "libserial-dev", "libserial", "serial", "LibSerial::"},
+    {"mosquitto.h", "libmosquitto-dev", "libmosquitto", "mosquitto", "mosquitto_"},
     {"modbus", "libmodbus-dev", "libmodbus", "modbus", "modbus_"},
     {"bluetooth/", "libbluetooth-dev", "bluez", "bluetooth", "hci_"},
     {"cwiid.h", "libcwiid-dev", "cwiid", "cwiid", "cwiid_"},
@@ -71,6 +86,9 @@ const LibraryPackage table[] = {
     {"pcap.h", "libpcap-dev", "libpcap", "pcap", "pcap_"},
     {"gsl/", "libgsl-dev", "gsl", "gsl", "gsl_"},
     {"nlopt.h", "libnlopt-dev", "nlopt", "nlopt", "nlopt_"},
+    {"lapacke.h", "liblapacke-dev", "lapacke", "lapacke", "LAPACKE_"},
+    {"assimp/", "libassimp-dev", "assimp", "assimp", "Assimp::"},
+    {"btBullet", "libbullet-dev", "bullet", "BulletDynamics", "bt"},
     {"octomap/", "liboctomap-dev", "octomap", "octomap", "octomap::"},
     {"fcl/", "libfcl-dev", "fcl", "fcl", "fcl::"},
     {"orocos/kdl", "liborocos-kdl-dev", "orocos-kdl", "orocos-kdl", "KDL::"},
@@ -85,6 +103,10 @@ const LibraryPackage table[] = {
     {"std_msgs/", "libstd-msgs-dev", "std_msgs", "", ""},
     {"sensor_msgs/", "libsensor-msgs-dev", "sensor_msgs", "", ""},
     {"geometry_msgs/", "libgeometry-msgs-dev", "geometry_msgs", "", ""},
+    {"nav_msgs/", "libnav-msgs-dev", "nav_msgs", "", ""},
+    {"cv_bridge/", "libcv-bridge-dev", "cv_bridge", "cv_bridge", "cv_bridge::"},
+    {"image_transport/", "libimage-transport-dev", "image_transport", "image_transport", "image_transport::"},
+    {"tf2_ros/", "libtf2-ros-dev", "tf2_ros", "tf2_ros", "tf2_ros::"},
     {"tf/", "libtf-dev", "tf", "tf", "tf::"},
 };
 
@@ -101,6 +123,24 @@ const LibraryPackage* find_package_of_library(const std::string& library) {
     if (library.rfind("opencv_", 0) == 0) return table;
     for (const auto& each : table)
         if (library == each.library) return &each;
+    return nullptr;
+}
+
+const char* origin_outside_debian(const std::string& header) {
+    static constexpr std::pair<const char*, const char*> origins[] = {
+        {"drawstuff", "a demonstration library in the source archive of ODE"},
+        {"hrpModel/", "OpenHRP3"},
+        {"hrpUtil/", "OpenHRP3"},
+        {"cnoid/", "Choreonoid"},
+        {"HD/", "OpenHaptics of 3D Systems"},
+        {"flycapture/", "FlyCapture of Point Grey"},
+        {"pgrflycapture", "FlyCapture of Point Grey"},
+        {"librealsense", "librealsense of Intel"},
+        {"mraa", "mraa of Intel"},
+        {"wiringPi", "WiringPi"},
+    };
+    for (const auto& [begin, origin] : origins)
+        if (header.rfind(begin, 0) == 0) return origin;
     return nullptr;
 }
 

@@ -21,6 +21,9 @@ const LibraryPackage* find_package_of_header(const std::string& header);
 const LibraryPackage* find_package_of_library(const std::string& library);
 const LibraryPackage* find_package_of_symbol(const std::string& symbol);
 
+/// What a header belongs to, of which Debian 12 has no package; nullptr if that is not known.
+const char* origin_outside_debian(const std::string& header);
+
 /// Whether the header comes with Windows or Visual C++ and exists nowhere else.
 bool is_windows_header(const std::string& header);
 

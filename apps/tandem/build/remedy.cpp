@@ -29,6 +29,10 @@ std::string for_header(const std::string& header, const std::filesystem::path& f
     if (is_windows_header(header))
         return header + " is a header of Windows: this source cannot be built here";
     if (const auto* package = find_package_of_header(header)) return install(*package);
+    if (const auto* origin = origin_outside_debian(header))
+        return header + " belongs to " + origin +
+               ", which Debian does not have: build it, then name its folder with -I DIR and its library "
+               "with -l NAME";
     return "if you have the library or component that " + header + " belongs to, name its folder with -I DIR";
 }
 

@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
-# find_package(catkin COMPONENTS rtmbuild) for packages of RT-Components, without ROS: what their CMakeLists.txt call of
+# find_package(catkin COMPONENTS rtmbuild) for packages of RT-Components, without catkin: what their CMakeLists.txt call of
 # catkin and rtmbuild. Found only when it is named: cmake -Dcatkin_DIR=PREFIX/lib/cmake/Tandem/catkin
+# Further components are packages of ROS, as Debian has roscpp, tf2 and messages: they are linked as catkin does.
 # Headers made from idl/X.idl are PROJECT/idl/X.hh, XSkel.h and XStub.h below devel/include, as with catkin.
 cmake_policy(VERSION 3.16) # packages ask for older ones
 find_package(Tandem REQUIRED COMPONENTS rtm PATHS ${CMAKE_CURRENT_LIST_DIR}/.. NO_DEFAULT_PATH)
 foreach(component ${catkin_FIND_COMPONENTS})
-  if(NOT component MATCHES "^(rtmbuild|openrtm_tools|openrtm_aist|openrtm_ros_bridge|message_generation|std_msgs)$")
+  if(component MATCHES "^(rtmbuild|openrtm_tools|openrtm_aist|openrtm_ros_bridge|message_generation|message_runtime)$")
+    continue()
+  endif()
+  find_package(${component} QUIET CONFIG)
+  # Packages name std_msgs for the bridges, which are not made.
+  if(NOT ${component}_FOUND AND NOT component STREQUAL "std_msgs")
+    string(REPLACE _ - package ${component})
     set(catkin_FOUND FALSE)
     set(catkin_NOT_FOUND_MESSAGE
-      "the package needs '${component}' of ROS; without ROS only components that use rtmbuild alone can be built")
+      "the package needs '${component}' of ROS, which is not installed:\n  apt install lib${package}-dev, if Debian has it")
     return()
   endif()
 endforeach()
@@ -20,6 +27,14 @@ set(CATKIN_PACKAGE_INCLUDE_DESTINATION include/${PROJECT_NAME})
 set(CATKIN_PACKAGE_SHARE_DESTINATION share/${PROJECT_NAME})
 set(catkin_INCLUDE_DIRS ${CATKIN_DEVEL_PREFIX}/include)
 set(catkin_LIBRARIES "")
+# In a second loop, because roscpp looks for catkin itself, which sets these variables.
+foreach(component ${catkin_FIND_COMPONENTS})
+  list(APPEND catkin_INCLUDE_DIRS ${${component}_INCLUDE_DIRS})
+  list(APPEND catkin_LIBRARIES ${${component}_LIBRARIES})
+endforeach()
+foreach(list catkin_INCLUDE_DIRS catkin_LIBRARIES)
+  list(REMOVE_DUPLICATES ${list})
+endforeach()
 if(NOT CMAKE_CXX_STANDARD)
   set(CMAKE_CXX_STANDARD 14) # the last with exception specifications, which older components use
 endif()
@@ -32,7 +47,7 @@ foreach(name catkin_package catkin_python_setup catkin_install_python add_messag
 endforeach()
 
 macro(rtmbuild_init)
-  include_directories(${catkin_INCLUDE_DIRS} ${catkin_INCLUDE_DIRS}/${PROJECT_NAME}/idl)
+  include_directories(${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/include/${PROJECT_NAME}/idl)
 endmacro()
 
 # The library PROJECT_idl, with which everything is linked that rtmbuild_add_...() adds later.
@@ -57,7 +72,7 @@ macro(rtmbuild_genidl)
 endmacro()
 
 macro(rtmbuild_genbridge)
-  message(STATUS "rtmbuild_genbridge: bridges to ROS are not made without ROS")
+  message(STATUS "rtmbuild_genbridge: bridges to ROS are not made without catkin")
 endmacro()
 
 # Without keywords, since the packages themselves use target_link_libraries() so.

@@ -218,6 +218,13 @@ TEST_CASE("an error about a header or a library is followed by what to do about 
     };
     CHECK(no_header("ode/ode.h") == "apt install libode-dev");
     CHECK(no_header("libresample.h") == "apt install libresample1-dev");
+    CHECK(no_header("XnCppWrapper.h") == "apt install libopenni-dev");
+    CHECK(no_header("cv_bridge/cv_bridge.h") == "apt install libcv-bridge-dev");
+    for (const char* drawstuff : {"drawstuff/drawstuff.h", "drawstuff.h"})
+        CHECK(no_header(drawstuff) ==
+              drawstuff + std::string(" belongs to a demonstration library in the source archive of ODE, "
+                                      "which Debian does not have: build it, then name its folder with -I "
+                                      "DIR and its library with -l NAME"));
     CHECK(no_header("opencv/cv.h") == "apt install libopencv-dev");
     CHECK(no_header("Gain.h") == "-I " + (fs::canonical(folder.path()) / "Neighbour/include").string());
     folder.write("Other/Gain.h", "");

@@ -218,9 +218,18 @@ TEST_CASE("a package of catkin with rtmbuild builds without ROS and its componen
     run(tree.bin + "tandem rtm build " + tree.at("hello"));
     host_runs(tree.bin + "rtm_host -o manager.modules.preload:" + tree.at("hello/Hello.so") + precreate,
               "hello from catkin");
-    tree.folder.write("ros/CMakeLists.txt", "cmake_minimum_required(VERSION 3.0.2)\nproject(ros)\n"
-                                            "find_package(catkin REQUIRED COMPONENTS rtmbuild roscpp)\n");
-    const auto refused = shell("cmake -S " + tree.at("ros") + " -B " + tree.at("ros/b") + package);
+    tree.folder.write("ros/CMakeLists.txt",
+                      "cmake_minimum_required(VERSION 3.0.2)\nproject(ros)\n"
+                      "find_package(catkin REQUIRED COMPONENTS rtmbuild some_msgs)\nrtmbuild_init()\n"
+                      "message(STATUS \"${catkin_INCLUDE_DIRS} and ${catkin_LIBRARIES}.\")\n");
+    const std::string configure = "cmake -S " + tree.at("ros") + " -B " + tree.at("ros/b") + package;
+    const auto refused = shell(configure);
     CHECK(refused.exit_code != 0);
-    CHECK_THAT(refused.output, Catch::Contains("needs \x27roscpp\x27 of ROS"));
+    CHECK_THAT(refused.output, Catch::Contains("needs \x27some_msgs\x27 of ROS, which is not installed") &&
+                                   Catch::Contains("apt install libsome-msgs-dev"));
+    // As Debian's packages of ROS tell what they have.
+    tree.folder.write("debian/share/some_msgs/cmake/some_msgsConfig.cmake",
+                      "set(some_msgs_INCLUDE_DIRS /of/some)\nset(some_msgs_LIBRARIES some.so)\n");
+    CHECK_THAT(run(configure + " -DCMAKE_PREFIX_PATH=" + tree.at("debian")),
+               Catch::Contains("devel/include;/of/some and some.so."));
 }
