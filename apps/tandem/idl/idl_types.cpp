@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace tandem::command {
@@ -101,8 +102,9 @@ class IdlTypes::Parser {
     std::size_t position_ = 0;
 };
 
-IdlTypes::IdlTypes(std::string module, const std::vector<engine::StructProfile>& structures)
-    : module_(std::move(module)) {
+IdlTypes::IdlTypes(std::string module, std::string interface,
+                   const std::vector<engine::StructProfile>& structures)
+    : module_(std::move(module)), interface_(std::move(interface)) {
     for (const auto& structure : structures) structures_[structure.name] = &structure;
 }
 
@@ -114,45 +116,158 @@ std::string IdlTypes::idl_type(const Parsed& type) {
     if (!type.arguments.empty() && is_sequence(type.name)) return sequence_of(idl_type(type.arguments[0]));
     if (type.arguments.size() == 2 && (type.name == "map" || type.name == "multimap"))
         return sequence_of(declare_pair(idl_type(type.arguments[0]), idl_type(type.arguments[1])));
-    if (type.arguments.empty() && structures_.count(type.name)) return declare_structure(type.name);
+    if (type.arguments.empty() && structures_.count(type.name)) return declare_type(type.name);
     throw std::runtime_error(fmt::format(
         "type '{}' is not known; give the data type profile that describes it with --types", type.name));
 }
 
-void IdlTypes::declare(const std::string& name, const std::string& declaration) {
-    if (std::find(declared_.begin(), declared_.end(), name) != declared_.end()) return;
-    declared_.push_back(name);
-    text_ += "  " + declaration + "\n";
+/// `Robot::Pose` as it is, `Pose` in the module for names without a scope.
+std::string IdlTypes::full_name(const std::string& name) const {
+    return name.find("::") == std::string::npos ? module_ + "::" + name : name;
 }
 
+std::string IdlTypes::declare(const std::string& name, const std::string& declaration) {
+    const std::string full = full_name(name);
+    if (declared_.emplace(full, declaration).second)
+        declarations_.push_back({full.substr(0, full.rfind("::")), "  " + declaration + "\n"});
+    return idl_scoped_name(full);
+}
+
+/// The name itself, or, where there is another type of that name, with a number behind it.
+std::string IdlTypes::free_name(const std::string& scope, const std::string& name) const {
+    std::string free = name;
+    for (int number = 2; declared_.contains(scope + "::" + free); ++number)
+        free = name + std::to_string(number);
+    return free;
+}
+
+/// Of elements that are declared inside of the interface there, of others in the module.
 std::string IdlTypes::sequence_of(const std::string& element) {
-    const std::string name = sequence_name(element);
-    declare(name, fmt::format("typedef sequence<{}> {};", element, name));
-    return in_module(name);
+    if (const auto known = sequences_.find(element); known != sequences_.end()) return known->second;
+    const bool is_inside = !interface_.empty() && element.starts_with(idl_scoped_name(interface_) + "::");
+    const std::string scope = is_inside ? interface_ : module_;
+    const std::string name = free_name(scope, sequence_name(element));
+    const std::string full =
+        declare(scope + "::" + name, fmt::format("typedef sequence<{}> {};", element, name));
+    return sequences_[element] = full;
 }
 
 std::string IdlTypes::declare_pair(const std::string& key, const std::string& value) {
     const std::string name = sequence_name(key).substr(0, sequence_name(key).size() - 3) +
                              sequence_name(value).substr(0, sequence_name(value).size() - 3) + "Pair";
-    declare(name, fmt::format("struct {} {{ {} first; {} second; }};", name, key, value));
-    return in_module(name);
+    return declare(name, fmt::format("struct {} {{ {} first; {} second; }};", name, key, value));
 }
 
-/// The fields' types are declared first. Throws for a structure that contains itself.
-std::string IdlTypes::declare_structure(const std::string& name) {
+/// The members' types are declared first. Throws for a type that contains itself.
+std::string IdlTypes::declare_type(const std::string& name) {
+    if (declared_.contains(full_name(name))) return idl_scoped_name(full_name(name));
     if (std::find(open_.begin(), open_.end(), name) != open_.end())
         throw std::runtime_error(fmt::format("structure '{}' contains itself", name));
     open_.push_back(name);
-    std::string fields;
-    for (const auto& field : structures_.at(name)->fields)
-        fields += fmt::format(" {} {};", idl_type(field.type), idl_identifier(field.name));
+    const auto scope = name.rfind("::");
+    const std::string text = text_of(
+        *structures_.at(name), idl_identifier(scope == std::string::npos ? name : name.substr(scope + 2)));
     open_.pop_back();
-    declare(name, fmt::format("struct {} {{{} }};", name, fields));
-    return in_module(name);
+    return declare(name, text);
+}
+
+std::string IdlTypes::exception(const std::string& name) {
+    const auto found = structures_.find(name);
+    if (found == structures_.end() || found->second->kind != engine::StructProfile::Kind::exception)
+        throw std::runtime_error(fmt::format(
+            "exception '{}' is not known; give the data type profile that describes it with --types", name));
+    return declare_type(name);
+}
+
+std::string IdlTypes::text_of(const engine::StructProfile& type, const std::string& name) {
+    using Kind = engine::StructProfile::Kind;
+    switch (type.kind) {
+    case Kind::enumeration: {
+        std::string values;
+        for (const auto& value : type.fields)
+            values += (values.empty() ? "" : ", ") + idl_identifier(value.name);
+        return fmt::format("enum {} {{ {} }};", name, values);
+    }
+    case Kind::array:
+        return fmt::format("typedef {} {}{};", idl_type(type.fields[0].type), name, type.fields[0].size);
+    case Kind::union_type: {
+        const std::string discriminator = idl_type(type.discriminator);
+        std::string members;
+        for (const auto& field : type.fields)
+            members += fmt::format(" {}{} {}{};", case_labels(type, field.cases, discriminator),
+                                   idl_type(field.type), idl_identifier(field.name), field.size);
+        return fmt::format("union {} switch ({}) {{{} }};", name, discriminator, members);
+    }
+    case Kind::exception:
+        return fmt::format("exception {} {{{} }};", name, members_of(type));
+    case Kind::structure:
+        break;
+    }
+    return fmt::format("struct {} {{{} }};", name, members_of(type));
+}
+
+std::string IdlTypes::members_of(const engine::StructProfile& type) {
+    std::string members;
+    for (const auto& field : type.fields)
+        members += fmt::format(" {} {}{};", idl_type(field.type), idl_identifier(field.name), field.size);
+    return members;
+}
+
+/// `97 98` of a union of characters: `case '\x61': case '\x62': `.
+std::string IdlTypes::case_labels(const engine::StructProfile& type, const std::string& cases,
+                                  const std::string& discriminator) const {
+    if (cases == "default") return "default: ";
+    std::istringstream labels(cases);
+    std::string text;
+    for (std::string label; labels >> label;) {
+        const bool is_number = label.find_first_not_of("-0123456789") == std::string::npos;
+        if (!is_number)
+            text += "case " + idl_scoped_name(label) + ": ";
+        else if (discriminator == "boolean")
+            text += label == "0" ? "case FALSE: " : "case TRUE: ";
+        else if (discriminator == "char" && label.size() <= 3)
+            text += fmt::format("case '\\x{:02x}': ", std::stoi(label) & 0xff);
+        else
+            text += "case " + label + ": ";
+    }
+    if (text.empty()) throw std::runtime_error(fmt::format("union '{}': a member has no case", type.name));
+    return text;
 }
 
 std::string IdlTypes::declarations() const {
-    return text_.empty() ? "" : fmt::format("module {} {{\n{}}};\n", module_, text_);
+    std::string text, scope, block;
+    const auto end_block = [&] {
+        if (!block.empty()) text += in_modules(scope, block);
+        block.clear();
+    };
+    for (const auto& declaration : declarations_) {
+        if (declaration.scope == interface_) continue;
+        if (declaration.scope != scope) end_block();
+        scope = declaration.scope;
+        block += declaration.text;
+    }
+    end_block();
+    return text;
+}
+
+std::string IdlTypes::declarations_in_interface() const {
+    std::string text;
+    for (const auto& declaration : declarations_)
+        if (declaration.scope == interface_) text += declaration.text;
+    return text;
+}
+
+std::string in_modules(const std::string& scope, const std::string& text) {
+    if (scope.empty()) return text;
+    const auto end = scope.find("::");
+    const std::string rest = end == std::string::npos ? "" : scope.substr(end + 2);
+    return fmt::format("module {} {{\n{}}};\n", idl_identifier(scope.substr(0, end)), in_modules(rest, text));
+}
+
+std::string idl_scoped_name(const std::string& name) {
+    const auto end = name.find("::");
+    const std::string first = "::" + idl_identifier(name.substr(0, end));
+    return end == std::string::npos ? first : first + idl_scoped_name(name.substr(end + 2));
 }
 
 std::string idl_identifier(const std::string& name) {

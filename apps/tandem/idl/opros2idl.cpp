@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -43,30 +44,53 @@ std::string idl_operation(const MethodProfile& method, IdlTypes& types) {
         const auto& parameter = method.parameters[i];
         const auto passed = passed_type(parameter.type);
         any_written = any_written || passed.writable;
+        const std::string by_type = passed.writable ? "inout" : "in";
         arguments += fmt::format(
-            "{}{} {} {}", i ? ", " : "", passed.writable ? "inout" : "in", types.idl_type(passed.type),
+            "{}{} {} {}", i ? ", " : "", parameter.direction.empty() ? by_type : parameter.direction,
+            types.idl_type(passed.type),
             parameter.name.empty() ? fmt::format("a{}", i + 1) : idl_identifier(parameter.name));
     }
     const std::string result = types.idl_type(passed_type(method.return_type).type);
     const bool oneway = method.call_type == "nonblocking" && result == "void" && !any_written;
-    return fmt::format("  {}{} {}({});\n", oneway ? "oneway " : "", result, idl_identifier(method.name),
-                       arguments);
+    std::string exceptions;
+    for (const auto& name : method.exceptions)
+        exceptions += (exceptions.empty() ? " raises (" : ", ") + types.exception(name);
+    return fmt::format("  {}{} {}({}){}{};\n", oneway ? "oneway " : "", result, idl_identifier(method.name),
+                       arguments, exceptions, exceptions.empty() ? "" : ")");
+}
+
+/// The attribute whose value the method returns; empty for one that sets it, which `service` has as well.
+std::string idl_attribute(const MethodProfile& method, const engine::ServiceTypeProfile& service,
+                          IdlTypes& types) {
+    if (!method.parameters.empty()) return "";
+    const bool can_be_set =
+        std::any_of(service.methods.begin(), service.methods.end(), [&](const MethodProfile& other) {
+            return other.attribute == method.attribute && !other.parameters.empty();
+        });
+    return fmt::format("  {}attribute {} {};\n", can_be_set ? "" : "readonly ",
+                       types.idl_type(passed_type(method.return_type).type),
+                       idl_identifier(method.attribute));
 }
 
 std::string idl_interface(const engine::ServiceTypeProfile& service,
                           const std::vector<engine::StructProfile>& structures) {
-    IdlTypes types(service.name + "Types", structures);
+    const std::string full = service.idl_name.empty() ? service.name : service.idl_name;
+    const auto scope = full.rfind("::");
+    IdlTypes types(service.name + "Types", full, structures);
     std::string operations;
     for (const auto& method : service.methods) {
         try {
-            operations += idl_operation(method, types);
+            operations += method.attribute.empty() ? idl_operation(method, types)
+                                                   : idl_attribute(method, service, types);
         } catch (const std::runtime_error& error) {
             throw std::runtime_error(
                 fmt::format("{}: method '{}': {}", method.location.text(), method.name, error.what()));
         }
     }
-    return types.declarations() +
-           fmt::format("interface {} {{\n{}}};\n", idl_identifier(service.name), operations);
+    const std::string name = scope == std::string::npos ? full : full.substr(scope + 2);
+    return types.declarations() + in_modules(scope == std::string::npos ? "" : full.substr(0, scope),
+                                             fmt::format("interface {} {{\n{}{}}};\n", idl_identifier(name),
+                                                         types.declarations_in_interface(), operations));
 }
 
 } // namespace

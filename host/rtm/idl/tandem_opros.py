@@ -2,8 +2,9 @@
 """omniidl back end: the OPRoS side of the interfaces of one IDL file.
 
 `omniidl -p DIR -btandem_opros F.idl` writes, for each interface I of the file, IService.xml (the OPRoS service profile),
-II.h (the interface), IProvided.h and IRequired.h (its ports), and for the file and each that it includes FTypes.h with the
-types. What has no OPRoS counterpart is left out and named on standard error, one line each: `F.idl: I.f: why`.
+II.h (the interface), IProvided.h and IRequired.h (its ports), for the file and each that it includes FTypes.h with the
+types, and for the file FTypes.xml, their OPRoS data type profile. What has no OPRoS counterpart is left out and named on
+standard error, one line each: `F.idl: I.f: why`.
 docs/joining.md says how operations and methods stand for each other.
 """
 import os
@@ -11,12 +12,14 @@ import sys
 
 from omniidl import idlast
 
+from tandem_opros_profile import TypeProfile, service_profile
 from tandem_opros_types import CONVERTER, NoCounterpart, TypeWriter, scoped, types_header
 
 MAX_ARGUMENTS = 15
 # Functions of every OPRoS port: a function of a required port that has such a name gets an underscore behind it.
 PORT_FUNCTIONS = {"addMethod", "bindProvided", "getEnd", "getFirst", "getMethod", "getName", "getRole", "getType",
                   "isDynamic", "reset", "sample", "setName", "typeError"}
+PROFILED = (idlast.Struct, idlast.Union, idlast.Enum, idlast.Typedef, idlast.Exception)
 NOTE = "// Made by tandem idl2opros from %s; changes are lost when it is made again.\n#pragma once\n\n"
 
 
@@ -34,6 +37,10 @@ def checked(t, what):
 class Method:
     def __init__(self, name, result, arguments, oneway=False):
         self.name, self.result, self.arguments, self.oneway = name, result, arguments, oneway
+        self.types = []      # of IDL, result and exceptions included
+        self.outs = set()    # arguments that are only written; a reference alone is inout
+        self.raises = []     # names of exceptions
+        self.attribute = "" # for which it stands
 
     def parameters(self):
         return ", ".join("%s %s" % argument for argument in self.arguments)
@@ -50,16 +57,23 @@ def operation_method(operation):
     for p in operation.parameters():
         cxx = checked(p.paramType(), "argument '%s'" % p.identifier())
         arguments.append((cxx + ("" if direction(p) == "in" else "&"), p.identifier()))
-    return Method(operation.identifier(), checked(operation.returnType(), "the result"), arguments,
-                  operation.oneway())
+    method = Method(operation.identifier(), checked(operation.returnType(), "the result"), arguments,
+                    operation.oneway())
+    method.types = [operation.returnType()] + [p.paramType() for p in operation.parameters()]
+    method.outs = {p.identifier() for p in operation.parameters() if direction(p) == "out"}
+    method.raises = [scoped(exception) for exception in operation.raises()]
+    return method
 
 
 def attribute_methods(attribute, name):
     cxx = checked(attribute.attrType(), "attribute '%s'" % name)
     suffix = name[0].upper() + name[1:]
-    yield Method("get" + suffix, cxx, [])
+    found = [Method("get" + suffix, cxx, [])]
     if not attribute.readonly():
-        yield Method("set" + suffix, "void", [(cxx, "value")])
+        found.append(Method("set" + suffix, "void", [(cxx, "value")]))
+    for method in found:
+        method.attribute, method.types = name, [attribute.attrType()]
+    return found
 
 
 def methods(interface, leave_out):
@@ -80,27 +94,6 @@ def methods(interface, leave_out):
             name = callable_.identifiers()[0] if isinstance(callable_, idlast.Attribute) else callable_.identifier()
             leave_out(interface, name, problem)
     return found
-
-
-def xml_text(text):
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-
-
-def service_profile(name, found):
-    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<service_port_type_profile>", "  <service_port_type>",
-             "    <type_name>%s</type_name>" % name]
-    for m in found:
-        head = '    <method name="%s" return_type="%s" call_type="%s"' % (
-            m.name, xml_text(m.result), "nonblocking" if m.oneway else "blocking")
-        if not m.arguments:
-            lines.append(head + "/>")
-            continue
-        lines.append(head + ">")
-        for index, (cxx, argument) in enumerate(m.arguments, 1):
-            lines.append('      <param index="%d"><type>%s</type><name>%s</name></param>'
-                         % (index, xml_text(cxx), argument))
-        lines.append("    </method>")
-    return "\n".join(lines + ["  </service_port_type>", "</service_port_type_profile>"]) + "\n"
 
 
 def interface_header(note, file, name, found):
@@ -149,6 +142,7 @@ class Collector:
         self.types = {}    # by file, in the order of the IDL
         self.includes = {} # by file: those before it, which it may use
         self.interfaces = []
+        self.profile = TypeProfile()
 
     def visit(self, declarations):
         for d in declarations:
@@ -160,6 +154,8 @@ class Collector:
                     self.interfaces.append(d)
             elif isinstance(d, (idlast.Struct, idlast.Union, idlast.Enum, idlast.Typedef)):
                 self.types.setdefault(d.file(), TypeWriter()).add(d)
+            if d.mainFile() and isinstance(d, PROFILED):
+                self.profile.add(d)
 
 
 def write(name, text):
@@ -192,9 +188,13 @@ def run(tree, args):
         found = [m for _, m in sorted(methods(interface, leave_out).items())]
         total += len(found)
         name = interface.identifier()
-        write(name + "Service.xml", service_profile(name, found))
+        for t in [t for m in found for t in m.types]:
+            collector.profile.use(t)
+        write(name + "Service.xml", service_profile(interface, found))
         write("I%s.h" % name, interface_header(note, tree.file(), name, found))
         write(name + "Provided.h", provided_header(note, name, found))
         write(name + "Required.h", required_header(note, name, found))
+    if collector.profile.text():
+        write(types_header(tree.file())[:-len(".h")] + ".xml", collector.profile.text())
     sys.stdout.write("%s: %d interfaces, %d methods, %d operations left out\n"
                      % (main_name, len(collector.interfaces), total, left_out))

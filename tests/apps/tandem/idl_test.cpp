@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 using tandem::test::CommandOutput;
 
@@ -130,6 +131,62 @@ TEST_CASE("opros2idl writes IDL that omniidl takes and that idl2opros takes back
     CHECK(folder.run("omniidl -bcxx Arm.idl").exit_code == 0);
     const auto back = folder.run(program + " idl2opros Arm.idl");
     CHECK_THAT(back.output, Catch::Contains("Arm.idl: 1 interfaces, 2 methods, 0 operations left out"));
+}
+
+TEST_CASE("an IDL that went through idl2opros and opros2idl has the same operations and types") {
+    const Folder folder;
+    folder.write("Cell.idl", R"(
+#include "rtm/idl/BasicDataType.idl"
+module Cell {
+  enum Mode { idle, running };
+  struct Pose { double x; long cells[4][2]; Mode how; };
+  typedef sequence<Pose> Path;
+  typedef sequence<Path> Paths;
+  typedef double Triple[3];
+  union Either switch (boolean) { case TRUE: long number; case FALSE: string text; };
+  union Goal switch (Mode) { case running: Pose end; case idle: double cells[2]; };
+  union Key switch (char) { case 'a': case 'b': octet small; case '\'': Path way; default: Either other; };
+  union Size switch (short) { case -1: case 7: float length; };
+  exception Blocked { string joint; Goal aim; Paths tried; };
+  exception Empty {};
+  module Other { struct Pose { float y; }; typedef sequence<Pose> Path; };
+  interface Base { readonly attribute string name; attribute double speed; };
+  interface Robot : Base {
+    struct Part { long long id; unsigned short kind; };
+    typedef sequence<Part> Parts;
+    exception Missing { Parts which; };
+    boolean move(in Path along, inout Pose last, out string text) raises (Blocked, Empty, Missing);
+    Parts part_list(in Other::Path others, in Paths all, out Key found, inout Size _in);
+    void place(in Triple where, in RTC::Time when, in RTC::TimedDoubleSeq numbers);
+    Either choose(in Goal which, in char letter, in octet small, in unsigned long long long_number);
+    oneway void stop();
+  };
+};
+)");
+    REQUIRE(folder.run(program + " idl2opros Cell.idl -o out").exit_code == 0);
+    const auto made =
+        folder.run(program + " opros2idl out/RobotService.xml --types out/CellTypes.xml -o Back.idl");
+    INFO(made.output);
+    REQUIRE(made.exit_code == 0);
+    // Base is an interface of its own there.
+    REQUIRE(folder.run(program + " opros2idl out/BaseService.xml -o Base.idl").exit_code == 0);
+    const auto outline = [&](const std::string& file) {
+        return folder.run("PYTHONDONTWRITEBYTECODE=1 omniidl -nf -p" TANDEM_TEST_SOURCES
+                          " -bidl_outline -I$(dirname $(dirname " +
+                          program + "))/host/rtm/include " + file);
+    };
+    const auto before = outline("Cell.idl"), robot = outline("Back.idl"), base = outline("Base.idl");
+    INFO(before.output << robot.output << folder.read("Back.idl"));
+    REQUIRE(before.exit_code == 0);
+    REQUIRE(robot.exit_code == 0);
+    CHECK_THAT(before.output, Catch::Contains("Cell::Robot: ") && Catch::Contains("union Cell::Key"));
+    std::string without_base;
+    std::istringstream lines(before.output);
+    for (std::string line; std::getline(lines, line);)
+        if (!line.starts_with("Cell::Base")) without_base += line + "\n";
+    CHECK(robot.output == without_base);
+    CHECK_THAT(base.output,
+               Catch::Contains("Cell::Base: attribute") && Catch::Contains("Cell::Base: readonly attribute"));
 }
 
 TEST_CASE("opros2idl names the file, line and type that it does not know") {
